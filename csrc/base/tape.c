@@ -54,7 +54,7 @@ void sw_tape_damaged(sw_tape *t, const char *format, ...) {
   va_start(args, format);
   vsnprintf(text, sizeof text, format, args);
   va_end(args);
-  t->status = sw_fail(t->err, SW_EFORMAT, "its content makes no sense (%s)", text);
+  t->status = sw_fail(t->err, SW_EFORMAT, "its content is damaged (%s)", text);
 }
 
 void sw_tape_expect(sw_tape *t, int good, const char *what) {

@@ -123,7 +123,7 @@ static void read_key(lua_State *L, const char *object, const lsw_section *sectio
   if (lua_type(L, -2) != LUA_TSTRING) {
     const int plain = lua_type(L, -2) == LUA_TNUMBER || lua_type(L, -2) == LUA_TBOOLEAN;
     const char *shown = plain ? luaL_tolstring(L, -2, NULL) : lsw_describe(L, -2);
-    luaL_error(L, "%s: parameters have names; [%s] is not one", object, shown);
+    luaL_error(L, "%s: parameters have names; [%s] is not a name", object, shown);
   }
   const char *key = lua_tostring(L, -2);
   for (int k = 0; k < count; k++) {
@@ -180,9 +180,10 @@ static int refuse_change(lua_State *L, const char *object, const sw_params *para
     }
   luaL_pushresult(&b);
   if (!*lua_tostring(L, -1))
-    return luaL_error(L, "%s: %s is given when it is made; nothing may be set", object, name);
-  return luaL_error(L, "%s: %s is given when it is made; what may be set is:%s", object, name,
-                    lua_tostring(L, -1));
+    return luaL_error(L, "%s: %s is given when it is made; this object has nothing to set", object,
+                      name);
+  return luaL_error(L, "%s: %s is given when it is made; the parameters to set are:%s", object,
+                    name, lua_tostring(L, -1));
 }
 
 void lsw_changes(lua_State *L, int index, const char *object, const sw_params *params, void *args) {

@@ -178,11 +178,11 @@ int lsw_wire_calibration(lua_State *L) {
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   const sw_calibration *c = sw_scene_wire_calibration(w.scene, w.id);
   const char *name = sw_scene_wire_name(w.scene, w.id), *model = sw_scene_wire_model(w.scene, w.id);
-  if (!name) return luaL_error(L, "wire:calibration: the wire is gone");
+  if (!name) return luaL_error(L, "wire:calibration: the wire no longer exists");
   if (!c)
     return luaL_error(L,
-                      "wire:calibration: wire '%s' is a %s, which has no springs to calibrate; it "
-                      "is known of meshes of particles",
+                      "wire:calibration: wire '%s' is a %s, which has no springs to calibrate; "
+                      "this is for meshes of particles",
                       name, model);
   lua_pushcfunction(L, push_calibration);
   lua_pushlightuserdata(L, (void *)c);

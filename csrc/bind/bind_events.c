@@ -13,11 +13,11 @@ static const sw_param tell_rows[] = {
     {"kind", SW_PARAM_TEXT, "-", 0, 0, 0, SW_PARAM_REQUIRED, NULL, offsetof(tell_args, kind),
      "one word, such as crash"},
     {"object", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(tell_args, object),
-     "name of the object to which it happened"},
+     "name of the object of the event"},
     {"s", SW_PARAM_NUMBER, "m", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL, offsetof(tell_args, s),
      "arc length"},
     {"value", SW_PARAM_NUMBER, "-", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL, offsetof(tell_args, value),
-     "how large, in the text's unit; of repeats the largest stays"},
+     "size of the event, in the unit of the text; of repeated events the largest is kept"},
     {"text", SW_PARAM_OTHER, "-", 0, 0, 0, SW_PARAM_REQUIRED, NULL, 0, "one sentence"},
 };
 static const sw_params tell_params = SW_PARAMS("scene:tell", tell_rows);

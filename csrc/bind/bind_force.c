@@ -70,13 +70,13 @@ static int call_function(lua_State *L) {
 
 static sw_status call_force(void *user, sw_field *field, sw_error *err) {
   lua_State *L = running;
-  if (!L) return sw_fail(err, SW_EBUSY, "force function: nobody to call it");
+  if (!L) return sw_fail(err, SW_EBUSY, "force function: there is no Lua state to call it");
   const int number = (int)(size_t)user;
   if (!lua_checkstack(L, 16)) return sw_fail(err, SW_ENOMEM, "force function: out of stack");
   lua_pushcfunction(L, call_function);
   if (lua_getiuservalue(L, 1, 1) != LUA_TTABLE || lua_rawgeti(L, -1, number) != LUA_TTABLE) {
     lua_pop(L, 2);
-    return sw_fail(err, SW_EDEAD, "force function: it is gone");
+    return sw_fail(err, SW_EDEAD, "force function: the function no longer exists");
   }
   lua_remove(L, -2);
   lua_pushlightuserdata(L, field);

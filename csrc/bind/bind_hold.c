@@ -19,7 +19,7 @@ static int new_hold(lua_State *L) {
                        .force_limit = NAN};
   if (lsw_test(L, 2, &lsw_class_particles)) {
     if (strcmp(kind, "clamp") == 0) return lsw_hold_particles(L);
-    return luaL_error(L, "scene:%s goes with wires; particles are held by scene:hold", kind);
+    return luaL_error(L, "scene:%s goes with wires; for particles use scene:hold", kind);
   }
   const char *what = lua_pushfstring(L, "scene:%s", kind);
   const sw_handle wire = lsw_check_child_of(L, 2, &lsw_class_wire, scene, what);
@@ -42,8 +42,9 @@ void lsw_add_holds(lua_State *L) {
 static lsw_load load_of(lua_State *L, int with_point) {
   lsw_load on;
   sw_vec point = sw_v(NAN, NAN, NAN);
-  static const sw_param rows[] = {{"at", SW_PARAM_VECTOR, "m", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL, 0,
-                                   "point the moment is about (default: the held point)"}};
+  static const sw_param rows[] = {
+      {"at", SW_PARAM_VECTOR, "m", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL, 0,
+       "point about which the moment is taken (default: the held point)"}};
   static const sw_params params = SW_PARAMS("clamp", rows);
   const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
   if (with_point) lsw_arguments(L, 2, "clamp:moment", &params, &point);
@@ -210,7 +211,7 @@ typedef struct length_args {
 
 static const sw_param length_rows[] = {
     {"length", SW_PARAM_NUMBER, "m", NAN, -1e6, 1e6, SW_PARAM_REQUIRED, NULL,
-     offsetof(length_args, length), "to be paid out; negative: drawn in"},
+     offsetof(length_args, length), "length to pay out; below 0: to draw in"},
     {"speed", SW_PARAM_NUMBER, "m/s", NAN, 0, 1e4, SW_PARAM_ABOVE_MIN, NULL,
      offsetof(length_args, speed), "highest speed"},
     {"duration", SW_PARAM_NUMBER, "s", NAN, 0, 1e9, SW_PARAM_ABOVE_MIN, NULL,
@@ -218,7 +219,7 @@ static const sw_param length_rows[] = {
     {"acceleration", SW_PARAM_NUMBER, "m/s2", NAN, 0, 1e6, SW_PARAM_ABOVE_MIN, NULL,
      offsetof(length_args, acceleration), "highest acceleration"},
     {"law", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(length_args, law),
-     "of motion, as of a trajectory (default 'minimum-jerk')"},
+     "law of the motion, as in a trajectory (default 'minimum-jerk')"},
 };
 static const sw_params length_params = SW_PARAMS("feed:feed", length_rows);
 

@@ -15,8 +15,8 @@ static void push_shapes(lua_State *L, const sw_modes_result *r, size_t n) {
 static void push_note(lua_State *L, const sw_modes_result *r) {
   lsw_set_number(L, "growth", r->growth);
   lsw_say(L,
-          "unstable in %zu direction%s: the wire would buckle or tip over, e-fold in %.2g s; what "
-          "is listed swings beside that",
+          "unstable in %zu direction%s: the wire would buckle or tip over, growing e-fold in %.2g "
+          "s; the frequencies listed are of the other motions",
           r->unstable, r->unstable == 1 ? "" : "s", 1.0 / r->growth);
   lua_setfield(L, -2, "note");
 }

@@ -120,7 +120,8 @@ static void store_row(lua_State *L, int first, lua_Integer i, const sw_motion_st
 static double sample_end(lua_State *L, int index, double usual, const char *what) {
   if (!lua_isnoneornil(L, index)) return lsw_number(L, index, what, "s");
   if (!isfinite(usual))
-    luaL_error(L, "trajectory: this one has no end; sample(n, from, to) needs both times [s]");
+    luaL_error(L,
+               "trajectory: this trajectory has no end; sample(n, from, to) needs both times [s]");
   return usual;
 }
 

@@ -14,35 +14,37 @@ static const char *law_names[16] = {NULL}; /* filled when the module is opened *
   { name, SW_PARAM_NUMBER, unit, NAN, 0, INFINITY, SW_PARAM_ABOVE_MIN, NULL, AT(field), doc }
 
 static const sw_param rows[] = {
-    OTHER("points", "m",
-          "way-points: {x,y,z} or {x=,y=,z=}, each with t [s] and rotation or turn if wanted"),
-    OTHER("times", "s", "a time for every way-point, instead of t in each"),
+    OTHER(
+        "points", "m",
+        "way-points: {x,y,z} or {x=,y=,z=}, each optionally with t [s] and with rotation or turn"),
+    OTHER("times", "s", "a time for every way-point, instead of t in each way-point"),
     OTHER("path", "-", "a CSV file of way-points, or the way-points themselves"),
-    OTHER("scale", "m", "size of the length unit in a CSV file whose columns name no unit"),
+    OTHER("scale", "m", "length unit of a CSV file whose columns name no unit"),
     OTHER("func", "-",
           "function(t) returning position [m] and optionally rotation, instead of points"),
-    OTHER("turn", "rad", "{axis=, angle=} turned over the whole path, any number of revolutions"),
+    OTHER("turn", "rad", "{axis=, angle=}: turn over the whole path, any number of revolutions"),
     {"law", SW_PARAM_CHOICE, "-", -1, -INFINITY, INFINITY, 0, law_names, AT(law),
-     "how progress grows; default minimum-jerk, for three and more timed way-points spline"},
+     "law of progress; default minimum-jerk, with three or more timed way-points spline"},
     POSITIVE("speed", speed, "m/s", "highest speed along the path; never exceeded"),
     POSITIVE("angular_speed", angular_speed, "rad/s", "highest speed of turning; never exceeded"),
     POSITIVE("acceleration", acceleration, "m/s2",
-             "highest acceleration along the path; default: what the law needs by itself"),
+             "highest acceleration along the path; default: as the law needs"),
     POSITIVE("angular_acceleration", angular_acceleration, "rad/s2",
              "highest angular acceleration along the path"),
     POSITIVE("duration", duration, "s", "time for the whole path, instead of speeds"),
     {"blend", SW_PARAM_NUMBER, "m", NAN, 0, INFINITY, 0, NULL, AT(blend),
-     "corners are left this far before them, at most half a leg; default a tenth of the shorter "
-     "leg, linear 0"},
+     "corners are rounded from this distance before them, at most half a leg; default a tenth of "
+     "the shorter leg, linear 0"},
     {"stop", SW_PARAM_BOOLEAN, "-", -1, -INFINITY, INFINITY, 0, NULL, AT(stop),
-     "rest at every way-point; default: only where the path turns back by more than 120 deg and "
-     "no blend is given"},
+     "true: stop at every way-point; default: only where the path turns back by more than 120 deg "
+     "and no blend is given"},
     {"start", SW_PARAM_NUMBER, "s", 0, -INFINITY, INFINITY, 0, NULL, AT(start),
-     "when the move begins; added to the times of the way-points"},
+     "time when the move begins; it is added to the times of the way-points"},
     {"relative", SW_PARAM_BOOLEAN, "-", 0, -INFINITY, INFINITY, 0, NULL, AT(relative),
-     "way-points are displacements, in world axes, from where the thing is when it starts"},
+     "true: way-points are displacements, in world axes, from the place of the object at the "
+     "start"},
     {"step", SW_PARAM_NUMBER, "s", 1e-4, 0, 1, SW_PARAM_ABOVE_MIN, NULL, AT(step),
-     "step of the differences that give a func its velocity and acceleration"},
+     "time step of the differences from which velocity and acceleration of func are computed"},
 };
 
 const sw_params lsw_motion_params = SW_PARAMS("trajectory", rows);
@@ -204,7 +206,7 @@ static void check_func(lua_State *L, int table, const char *what) {
     luaL_error(L, "%s: func must be a function of time [s], got %s", what, luaL_typename(L, -1));
   for (size_t i = 0; i < sizeof theirs / sizeof theirs[0]; i++) {
     if (lua_getfield(L, table, theirs[i]) != LUA_TNIL)
-      luaL_error(L, "%s: %s has no use with func, which says where the thing is at any time", what,
+      luaL_error(L, "%s: %s has no use with func, which gives the place at any time", what,
                  theirs[i]);
     lua_pop(L, 1);
   }

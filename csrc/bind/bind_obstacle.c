@@ -25,8 +25,9 @@ static lsw_self check(lua_State *L) { return lsw_check_self(L, &lsw_class_obstac
 static lsw_load load_of(lua_State *L, int with_point) {
   lsw_load on;
   sw_vec about = sw_v(0, 0, 0);
-  static const sw_param rows[] = {{"at", SW_PARAM_VECTOR, "m", 0, -HUGE_VAL, HUGE_VAL, 0, NULL, 0,
-                                   "point the moment is about (default: the world's origin)"}};
+  static const sw_param rows[] = {
+      {"at", SW_PARAM_VECTOR, "m", 0, -HUGE_VAL, HUGE_VAL, 0, NULL, 0,
+       "point about which the moment is taken (default: the world's origin)"}};
   static const sw_params params = SW_PARAMS("obstacle:moment", rows);
   const lsw_self o = check(L);
   if (with_point) lsw_arguments(L, 2, "obstacle:moment", &params, &about);

@@ -23,7 +23,7 @@ int lsw_hold_particles(lua_State *L) {
       {"particles", SW_PARAM_OTHER, "-", 0, 0, 0, SW_PARAM_REQUIRED, NULL, 0,
        "list of the particles' numbers, from 1 on"},
       {"at", SW_PARAM_VECTOR, "m", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL, SW_NAME_SIZE,
-       "point that the hold's pose is of (default: their middle)"},
+       "point to which the hold's pose belongs (default: the middle of the particles)"},
       {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, 0, "name used in messages and series"},
   };
   static const sw_params params = SW_PARAMS("hold", rows);

@@ -69,7 +69,7 @@ static const double *read_positions(lua_State *L, int table, size_t *count) {
   const int points = lua_istable(L, -1);
   lua_pop(L, 1);
   if (!points && n % 3)
-    luaL_error(L, "particles: positions has %d numbers, which are no threes", (int)n);
+    luaL_error(L, "particles: positions has %d numbers, which is not a multiple of 3", (int)n);
   *count = points ? n : n / 3;
   double *out = new_array(L, 3 * *count, sizeof *out);
   for (size_t i = 0; i < n; i++) {
@@ -155,8 +155,8 @@ static size_t parts_of(lua_State *L, const kind *k, int entry, size_t number, si
                k->what, (int)number + 1, (int)n, (int)k->size[0], k->group[0]);
   *size = group < 0 ? n : k->size[group];
   if (n % *size)
-    luaL_error(L, "particles: %s, entry %d: %s has %d numbers, which is no multiple of %d", k->what,
-               (int)number + 1, what, (int)n, (int)*size);
+    luaL_error(L, "particles: %s, entry %d: %s has %d numbers, which is not a multiple of %d",
+               k->what, (int)number + 1, what, (int)n, (int)*size);
   return n / *size;
 }
 

@@ -64,13 +64,13 @@ static int meth_pose(lua_State *L) { return lsw_pose(L, &lsw_class_tool); }
 static const char *const modes[] = {"still", "to", "force", NULL};
 static const sw_param jaw_rows[] = {
     {"mode", SW_PARAM_CHOICE, "-", 0, 0, 0, SW_PARAM_REQUIRED, modes, offsetof(sw_jaw_args, mode),
-     "stay; go to an opening; close to a force and keep it"},
+     "still: keep the opening; to: go to an opening; force: close to a force and keep it"},
     {"opening", SW_PARAM_NUMBER, "m", 0, 0, 1e3, 0, NULL, offsetof(sw_jaw_args, opening),
      "to go to"},
     {"speed", SW_PARAM_NUMBER, "m/s", 0, 0, 1e3, 0, NULL, offsetof(sw_jaw_args, speed),
      "highest, of the opening"},
     {"force", SW_PARAM_NUMBER, "N", HUGE_VAL, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
-     offsetof(sw_jaw_args, force), "per finger: wanted, or at which jaws stop"},
+     offsetof(sw_jaw_args, force), "force per finger: wanted, or that at which the jaws stop"},
 };
 static const sw_params jaw_params = SW_PARAMS("tool:jaws", jaw_rows);
 

@@ -213,9 +213,9 @@ static const sw_param tension_rows[] = {
     {"now", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(tension_args, now),
      "present value instead of the run's extreme"},
     {"raw", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(tension_args, raw),
-     "of single steps instead of means over the run's window"},
+     "true: value of single steps instead of means over the run's window"},
     {"window", SW_PARAM_NUMBER, "s", NAN, 0, 1e9, 0, NULL, offsetof(tension_args, window),
-     "0: raw; else the window of the run, the only one whose means are kept"}};
+     "0: raw values; else the window of the run, since only its means are kept"}};
 static const sw_params tension_params = SW_PARAMS("wire:max_tension", tension_rows);
 
 /* Largest tension [N], where [m], when [s], as a mean over the run's window. { raw = true } or
@@ -228,8 +228,8 @@ static int meth_max_tension(lua_State *L) {
   const double kept = sw_scene_window(w.scene);
   if (args.window > 0 && fabs(args.window - kept) > 1e-9 * kept)
     luaL_error(L,
-               "wire:max_tension: window = %f s: of this run means over %f s are kept, and raw "
-               "values (window = 0); give it to scene:run{ window = } to have others",
+               "wire:max_tension: window = %f s is not available: this run has means over %f s, "
+               "and raw values (window = 0); for others give scene:run{ window = }",
                args.window, kept);
   LSW_DO(L, sw_scene_wire_extremes, w.scene, w.id, &now, &run);
   if (args.now) return push_extreme(L, now.tension.value, &now.tension);
@@ -256,11 +256,10 @@ static int meth_max_torsion(lua_State *L) {
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   const sw_extreme x = read_extremes(L).torsion;
   if (!sw_scene_wire_calibration(w.scene, w.id)) return push_extreme(L, x.value, &x);
-  return luaL_error(
-      L,
-      "wire:max_torsion: wire '%s' is a %s; the torsion of a mesh of particles is not "
-      "kept, frames have its twist_moment",
-      sw_scene_wire_name(w.scene, w.id), sw_scene_wire_model(w.scene, w.id));
+  return luaL_error(L,
+                    "wire:max_torsion: wire '%s' is a %s; the torsion of a mesh of particles is "
+                    "not kept; frames have its twist_moment",
+                    sw_scene_wire_name(w.scene, w.id), sw_scene_wire_model(w.scene, w.id));
 }
 
 /* Largest ovalisation of a section of a mesh [-], where [m], when [s]. */
@@ -269,8 +268,8 @@ static int meth_max_ovalisation(lua_State *L) {
   const sw_extreme x = read_extremes(L).ovalisation;
   if (sw_scene_wire_calibration(w.scene, w.id)) return push_extreme(L, x.value, &x);
   return luaL_error(L,
-                    "wire:max_ovalisation: wire '%s' is a %s, whose section does not change; it is "
-                    "known of meshes of particles",
+                    "wire:max_ovalisation: wire '%s' is a %s, whose section does not change; this "
+                    "is for meshes of particles",
                     sw_scene_wire_name(w.scene, w.id), sw_scene_wire_model(w.scene, w.id));
 }
 

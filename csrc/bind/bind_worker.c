@@ -139,10 +139,9 @@ static int mod_fork(lua_State *L) {
   const double memory = luaL_optnumber(L, 2, 0);
   int ends[2];
   if (lsw_servers() > 0)
-    return luaL_error(
-        L,
-        "no worker can be forked while a live view is open: close the view, or compute in this "
-        "process with workers = 0");
+    return luaL_error(L,
+                      "no worker can be forked while a live view is open: close the view, or "
+                      "compute in this process with workers = 0");
   lua_settop(L, 1);
   worker *ours = new_worker(L), *theirs = new_worker(L);
   luaL_checkstack(L, 8, "fork");

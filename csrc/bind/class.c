@@ -202,8 +202,8 @@ static int meta_newindex(lua_State *L) {
       return luaL_error(L, "%s: '%s' is a method and cannot be set: call it, with a colon",
                         word_of(L), lua_tostring(L, 2));
     if (there)
-      return luaL_error(L, "%s: '%s' can only be read; what it is made of is given when it is made",
-                        word_of(L), lua_tostring(L, 2));
+      return luaL_error(L, "%s: '%s' can only be read; give it when the object is made", word_of(L),
+                        lua_tostring(L, 2));
     lua_settop(L, 2);
   }
   return unknown_field(L);

@@ -232,10 +232,10 @@ static sw_status broken(const sw_mesh_file *file, const limits *most, int status
                      "or time for it; write the file anew, with fewer triangles if it is whole",
                      file->object, file->format);
   }
-  return sw_fail(err, SW_EFORMAT,
-                 "%s: data is not readable as %s: it is damaged so that its reader broke down; "
-                 "write the file anew",
-                 file->object, file->format);
+  return sw_fail(
+      err, SW_EFORMAT,
+      "%s: data is not readable as %s: it is damaged, and reading it failed; write the file anew",
+      file->object, file->format);
 }
 
 static sw_status converse(reading *r, const sw_mesh_file *file, const limits *most,

@@ -30,8 +30,8 @@ sw_status sw_scene_check_clear(const sw_scene *s, size_t wire, const sw_hold *se
     if (!(between > SAME_PLACE * length)) return say_held(w, h, what, err);
     if (between < apart * length)
       return sw_fail(err, SW_EINVAL,
-                     "%s: at s = %.9g m wire '%s' is only %.2g m away from where '%s' holds it; it "
-                     "must be %.2g m or more",
+                     "%s: at s = %.9g m wire '%s' is only %.2g m away from the place that '%s' "
+                     "holds; it must be %.2g m or more",
                      what, s1 - start, w->name, between, h->name, apart * length);
   }
   return SW_OK;
@@ -43,7 +43,7 @@ sw_status sw_scene_held_twice(const sw_scene *s, const sw_hold *a, const sw_hold
   const double start = w->mesh.s[0];
   return sw_fail(err, SW_EINVAL,
                  "wire '%s': '%s' (s = %.6g to %.6g m) and '%s' (s = %.6g to %.6g m) hold the same "
-                 "%s; release one of them, or hold places further apart",
+                 "%s; release one of them, or hold places that are further apart",
                  w->name, a->name, a->s1 - start, a->s2 - start, b->name, b->s1 - start,
                  b->s2 - start, sw_body_class_of(w)->held);
 }

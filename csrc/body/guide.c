@@ -52,11 +52,10 @@ sw_status sw_feed_too_fast(const sw_scene *s, const char *refused, sw_error *err
     if (speed > most) most = speed, fastest = o;
   }
   if (!fastest) return sw_fail(err, SW_ENOCONV, "%s", refused);
-  return sw_fail(
-      err, SW_ENOCONV,
-      "wire '%s' goes through feed '%s' at %.3g m/s, faster than steps can follow%s%.300s",
-      sw_scene_wire_in(s, fastest->wire)->name, fastest->name, most, refused[0] ? ": " : "",
-      refused);
+  return sw_fail(err, SW_ENOCONV,
+                 "wire '%s' goes through feed '%s' at %.3g m/s, too fast for the steps%s%.300s",
+                 sw_scene_wire_in(s, fastest->wire)->name, fastest->name, most,
+                 refused[0] ? ": " : "", refused);
 }
 
 /* One side of a guide. */
@@ -300,8 +299,8 @@ static sw_status say_empty(const sw_scene *s, const guide *g, sw_error *err) {
   const double end = g->side > 0 ? g->m->s[g->m->n - 1] : g->m->s[0];
   const double to = !next ? end : g->side > 0 ? next->s1 : next->s2;
   return sw_fail(err, SW_EEMPTY,
-                 "feed '%s': at t = %.6g s wire '%s' is drawn in up to %s%s%s, %.3g m are left; "
-                 "stop the feed before",
+                 "feed '%s': at t = %.6g s wire '%s' is drawn in up to %s%s%s, and only %.3g m are "
+                 "left; stop the feed earlier",
                  g->h->name, sw_scene_time(s), sw_scene_wire_in(s, g->h->wire)->name,
                  next ? "'" : "its end", next ? next->name : "", next ? "'" : "", fabs(to - from));
 }

@@ -39,7 +39,7 @@ sw_status sw_scene_check_speed(const sw_scene *s, const sw_scene_wire *w, double
                                sw_error *err) {
   if (speed <= LIGHT) return SW_OK;
   return sw_fail(err, SW_EINVAL,
-                 "'%s' of scene '%s': set_velocity: a speed of %.6g m/s; at most %.9g m/s, that of "
-                 "light",
+                 "'%s' of scene '%s': set_velocity: a speed of %.6g m/s is not allowed; it must be "
+                 "at most %.9g m/s, that of light",
                  w->name, sw_scene_name(s), speed, LIGHT);
 }

@@ -106,8 +106,8 @@ sw_status sw_region_plan(const sw_scene *s, size_t wire, const double region[2],
   const size_t count = find_parts(s, wire, region, spacing, length, parts);
   if (parts[0].from <= 0 && parts[count - 1].to >= length && count == 1) {
     return sw_fail(err, SW_EINVAL,
-                   "remodel: region = {%.6g, %.6g} m, with what is meshed round clamps, is all of "
-                   "wire '%s'; leave region out",
+                   "remodel: region = {%.6g, %.6g} m and the mesh round clamps together cover all "
+                   "of wire '%s'; leave region out",
                    region[0], region[1], w->name);
   }
   lay_out(parts, count, length, line, out);

@@ -116,7 +116,7 @@ static sw_status mark(const sw_scene *s, size_t k, size_t *taken, sw_error *err)
   for (size_t i = 0; i < h->count; i++) {
     const size_t p = h->particle ? h->particle[i] : particles;
     if (p >= particles)
-      return sw_fail(err, SW_EINVAL, "wire '%s': '%s' holds a particle that is not there",
+      return sw_fail(err, SW_EINVAL, "wire '%s': '%s' holds a particle that does not exist",
                      sw_scene_wire_in(s, h->wire)->name, h->name);
     if (taken[p]) return sw_scene_held_twice(s, sw_scene_hold_in(s, taken[p] - 1), h, err);
     taken[p] = k + 1;

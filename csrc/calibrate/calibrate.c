@@ -23,15 +23,15 @@ static const char *const bodies[] = {"springs", "solid", NULL};
 #define AT(member) offsetof(sw_calibrate_args, member)
 static const sw_param rows[] = {
     {"mesh", SW_PARAM_CHOICE, "-", NAN, 0, 0, SW_PARAM_REQUIRED, meshes, AT(mesh),
-     "how the particles lie: rings, layers and sectors, voxels, or a shell around cores"},
+     "arrangement of the particles: rings, layers and sectors, voxels, or a shell around cores"},
     {"spacing", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL, AT(spacing),
-     "of slices along the wire (default: chosen; of cubic such that voxels are cubes)"},
+     "distance of slices along the wire (default: chosen; of cubic such that voxels are cubes)"},
     {"squeeze", SW_PARAM_NUMBER, "Pa", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL, AT(squeeze),
      "stiffness of the section between two plates: force per length over approach, the wire "
-     "neither "
-     "stretched nor bent (default: as the springs come out)"},
+     "neither stretched nor bent (default: as the springs give)"},
     {"tolerance", SW_PARAM_NUMBER, "-", 1e-6, 0, 1, SW_PARAM_ABOVE_MIN, NULL, AT(tolerance),
-     "largest error of the springs, as a share of each target; 1 takes the nearest ones there are"},
+     "allowed error of the springs, as a share of each target; 1 accepts the nearest possible "
+     "springs"},
     {"body", SW_PARAM_CHOICE, "-", SW_BODY_SPRINGS, 0, 0, 0, bodies, AT(body),
      "springs between the particles; or solid elements with Poisson's ratio nu, and springs only "
      "for the rest of EA, EI and GJ"},
@@ -116,8 +116,8 @@ static sw_status check_section(const sw_calibrate_args *args, const sw_section *
   const int flat = args->mesh == SW_LATTICE_CUBIC && cubic->section == SW_SECTION_RECTANGLE;
   if (!round && (isnan(c->EA) || isnan(c->EI) || isnan(c->GJ) || !isnan(c->density)))
     return sw_fail(err, SW_EINVAL,
-                   "calibrate: E, nu and density are of a solid round wire; give EA [N], EI "
-                   "[N m2] and GJ [N m2] of this section, and mass_per_length [kg/m]");
+                   "calibrate: E, nu and density describe a solid round wire; give EA [N], EI [N "
+                   "m2] and GJ [N m2] of this section, and mass_per_length [kg/m]");
   if (args->mesh == SW_LATTICE_CUBIC && !flat && !isnan(cubic->EI2))
     return sw_fail(err, SW_EINVAL, "calibrate: EI2 goes with section = 'rectangle'");
   if (flat && isnan(cubic->EI2) && fabs(cubic->width - cubic->height) > 0)
@@ -182,26 +182,26 @@ static void tube_advice(const sw_calibrate_args *args, const sw_tube_args *tube,
   const double fits = sqrt(2 * c->target[SW_TARGET_EI] / c->target[SW_TARGET_EA]);
   if (args->mesh == SW_LATTICE_TUBE && h > 0.85 * limit)
     snprintf(text, n,
-             "the diagonals that GJ needs bend too stiffly: make spacing = %.4g m less than about "
-             "%.4g m, or reach = %ld more",
+             "the diagonals that GJ needs are too stiff in bending: make spacing = %.4g m less "
+             "than about %.4g m, or reach = %ld more",
              h, 0.8 * limit, sw_tube_reach(tube));
   else if (args->mesh == SW_LATTICE_RADIAL && h > 0.85 * limit)
     snprintf(text, n,
-             "the diagonals that GJ needs bend too stiffly: make spacing = %.4g m less than about "
-             "%.4g m, or particles fewer",
+             "the diagonals that GJ needs are too stiff in bending: make spacing = %.4g m less "
+             "than about %.4g m, or give fewer particles",
              h, 0.8 * limit);
   else if (worst == SW_TARGET_SQUEEZE)
-    snprintf(text, n, "ask for another squeeze, or give more %s",
+    snprintf(text, n, "give another squeeze, or more %s",
              args->mesh == SW_LATTICE_TUBE ? "chords (brace)" : "layers");
   else if (args->mesh == SW_LATTICE_TUBE && tube->core && fits > R / 1.1)
     snprintf(text, n,
-             "what has EI at the radius R has an EA near 2 EI/R^2 at least: make ring_radius = "
-             "%.4g m about %.4g m or more%s",
+             "particles with EI at the radius R have an EA of at least about 2 EI/R^2: make "
+             "ring_radius = %.4g m about %.4g m or more%s",
              R, 1.1 * fits, tube->bend ? "" : ", or give bend = true");
   else if (args->mesh == SW_LATTICE_TUBE && !tube->core)
     snprintf(text, n,
-             "what has EI at the radius R has an EA near 2 EI/R^2: give core = true, or leave out "
-             "ring_radius = %.4g m, to have it found",
+             "particles with EI at the radius R have an EA of about 2 EI/R^2: give core = true, or "
+             "leave out ring_radius = %.4g m, so that it is computed",
              R);
   else
     snprintf(text, n, "try another spacing than %.4g m, more particles, or another radius", h);
@@ -216,7 +216,7 @@ static void cubic_advice(const sw_cubic_args *cubic, const sw_calibration *c, in
     snprintf(text, n, "ask for another squeeze");
   else if (ratio > 0.5 * most * most)
     snprintf(text, n,
-             "EI/EA = %.3g m2 of the wire is too near to %.3g m2 of the outermost particles: make "
+             "EI/EA = %.3g m2 of the wire is too close to %.3g m2 of the outermost particles: make "
              "the section larger",
              ratio, most * most);
   else if (cubic->section == SW_SECTION_RECTANGLE)
@@ -246,11 +246,10 @@ static sw_status check_reached(const sw_calibrate_args *args, const sw_lattice_a
   else
     tube_advice(args, &mesh->tube, c, worst, ring_limit(args, mesh, beam), text, sizeof text);
   if (near)
-    return sw_fail(
-        err, SW_EINVAL,
-        "calibrate: EA, EI and GJ come together only where the %s springs all but vanish "
-        "(%.2g of what is usual); %s",
-        sw_group_names[c->faded], c->fading, text);
+    return sw_fail(err, SW_EINVAL,
+                   "calibrate: EA, EI and GJ are reached together only with %s springs close to "
+                   "zero (%.2g of the usual stiffness); %s",
+                   sw_group_names[c->faded], c->fading, text);
   return sw_fail(err, SW_EINVAL,
                  "calibrate: no springs of this mesh give %s = %.6g %s; the nearest have %.6g %s "
                  "(%+.2g %%); %s",
@@ -289,7 +288,7 @@ static sw_status find_radius(const sw_calibrate_args *args, const sw_section *se
   out->target[SW_TARGET_EA] = beam->EA;
   if (*R <= beam->radius * (1 + 1e-9)) return try_mesh(args, section, beam, mesh, out, err);
   return sw_fail(err, SW_EINVAL,
-                 "calibrate: a tube without core that has EA = %.6g N and EI = %.6g N m2 has its "
+                 "calibrate: a tube without core that has EA = %.6g N and EI = %.6g N m2 needs its "
                  "wall at %.4g m, outside of radius = %.4g m",
                  beam->EA, beam->EI, *R, beam->radius);
 }

@@ -76,13 +76,12 @@ static int one_material(const task *t) {
 static sw_status check(const task *t, const sw_section *section, sw_error *err) {
   if (t->args.mesh == SW_LATTICE_TUBE)
     return sw_fail(err, SW_EINVAL,
-                   "calibrate: mesh = 'tube' is one ring of particles, which has no room for "
-                   "solid elements; use mesh = 'radial', or mesh = 'cubic' with section = "
-                   "'annulus'");
+                   "calibrate: mesh = 'tube' is one ring of particles, without room for solid "
+                   "elements; use mesh = 'radial', or mesh = 'cubic' with section = 'annulus'");
   if (!isnan(t->args.squeeze))
     return sw_fail(err, SW_EINVAL,
-                   "calibrate: squeeze = %g Pa goes with body = 'springs'; that of solid elements "
-                   "follows from EA, EI, GJ and nu",
+                   "calibrate: squeeze = %g Pa goes with body = 'springs'; the squeeze stiffness "
+                   "of solid elements follows from EA, EI, GJ and nu",
                    t->args.squeeze);
   if (!isnan(section->spin_inertia))
     return sw_fail(err, SW_EINVAL, "calibrate: spin_inertia goes with mesh = 'tube' only");
@@ -306,7 +305,7 @@ static sw_status refuse(const task *t, sw_error *err) {
   for (int g = 1; g < SW_TARGETS; g++)
     if (fabs(c->residual[g]) > fabs(c->residual[worst])) worst = g;
   if (ratio > 0.45 * r * r)
-    snprintf(advice, sizeof advice, "EI/EA = %.3g m2 is too near to half of radius^2 = %.3g m2",
+    snprintf(advice, sizeof advice, "EI/EA = %.3g m2 is too close to half of radius^2 = %.3g m2",
              ratio, r * r);
   else
     snprintf(advice, sizeof advice,

@@ -154,7 +154,7 @@ static sw_status check(const sw_cell *c, const double *k, sw_error *err) {
   for (size_t m = 0; m < c->links; m++) {
     const sw_cell_link *l = c->link + m;
     if (l->from >= c->particles || l->to >= c->particles || l->group >= c->groups)
-      return sw_fail(err, SW_EINVAL, "cell: link %zu names a particle or group that is not there",
+      return sw_fail(err, SW_EINVAL, "cell: link %zu names a particle or group that does not exist",
                      m + 1);
     if (!(l->weight >= 0) || !isfinite(l->weight))
       return sw_fail(err, SW_EINVAL, "cell: link %zu has the weight %g; not below 0", m + 1,

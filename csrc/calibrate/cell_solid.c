@@ -46,7 +46,7 @@ sw_status sw_cell_check_solids(const sw_cell *c, sw_error *err) {
                      s->nodes);
     for (int a = 0; a < s->nodes; a++)
       if (s->particle[a] >= c->particles)
-        return sw_fail(err, SW_EINVAL, "cell: element %zu names a particle that is not there",
+        return sw_fail(err, SW_EINVAL, "cell: element %zu names a particle that does not exist",
                        m + 1);
     if (prepare(c, s, &e) != SW_OK)
       return sw_fail(err, SW_EINVAL,

@@ -80,28 +80,26 @@ static sw_status check_parts(const plan *p, sw_error *err) {
   if (p->given->core == SW_CORE_LINE && !isnan(p->given->core_GJ))
     return sw_fail(err, SW_EINVAL,
                    "calibrate: core_GJ = %g N m2: core = 'line' does not resist twist; leave "
-                   "core_GJ out, or take core = 'radial' or 'cubic'",
+                   "core_GJ out, or use core = 'radial' or 'cubic'",
                    p->given->core_GJ);
   if (!(EI > 0)) return too_much(p, "core_EI", p->core.EI, "N m2", p->wire.EI / p->n, err);
   if (isnan(p->given->core_EA) && p->aside > 0 && !(p->shell.EA > 0 && p->shell.EI > 0))
     return sw_fail(err, SW_EINVAL,
-                   "calibrate: cores = %g that are bonded off the axis bend with all the EA that "
-                   "they carry: EA = %.6g N and EI = %.6g N m2 do not go together; make bonded = "
-                   "false, or cores = 1, or EI more",
+                   "calibrate: cores = %g bonded off the axis add their whole EA to bending, so EA "
+                   "= %.6g N and EI = %.6g N m2 are not possible together; make bonded = false, or "
+                   "cores = 1, or EI more",
                    p->n, p->wire.EA, p->wire.EI);
   if (!(p->shell.EA > 0)) return too_much(p, "core_EA", p->core.EA, "N", p->wire.EA / p->n, err);
   if (!(p->core.EA > 0))
     return sw_fail(
         err, SW_EINVAL,
-        "calibrate: a shell from %.4g m to %.4g m that has the rest of EI = %.6g N m2 has "
-        "more than the wire's EA = %.6g N: give core_EI more than %.6g N m2, or make "
-        "radius more",
+        "calibrate: a shell from %.4g m to %.4g m with the rest of EI = %.6g N m2 would have more "
+        "than the wire's EA = %.6g N: give core_EI more than %.6g N m2, or make radius more",
         p->place->bore, p->place->radius, p->wire.EI, p->wire.EA, p->core.EI);
   if (!(p->shell.EI > 0))
     return sw_fail(err, SW_EINVAL,
-                   "calibrate: %g bonded cores with core_EA = %.6g N that lie off the axis have "
-                   "more than EI = %.6g N m2 by themselves: make core_EA less than %.6g N, or "
-                   "bonded = false",
+                   "calibrate: %g bonded cores with core_EA = %.6g N off the axis alone have more "
+                   "than EI = %.6g N m2: make core_EA less than %.6g N, or bonded = false",
                    p->n, p->core.EA, p->wire.EI, EI / p->aside);
   if (!(p->shell.GJ > 0)) return too_much(p, "core_GJ", p->core.GJ, "N m2", p->wire.GJ / p->n, err);
   return SW_OK;
@@ -178,13 +176,13 @@ static sw_status check_core(const plan *p, const sw_calibration *core, sw_error 
     snprintf(text, sizeof text, "make core_across = 1 more");
   else
     snprintf(text, sizeof text,
-             "core_EI/core_EA is %.3g m2 and that of a solid core of this radius %.3g m2: change "
-             "one of them, or take another core",
+             "core_EI/core_EA is %.3g m2, and that of a solid core of this radius is %.3g m2: "
+             "change one of them, or take another core",
              p->core.EI / p->core.EA, 0.25 * p->place->core_radius * p->place->core_radius);
   if (near)
     return sw_fail(err, SW_EINVAL,
-                   "calibrate: core_EA, core_EI and core_GJ come together only where the core's %s "
-                   "springs all but vanish (%.2g of what is usual); %s",
+                   "calibrate: core_EA, core_EI and core_GJ are reached together only with %s "
+                   "springs of the core close to zero (%.2g of the usual stiffness); %s",
                    sw_group_names[core->faded], core->fading, text);
   return sw_fail(err, SW_EINVAL,
                  "calibrate: no springs of the core give core_%s = %.6g %s; the nearest have "
@@ -288,13 +286,13 @@ static sw_status check_whole(const plan *p, const sw_calibration *out, sw_error 
                    h, R, p->place->bore, p->place->radius, OF_LIMIT * most);
   if (h > 0.85 * most)
     snprintf(text, sizeof text,
-             "the diagonals that GJ needs bend too stiffly: make spacing = %.4g m less than about "
-             "%.4g m",
+             "the diagonals that GJ needs are too stiff in bending: make spacing = %.4g m less "
+             "than about %.4g m",
              h, 0.8 * most);
   else if (p->given->bonded && out->residual[worst] > 0)
     snprintf(text, sizeof text,
-             "bonds and cores have more than that by themselves: make bond = %g less, or core_%s, "
-             "or bonded = false",
+             "bonds and cores alone have more than that: make bond = %g less, or core_%s, or "
+             "bonded = false",
              p->given->bond, sw_target_names[worst]);
   else
     snprintf(text, sizeof text, "try another spacing than %.4g m, wall, or core_EA than %.4g N", h,

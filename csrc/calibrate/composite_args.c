@@ -17,51 +17,52 @@ static const sw_param rows[] = {
     {"cores", SW_PARAM_INTEGER, "-", 1, 1, SW_COMPOSITE_CORES, 0, NULL, AT(cores),
      "equal cores: one at the axis; 2 to 6 around it; 7 are six around one"},
     VALUE(core_radius, "m",
-          "of each core (default: 0.6 of the wire's radius; of several 0.95 of the largest that "
-          "fits)"),
+          "radius of each core (default: 0.6 of the wire's radius; of several cores 0.95 of the "
+          "largest that fits)"),
     VALUE(wall, "m",
-          "of the shell (default: down to a single core; around several 0.2 of the wire's radius)"),
-    VALUE(
-        core_EA, "N",
-        "of each core (default: the rest, after a wall that has the rest of EI; of one material by "
-        "areas)"),
-    VALUE(
-        core_EI, "N m2",
-        "of each core about its own axis (default: as of one material that gives the wire's EI or "
-        "EA, the softer of both)"),
-    VALUE(core_GJ, "N m2", "of each core, likewise; a line has none"),
+          "thickness of the shell (default: down to a single core; around several cores 0.2 of the "
+          "wire's radius)"),
+    VALUE(core_EA, "N",
+          "of each core (default: EA less that of a wall that has the rest of EI; of one material "
+          "by areas)"),
+    VALUE(core_EI, "N m2",
+          "of each core about its own axis (default: that of one material that gives the wire's EI "
+          "or EA, the softer of both)"),
+    VALUE(core_GJ, "N m2", "of each core, with the same default; core = 'line' has none"),
     VALUE(core_mass, "kg/m", "of each core (default: by areas)"),
     VALUE(core_E, "Pa",
-          "of elements: Young's modulus of the core, E [Pa] being the shell's (default: core_EA "
-          "over its area, else from EA and EI; with E that of one material)"),
+          "with body = 'solid': Young's modulus of the core; E [Pa] is that of the shell (default: "
+          "core_EA over its area, else from EA and EI; with E that of one material)"),
     {"core_nu", SW_PARAM_NUMBER, "-", NAN, 0, 0.4999, 0, NULL, AT(core_nu),
-     "of elements: Poisson's ratio of the core (default: nu, the shell's)"},
-    VALUE(core_density, "kg/m3", "of elements: of the core, density being the shell's"),
+     "with body = 'solid': Poisson's ratio of the core (default: nu, that of the shell)"},
+    VALUE(core_density, "kg/m3",
+          "with body = 'solid': density of the core; density is that of the shell"),
     {"bonded", SW_PARAM_BOOLEAN, "-", 1, 0, 1, 0, NULL, AT(bonded),
-     "springs hold core and shell together; without them they slide, and sw.calibrate's links with "
-     "slide = true name the particles that face each other"},
+     "true: springs hold core and shell together; false: they slide, and links of sw.calibrate "
+     "with slide = true name the particles that face each other"},
     {"bond", SW_PARAM_NUMBER, "-", 1, 0, 100, SW_PARAM_ABOVE_MIN, NULL, AT(bond),
-     "stiffness of bonds, over the usual one: that of bars of the shell's modulus, which carry at "
+     "stiffness of bonds over the usual one, which is that of bars of the shell's modulus, with at "
      "most a tenth of the shell's or the cores' EA from slice to slice"},
     {"friction", SW_PARAM_NUMBER, "-", 0, 0, 100, 0, NULL, AT(friction),
-     "with bonded = false, in a scene: of shell and cores on one another along the wire"},
+     "with bonded = false, in a scene: friction coefficient between shell and cores along the "
+     "wire"},
     {"grip", SW_PARAM_NUMBER, "N/m", 0, 0, HUGE_VAL, 0, NULL, AT(grip),
-     "likewise: radial force per length that presses each core from the start, before bends and "
-     "squeezes add to it; drawing out a core needs friction * grip * length"},
+     "with bonded = false, in a scene: radial force per length on each core without bends and "
+     "squeezes, which add to it; drawing out a core needs friction * grip * length"},
     COUNT(particles, 64,
-          "particles of the shell's ring, 3 or more and the same to each core around the axis; 0 "
+          "particles of the shell's ring, 3 or more, a multiple of the cores around the axis; 0 "
           "chooses 12 or more"),
-    COUNT(reach, 31,
-          "particles that a diagonal of the shell goes round, below half a ring; 0 chooses"),
-    COUNT(
-        layers, 6,
-        "of elements: layers of the shell; 0 makes them about a third of the wire's radius thick"),
+    COUNT(reach, 31, "particles that a diagonal of the shell spans, below half a ring; 0 chooses"),
+    COUNT(layers, 6,
+          "with body = 'solid': layers of the shell; 0: layers about a third of the wire's radius "
+          "thick"),
     COUNT(core_particles, 48,
           "of a radial core: particles of each layer, 3 or more; 0 chooses, 6 as a rule"),
     COUNT(core_layers, 6,
-          "of a radial core; 0 is 2 for one, 1 for each of several, and of elements as thick as "
-          "layers"),
-    COUNT(core_across, 16, "of a cubic core: voxels across; 0 is 4 for one, 2 for each of several"),
+          "layers of a radial core; 0: 2 for one core, 1 for each of several; with body = 'solid' "
+          "as thick as layers"),
+    COUNT(core_across, 16,
+          "of a cubic core: voxels across; 0: 4 for one core, 2 for each of several"),
 };
 const sw_params sw_composite_params = SW_PARAMS("calibrate", rows);
 
@@ -109,8 +110,8 @@ sw_status sw_composite_check_springs(const sw_composite_args *a, sw_error *err) 
   for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
     if (!isnan(all[i].value))
       return sw_fail(err, SW_EINVAL,
-                     "calibrate: %s = %.6g %s is of elements and goes with body = 'solid'; springs "
-                     "take core_EA, core_EI, core_GJ and core_mass",
+                     "calibrate: %s = %.6g %s goes with body = 'solid'; for springs give core_EA, "
+                     "core_EI, core_GJ and core_mass",
                      all[i].name, all[i].value, all[i].unit);
   return SW_OK;
 }
@@ -125,7 +126,7 @@ static sw_status check_unused(const sw_composite_args *a, sw_error *err) {
   } all[] = {
       {"core_EI", "N m2", a->core_EI, (double)NAN, "follows from core_E or core_EA"},
       {"core_GJ", "N m2", a->core_GJ, (double)NAN, "follows from core_E or core_EA, and core_nu"},
-      {"bond", "-", a->bond, 1, "is of springs: elements share their particles"},
+      {"bond", "-", a->bond, 1, "is for springs: elements share their particles"},
       {"reach", "-", (double)a->reach, 0, "is of springs"},
       {"core_particles", "-", (double)a->core_particles, 0,
        "follows from particles, which core and shell share"}};
@@ -157,14 +158,14 @@ sw_status sw_composite_check_solid(const sw_composite_args *a, sw_error *err) {
         "body = 'springs'",
         cores[a->core]);
   if (!isnan(a->core_E) && !isnan(a->core_EA))
-    return sw_fail(
-        err, SW_EINVAL,
-        "calibrate: core_E = %.6g Pa and core_EA = %.6g N say the same; give one of them",
-        a->core_E, a->core_EA);
+    return sw_fail(err, SW_EINVAL,
+                   "calibrate: core_E = %.6g Pa and core_EA = %.6g N describe the same stiffness; "
+                   "give one of them",
+                   a->core_E, a->core_EA);
   if (!isnan(a->core_density) && !isnan(a->core_mass))
     return sw_fail(err, SW_EINVAL,
-                   "calibrate: core_density = %.6g kg/m3 and core_mass = %.6g kg/m say the same; "
-                   "give one of them",
+                   "calibrate: core_density = %.6g kg/m3 and core_mass = %.6g kg/m describe the "
+                   "same mass; give one of them",
                    a->core_density, a->core_mass);
   return check_unused(a, err);
 }

@@ -26,16 +26,16 @@ const char *const sw_group_names[SW_GROUPS] = {"longitudinal",  "inner",
 static const sw_param tube_rows[] = {
     {"particles", SW_PARAM_INTEGER, "-", 8, 3, 64, 0, NULL, AT(particles), "particles of a ring"},
     {"reach", SW_PARAM_INTEGER, "-", 0, 0, 31, 0, NULL, AT(reach),
-     "particles that a diagonal goes round, below half a ring; 0 chooses"},
+     "particles that a diagonal spans round the ring, below half a ring; 0 chooses"},
     {"brace", SW_PARAM_INTEGER, "-", -1, -1, 32, 0, NULL, AT(brace),
-     "chords from each particle of a ring to the one this many further, 2 to half a ring; 0 has "
-     "none; -1 chooses 2 if nothing else keeps the ring round"},
+     "chords from each particle of a ring to the particle this many further, 2 to half a ring; 0: "
+     "none; -1: 2 if nothing else keeps the ring round"},
     {"ring_radius", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
      AT(ring_radius),
-     "of the particles' centres (not given: the wire's radius; without core, where EA and EI "
-     "agree)"},
+     "radius of the particles' centres (not given: the wire's radius; without core, where EA and "
+     "EI agree)"},
     {"core", SW_PARAM_BOOLEAN, "-", 1, 0, 1, 0, NULL, AT(core),
-     "a central line of particles with spokes, which has the EA that the ring lacks"},
+     "a central line of particles with spokes, which adds the EA that the ring lacks"},
     {"bend", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, AT(bend),
      "springs against bending of the central line"},
 };
@@ -174,14 +174,15 @@ static sw_status check_tube(const sw_tube_args *a, sw_error *err) {
   const long M = a->particles;
   if (2 * sw_tube_reach(a) >= M)
     return sw_fail(err, SW_EINVAL,
-                   "calibrate: reach = %ld must be below half of particles = %ld: across the axis "
-                   "a diagonal does not resist twist",
+                   "calibrate: reach = %ld must be below half of particles = %ld: a diagonal "
+                   "across the axis does not resist twist",
                    a->reach, M);
   if (a->brace == 1 || 2 * a->brace > M)
     return sw_fail(err, SW_EINVAL, "calibrate: brace = %ld must be 0 or in [2, %ld] (-1 chooses)",
                    a->brace, M / 2);
   if (a->bend && !a->core)
-    return sw_fail(err, SW_EINVAL, "calibrate: bend = true needs the line of core = true");
+    return sw_fail(err, SW_EINVAL,
+                   "calibrate: bend = true goes with core = true, which has the central line");
   return SW_OK;
 }
 

@@ -41,11 +41,10 @@ static sw_status choose_ring(const sw_composite_args *a, sw_composite *c, sw_err
         "calibrate: particles = %ld is not allowed; it must be 0 (chooses) or in [3, 64]",
         a->particles);
   if (a->particles % n)
-    return sw_fail(
-        err, SW_EINVAL,
-        "calibrate: particles = %ld must be a multiple of the %ld cores around the axis, "
-        "so that bending is alike in all planes: take %ld",
-        a->particles, n, n * (a->particles / n + 1));
+    return sw_fail(err, SW_EINVAL,
+                   "calibrate: particles = %ld must be a multiple of the %ld cores around the "
+                   "axis, so that bending is the same in all planes: give %ld",
+                   a->particles, n, n * (a->particles / n + 1));
   c->ring = (size_t)a->particles;
   return SW_OK;
 }

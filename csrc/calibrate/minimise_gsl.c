@@ -11,7 +11,7 @@
 
 static const sw_param rows[] = {
     {"f", SW_PARAM_OTHER, "-", 0, 0, 0, SW_PARAM_REQUIRED, NULL, 0,
-     "function to make smallest: of a number, or of a list of numbers when start is a list"},
+     "function to minimise: of a number, or of a list of numbers if start is a list"},
     {"from", SW_PARAM_NUMBER, "-", NAN, -DBL_MAX, DBL_MAX, 0, NULL,
      offsetof(sw_minimise_args, from), "lower end of the interval of one parameter"},
     {"to", SW_PARAM_NUMBER, "-", NAN, -DBL_MAX, DBL_MAX, 0, NULL, offsetof(sw_minimise_args, to),
@@ -21,9 +21,11 @@ static const sw_param rows[] = {
     {"step", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
      "size of the first steps, a number or a list (default: a tenth of start)"},
     {"tolerance", SW_PARAM_NUMBER, "-", 1e-6, 0, 1, SW_PARAM_ABOVE_MIN, NULL,
-     offsetof(sw_minimise_args, tolerance), "accuracy as a share of the interval or of the steps"},
+     offsetof(sw_minimise_args, tolerance),
+     "wanted accuracy, as a share of the interval or of the steps"},
     {"max_iterations", SW_PARAM_INTEGER, "-", 200, 1, 1e6, 0, NULL,
-     offsetof(sw_minimise_args, max_iterations), "most iterations; each takes one to a few values"},
+     offsetof(sw_minimise_args, max_iterations),
+     "largest number of iterations; each takes one to a few values of f"},
 };
 const sw_params sw_minimise_params = SW_PARAMS("tune.minimise", rows);
 
@@ -95,8 +97,8 @@ static sw_status look(bridge *b, const sw_minimise_args *args, double at[LOOKS],
   }
   if (!finite)
     return sw_fail(b->err, SW_EINVAL,
-                   "tune.minimise: f gives no finite number anywhere between %g and %g", args->from,
-                   args->to);
+                   "tune.minimise: f returns no finite number anywhere between %g and %g",
+                   args->from, args->to);
   return SW_OK;
 }
 
@@ -122,7 +124,8 @@ static sw_status brent(bridge *b, const sw_minimise_args *args, const double at[
   if (code != GSL_SUCCESS)
     sw_fail(&b->out->reason, SW_ENOCONV, "GSL: %s", gsl_strerror(code));
   else
-    sw_fail(&b->out->reason, SW_ENOCONV, near ? "as near as wanted" : "iterations used up");
+    sw_fail(&b->out->reason, SW_ENOCONV,
+            near ? "the wanted accuracy was reached" : "iterations used up");
   return b->status;
 }
 
@@ -134,9 +137,10 @@ sw_status sw_minimise_interval(sw_objective f, void *user, const sw_minimise_arg
   int best;
   *out = (sw_minimum){.value = NAN};
   if (!(args->from < args->to) || !isfinite(args->to - args->from))
-    return sw_fail(err, SW_EINVAL,
-                   "tune.minimise: from = %g and to = %g are no interval; from must be below to",
-                   args->from, args->to);
+    return sw_fail(
+        err, SW_EINVAL,
+        "tune.minimise: from = %g and to = %g are not an interval; from must be below to",
+        args->from, args->to);
   gsl_set_error_handler_off(); /* statuses are checked instead */
   SW_TRY(look(&b, args, at, value, &best));
   int low = best, high = best;
@@ -183,7 +187,8 @@ static sw_status nelder_mead(bridge *b, const sw_minimise_args *args, gsl_vector
   if (!b->out->ok && code != GSL_SUCCESS)
     sw_fail(&b->out->reason, SW_ENOCONV, "GSL: %s", gsl_strerror(code));
   else
-    sw_fail(&b->out->reason, SW_ENOCONV, near ? "as near as wanted" : "iterations used up");
+    sw_fail(&b->out->reason, SW_ENOCONV,
+            near ? "the wanted accuracy was reached" : "iterations used up");
   return b->status;
 }
 
@@ -211,7 +216,7 @@ sw_status sw_minimise_simplex(sw_objective f, void *user, size_t n, double *x, c
     bridge b = {f, user, n, work + n, work, step, NAN, interrupted, out, SW_OK, err};
     status = nelder_mead(&b, args, u, size, x);
     if (status == SW_OK && !isfinite(b.worst))
-      status = sw_fail(err, SW_EINVAL, "tune.minimise: f gives no finite number near start");
+      status = sw_fail(err, SW_EINVAL, "tune.minimise: f returns no finite number near start");
   }
   gsl_vector_free(u);
   gsl_vector_free(size);

@@ -51,7 +51,7 @@ static void constraints(unsigned m, double *result, unsigned n, const double *x,
 static void tell(sw_search *s, nlopt_result code) {
   s->ok = code > 0 || code == NLOPT_ROUNDOFF_LIMITED;
   if (s->ok)
-    sw_fail(&s->reason, SW_ENOCONV, "as near as wanted");
+    sw_fail(&s->reason, SW_ENOCONV, "the wanted accuracy was reached");
   else
     sw_fail(&s->reason, SW_ENOCONV, "NLopt: %s", nlopt_result_to_string(code));
 }

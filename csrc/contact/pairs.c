@@ -28,8 +28,8 @@ static void free_own(sw_mutual *m) {
 static const sw_finder wires = {
     .name = "contact of wires",
     .too_many =
-        "too many pairs of segments are near each other; segments much shorter than the wire "
-        "is thick are too many, take fewer",
+        "too many pairs of segments are near each other; give fewer segments, not much shorter "
+        "than the wire's diameter",
     .make = sw_pairs_new,
     .free = free_own,
     .forget = forget,

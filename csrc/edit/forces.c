@@ -24,33 +24,34 @@ static sw_status check_wire(const sw_force_class *cls, const sw_scene_wire *w, c
   w->cls->recipe(&w->beam, &recipe);
   if ((cls->flags & SW_FORCE_AT_PLACE) && sw_scene_is_loose(w))
     return sw_fail(err, SW_EINVAL,
-                   "force %s: '%s' is an object of particles, which has no arc length s; kind = "
-                   "'push' takes particles",
+                   "force %s: '%s' is an object of particles, which has no arc length s; for "
+                   "particles use kind = 'push'",
                    cls->name, w->name);
   if ((cls->flags & SW_FORCE_OF_WEB) && !w->cls->mesh)
     return sw_fail(err, SW_EINVAL,
-                   "force %s: wire '%s' is a %s; it goes with objects of particles and with models "
-                   "that are meshes",
+                   "force %s: wire '%s' is a %s; this force goes with objects of particles and "
+                   "with models that are meshes",
                    cls->name, w->name, w->cls->name);
   const int any_body = (cls->flags & SW_FORCE_ANY_BODY) && !(cls->flags & SW_FORCE_OF_AXIS);
   if (w->cls->mesh && !any_body && sw_scene_is_loose(w))
-    return sw_fail(err, SW_EINVAL, "force %s: '%s' is an object of particles; it goes with wires",
+    return sw_fail(err, SW_EINVAL,
+                   "force %s: '%s' is an object of particles; this force goes with wires",
                    cls->name, w->name);
   if (w->cls->mesh && !(cls->flags & SW_FORCE_ANY_BODY))
-    return sw_fail(err, SW_EINVAL,
-                   "force %s: wire '%s' is a %s, a mesh of particles, which it does not know; it "
-                   "goes with model = 'rod'",
-                   cls->name, w->name, w->cls->name);
+    return sw_fail(
+        err, SW_EINVAL,
+        "force %s: wire '%s' is a %s, a mesh of particles; this force goes with model = 'rod' only",
+        cls->name, w->name, w->cls->name);
   for (size_t k = 0; k < recipe.count; k++) by_angle |= strcmp(recipe.terms[k].force, "bend") == 0;
   if ((cls->flags & SW_FORCE_BY_ANGLE) && !by_angle)
-    return sw_fail(err, SW_EINVAL,
-                   "force %s: wire '%s' is a %s, whose bending it cannot correct; it goes with "
-                   "model = 'rod'",
-                   cls->name, w->name, w->cls->name);
+    return sw_fail(
+        err, SW_EINVAL,
+        "force %s: wire '%s' is a %s; this force corrects the bending of model = 'rod' only",
+        cls->name, w->name, w->cls->name);
   if (cls->commit && w->beam.framed && !(cls->flags & SW_FORCE_ANY_SHAPE))
     return sw_fail(err, SW_EINVAL,
-                   "force %s: wire '%s' is curved at rest, has two values of EI or rolls, which it "
-                   "does not support",
+                   "force %s: wire '%s' is curved at rest, has two values of EI or rolls; this "
+                   "force does not support that",
                    cls->name, w->name);
   return cls->check ? cls->check(args, &w->beam, err) : SW_OK;
 }
@@ -85,7 +86,8 @@ static sw_status check_some(const sw_force_class *cls, const sw_scene_wire *w,
                             const sw_force_some *some, sw_error *err) {
   if (!w) return sw_fail(err, SW_EINVAL, "force %s: on is required: the object", cls->name);
   if (!some->count)
-    return sw_fail(err, SW_EINVAL, "force %s: particles of '%s': none", cls->name, w->name);
+    return sw_fail(err, SW_EINVAL, "force %s: the list of particles of '%s' is empty", cls->name,
+                   w->name);
   for (size_t i = 0; i < some->count; i++)
     if (some->particle[i] >= w->strand.web->particles)
       return sw_fail(err, SW_EINVAL, "force %s: '%s' has no particle %lu; it has %zu, from 1 on",
@@ -188,7 +190,7 @@ static double place_of(const sw_scene *s, const sw_scene_force *f) {
 
 sw_status sw_scene_force_args(const sw_scene *s, sw_handle force, void *args, sw_error *err) {
   if (!sw_scene_force_class(s, force))
-    return sw_fail(err, SW_EDEAD, "this force is not of scene '%s' any more", sw_scene_name(s));
+    return sw_fail(err, SW_EDEAD, "this force is no longer in scene '%s'", sw_scene_name(s));
   const sw_scene_force *f = sw_scene_force_in(s, force.slot);
   memcpy(args, f->args, sizeof f->args);
   if (!(f->cls->flags & SW_FORCE_AT_PLACE) || f->wire < 0) return SW_OK;

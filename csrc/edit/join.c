@@ -82,7 +82,7 @@ static sw_status check_meeting(const sw_scene *s, const sw_join_end *ends, size_
     if (!(gap <= LARGEST_GAP * least))
       return sw_fail(err, SW_EINVAL,
                      "scene:join: '%s' at s = %.6g m is %.4g m away from '%s' at s = %.6g m; ends "
-                     "must meet, within %.2g m here",
+                     "must meet within %.2g m",
                      w->name, ends[k].s, gap, first->name, ends[0].s, LARGEST_GAP * least);
   }
   return SW_OK;
@@ -131,8 +131,8 @@ sw_status sw_scene_add_join(sw_scene *s, const sw_join_args *args, const sw_join
   }
   const sw_link_class *cls = sw_joint_class(args->slack);
   if (cls->joint->apart && count != 2)
-    return sw_fail(err, SW_EINVAL, "scene:join: slack makes it a tie, of 2 wires; ends lists %zu",
-                   count);
+    return sw_fail(err, SW_EINVAL,
+                   "scene:join: with slack it is a tie, which has 2 wires; ends lists %zu", count);
   SW_TRY(sw_scene_unbuild(s));
   if (!cls->joint->apart) SW_TRY(check_meeting(s, ends, count, err));
   sw_joint j = {.alive = 1,
@@ -200,7 +200,7 @@ sw_status sw_scene_join_force(sw_scene *s, sw_handle h, size_t k, sw_vec *force,
   SW_FIND(const sw_joint, j, sw_scene_find_join(s, h, err));
   *force = *moment = sw_v(0, 0, 0);
   if (k >= j->count)
-    return sw_fail(err, SW_EINVAL, "join '%s': end %zu is not one of its %zu", j->name, k + 1,
+    return sw_fail(err, SW_EINVAL, "join '%s': there is no end %zu; it has %zu", j->name, k + 1,
                    j->count);
   if (!j->alive) return SW_OK;
   SW_TRY(sw_scene_build(s, err));
@@ -219,7 +219,7 @@ sw_status sw_scene_read_join(sw_scene *s, sw_handle h, const char *const **names
   const sw_joint_acts *acts = j->cls->joint;
   *names = acts->outputs;
   if (!acts->read)
-    return sw_fail(err, SW_EINVAL, "join '%s' is no tie: it was made without slack", j->name);
+    return sw_fail(err, SW_EINVAL, "join '%s' is not a tie: it was made without slack", j->name);
   int there = 1;
   for (size_t k = 0; k < j->count; k++) there &= j->ends[k].wire != SIZE_MAX;
   if (there) SW_TRY(sw_scene_build(s, err));

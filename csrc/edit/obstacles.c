@@ -20,11 +20,11 @@ static const sw_param obstacle_rows[] = {
      offsetof(sw_obstacle_args, at), "place of the shape's origin"},
     {"rotation", SW_PARAM_ROTATION, "rad", 0, 0, 0, SW_PARAM_CHANGES, NULL,
      offsetof(sw_obstacle_args, rotation),
-     "turn of the shape: { axis = {x, y, z}, angle = } or quaternion {w, x, y, z}"},
+     "rotation of the shape: { axis = {x, y, z}, angle = } or quaternion {w, x, y, z}"},
     {"friction", SW_PARAM_NUMBER, "-", 0.3, 0, 100, SW_PARAM_CHANGES, NULL,
      offsetof(sw_obstacle_args, friction), "Coulomb friction coefficient"},
     {"kinetic_friction", SW_PARAM_NUMBER, "-", NAN, 0, 100, SW_PARAM_CHANGES, NULL,
-     offsetof(sw_obstacle_args, kinetic), "of what slides already (default: friction)"},
+     offsetof(sw_obstacle_args, kinetic), "friction coefficient while sliding (default: friction)"},
     {"restitution", SW_PARAM_NUMBER, "-", 0, 0, 1, SW_PARAM_CHANGES, NULL,
      offsetof(sw_obstacle_args, restitution), "share of the approach speed kept in an impact"},
 };

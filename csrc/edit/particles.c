@@ -36,16 +36,15 @@ static const sw_param rows[] = {
      "and "
      "nu [Pa], [-]"},
     {"surface", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
-     "what touches obstacles: 'particles', or a list of edges {i, j} and triangles {i, j, k} "
-     "(default: all links, or the outside of the elements)"},
+     "surface that touches obstacles: 'particles', or a list of edges {i, j} and triangles {i, j, "
+     "k} (default: all links, or the outside of the elements)"},
     {"radius", SW_PARAM_NUMBER, "m", NAN, 0, 1e3, SW_PARAM_ABOVE_MIN, NULL,
      offsetof(sw_particles_args, radius),
-     "of what touches: the surface's distance from particles and edges (default: a tenth of the "
-     "shortest link)"},
+     "of the surface: its distance from particles and edges (default: a tenth of the shortest "
+     "link)"},
     {"repel", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
-     "{distance = [m], stiffness = [N/m]}: particles without a link that come nearer push each "
-     "other "
-     "apart"},
+     "{distance = [m], stiffness = [N/m]}: particles without a link that come closer push each "
+     "other apart"},
 };
 const sw_params sw_particles_params = SW_PARAMS("particles", rows);
 
@@ -53,13 +52,13 @@ static const sw_param repel_rows[] = {
     {"distance", SW_PARAM_NUMBER, "m", NAN, 0, 1e6, SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN, NULL,
      offsetof(sw_repel_pairs, distance), "below which two particles push each other apart"},
     {"stiffness", SW_PARAM_NUMBER, "N/m", NAN, 0, 1e15, SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN,
-     NULL, offsetof(sw_repel_pairs, stiffness), "force over what is missing of the distance"},
+     NULL, offsetof(sw_repel_pairs, stiffness), "force over the shortfall of the distance"},
 };
 const sw_params sw_repel_pairs_params = SW_PARAMS("particles: repel", repel_rows);
 
 static const sw_wire_class particles_class = {
     .name = "particles",
-    .summary = "particles with links, folds and elements, as they were put together",
+    .summary = "particles with links, folds and elements",
     .recipe = sw_web_recipe,
     .mesh = "particles",
 };
@@ -190,13 +189,13 @@ static sw_status check_element(maker *m, size_t i) {
   const sw_particles_element *e = &m->parts->element[i];
   if (e->count != SW_SOLID_PRISM && e->count != SW_SOLID_HEX)
     return sw_fail(m->err, SW_EINVAL,
-                   "particles '%s': element %zu has %u particles; 6 or 8 are known", m->name, i + 1,
-                   e->count);
+                   "particles '%s': element %zu has %u particles; it must have 6 or 8", m->name,
+                   i + 1, e->count);
   SW_TRY(check_numbers(m, "element", i, e->node, e->count));
   if (!(e->mu > 0) || !(e->mu < 1e30) || !(e->lambda + 2.0 / 3 * e->mu > 0) || !(e->lambda < 1e30))
     return sw_fail(m->err, SW_EINVAL,
-                   "particles '%s': element %zu: mu = %g Pa, lambda = %g Pa is no material; mu and "
-                   "lambda + 2/3 mu must be above 0",
+                   "particles '%s': element %zu: mu = %g Pa, lambda = %g Pa is not a material; mu "
+                   "and lambda + 2/3 mu must be above 0",
                    m->name, i + 1, e->mu, e->lambda);
   for (uint32_t k = 1; k < e->count; k++)
     m->shortest = fmin(m->shortest, distance(m, e->node[k - 1], e->node[k]));
@@ -222,8 +221,7 @@ static sw_status check(maker *m, const sw_particles_args *args) {
   if (m->radius > 0 && isfinite(m->radius)) return SW_OK;
   return sw_fail(
       m->err, SW_EINVAL,
-      "particles '%s': radius is required [m] where there are no links: what touches has "
-      "one",
+      "particles '%s': radius is required [m] without links: the surface that touches needs one",
       m->name);
 }
 
@@ -276,7 +274,7 @@ static sw_status fill_solids(const maker *m) {
     if (status == SW_EINVAL)
       sw_fail(m->err, status,
               "particles '%s': element %zu has no volume, is inverted or too much distorted; its "
-              "first half is a face, anticlockwise as seen from the second half",
+              "first half must be a face, anticlockwise as seen from the second half",
               m->name, i + 1);
     if (status == SW_OK) bound_solid(&shape[i], &w->solid[i], x, sums);
   }

@@ -110,7 +110,8 @@ sw_status sw_scene_particles_links(sw_scene *s, sw_handle h, double *force, doub
 static sw_status check_hold(const sw_scene *s, const sw_scene_wire *w, size_t slot,
                             const uint32_t *particles, size_t count, sw_error *err) {
   const size_t n = w->strand.web->particles;
-  if (!count) return sw_fail(err, SW_EINVAL, "clamp: particles of '%s' to be held: none", w->name);
+  if (!count)
+    return sw_fail(err, SW_EINVAL, "clamp: the list of particles of '%s' is empty", w->name);
   unsigned char *taken SW_LOCAL = sw_alloc(n, 1);
   if (!taken) return sw_fail(err, SW_ENOMEM, "clamp: out of memory");
   for (size_t i = 0; i < count; i++) {
@@ -118,7 +119,7 @@ static sw_status check_hold(const sw_scene *s, const sw_scene_wire *w, size_t sl
       return sw_fail(err, SW_EINVAL, "clamp: '%s' has no particle %lu; it has %zu, from 1 on",
                      w->name, (unsigned long)particles[i] + 1, n);
     if (taken[particles[i]]++)
-      return sw_fail(err, SW_EINVAL, "clamp: particle %lu of '%s' comes twice",
+      return sw_fail(err, SW_EINVAL, "clamp: particle %lu of '%s' is in the list twice",
                      (unsigned long)particles[i] + 1, w->name);
   }
   SW_EACH(hold, by, s) {

@@ -17,11 +17,11 @@
 
 static const sw_param rows[] = {
     {"between", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
-     "a wire, an object of particles or a list of these (default: all, those to come too)"},
+     "a wire, an object of particles or a list of these (default: all, also those made later)"},
     {"friction", SW_PARAM_NUMBER, "-", 0.3, 0, 100, 0, NULL,
      offsetof(sw_wire_contact_args, friction), "Coulomb friction coefficient"},
     {"self", SW_PARAM_BOOLEAN, "-", 1, 0, 1, 0, NULL, offsetof(sw_wire_contact_args, self),
-     "false: not of a wire with itself"},
+     "false: without contact of a wire with itself"},
     {"on", SW_PARAM_BOOLEAN, "-", 1, 0, 1, 0, NULL, offsetof(sw_wire_contact_args, on),
      "false: from now on they pass through each other"},
 };

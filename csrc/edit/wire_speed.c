@@ -14,7 +14,7 @@ sw_status sw_scene_wire_came_from(sw_scene *s, sw_handle h, const double *before
   sw_system *system = sw_scene_system(s);
   const sw_body *b = &system->bodies[h.slot];
   if (b->plan->nodes != count || b->plan->web)
-    return sw_fail(err, SW_EINVAL, "wire '%s' is no line of %zu nodes", w->name, count);
+    return sw_fail(err, SW_EINVAL, "wire '%s' does not have %zu nodes in a line", w->name, count);
   const double *x = system->x + 3 * b->first_node;
   for (size_t i = 0; i < count; i++)
     SW_TRY(sw_scene_check_speed(s, w, sw_dist(sw_vec_at(x, i), sw_vec_at(before, i)) / span, err));

@@ -30,22 +30,22 @@ static const sw_param wire_rows[] = {
     {"path", SW_PARAM_OTHER, "m", 0, 0, 0, 0, NULL, 0,
      "list of points the wire lies along, instead of from and to"},
     {"segments", SW_PARAM_INTEGER, "-", 0, 0, 1e7, 0, NULL, offsetof(sw_wire_args, segments),
-     "number of segments, 2 or more (default 50; of a mesh slices, as many as their spacing "
+     "number of segments, 2 or more (default 50; of a mesh the number of slices, by their spacing "
      "gives)"},
     {"rest", SW_PARAM_CHOICE, "-", 0, 0, 0, 0, rest_names, offsetof(sw_wire_args, rest),
-     "shape without load: 'straight' or as 'path' has it"},
+     "shape without load: 'straight', or the shape of 'path'"},
     {"normal", SW_PARAM_VECTOR, "-", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL,
      offsetof(sw_wire_args, normal),
-     "with EI = {EI1, EI2}: bending in the plane of the wire and this has EI1"},
+     "with EI = {EI1, EI2}: bending in the plane of the wire and this direction has EI1"},
     {"rolls", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(sw_wire_args, rolls),
      "true: friction also turns the wire about its axis, so that it rolls and is twisted"},
     {"rest_twist", SW_PARAM_NUMBER, "rad/m", 0, -1e6, 1e6, 0, NULL,
      offsetof(sw_wire_args, rest_twist), "twist without load; it is drawn untwisted"},
     {"breaking_load", SW_PARAM_NUMBER, "N", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
      offsetof(sw_wire_args, breaking_load),
-     "pull above which an event tells that it would break (default: the cable's)"},
+     "tension above which an event says that the wire would break (default: the cable's)"},
     {"breaking_flag", SW_PARAM_CHOICE, "-", 0, 0, 0, 0, sw_breaking_flags,
-     offsetof(sw_wire_args, breaking_flag), "where that is from"},
+     offsetof(sw_wire_args, breaking_flag), "source of the breaking load"},
 };
 const sw_params sw_wire_params = SW_PARAMS("wire", wire_rows);
 
@@ -53,16 +53,16 @@ static const char *const body_names[] = {"springs", "solid", NULL};
 #define AT(member) offsetof(sw_wire_mesh_args, member)
 static const sw_param mesh_rows[] = {
     {"spacing", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL, AT(spacing),
-     "of a mesh's slices along the wire (chosen when not given); the length is an even number of "
-     "them"},
+     "distance of a mesh's slices along the wire (default: chosen); the length is an even number "
+     "of slices"},
     {"squeeze", SW_PARAM_NUMBER, "Pa", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL, AT(squeeze),
      "stiffness of the section: line force of two plates on opposite sides over their approach "
-     "(not given: as the springs come out)"},
+     "(not given: as the springs give)"},
     {"wall_bending", SW_PARAM_NUMBER, "N m", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL, AT(wall),
      "of a tube with core = false: bending stiffness of its wall per length, E t^3 / (12 (1 - "
      "nu^2)), against flattening and ovalisation; takes the place of chords (brace)"},
     {"body", SW_PARAM_CHOICE, "-", SW_BODY_SPRINGS, 0, 0, 0, body_names, AT(body),
-     "springs between the particles, or solid elements of finite strain with nu"},
+     "springs between the particles, or solid elements (finite strain) with Poisson's ratio nu"},
 };
 #undef AT
 const sw_params sw_wire_mesh_params = SW_PARAMS("wire", mesh_rows);
@@ -91,7 +91,7 @@ static const double LARGEST_TWIST = 1.5; /* turn of a segment at rest, with fram
 static sw_status check_mesh_frames(const sw_scene_wire *w, const sw_drawing *a, sw_error *err) {
   if (a->rolls)
     return sw_fail(err, SW_EINVAL,
-                   "wire '%s': rolls goes with model = 'rod'; a %s, whose surface is of particles, "
+                   "wire '%s': rolls goes with model = 'rod'; a %s has a surface of particles and "
                    "rolls by itself",
                    w->name, w->cls->name);
   return SW_OK;

@@ -31,10 +31,10 @@ static const sw_param rows[] = {
      "Coulomb coefficient against sliding along the axis"},
     {"stiffness", SW_PARAM_NUMBER, "N/m", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
      offsetof(sw_clip_args, stiffness),
-     "of floor and walls (default: 50 times the larger force over the wire's radius)"},
+     "stiffness of floor and walls (default: 50 times the larger force over the wire's radius)"},
     {"strength", SW_PARAM_NUMBER, "N", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
      offsetof(sw_clip_args, strength),
-     "of floor and walls, beyond which they break (default: 20 times the larger force)"},
+     "force at which floor and walls break (default: 20 times the larger force)"},
 };
 
 static sw_status check(const void *args, const sw_beam *beam, sw_error *err) {
@@ -44,15 +44,15 @@ static sw_status check(const void *args, const sw_beam *beam, sw_error *err) {
   if (!(sw_norm2(d) > 0) || !(sw_norm2(t) > 0))
     return sw_fail(err, SW_EINVAL, "force clip: direction and axis must not be zero vectors");
   if (!(sw_norm(sw_cross(d, t)) > 0.1))
-    return sw_fail(err, SW_EINVAL,
-                   "force clip: direction and axis must be across each other; here they are %.3g "
-                   "degrees apart",
-                   180.0 / M_PI * asin(sw_norm(sw_cross(d, t))));
+    return sw_fail(
+        err, SW_EINVAL,
+        "force clip: direction and axis must be perpendicular; here they are %.3g degrees apart",
+        180.0 / M_PI * asin(sw_norm(sw_cross(d, t))));
   SW_TRY(sw_clip_check_lips(a, "clip", err));
   if (a->radius < beam->radius * (1 - 1e-9))
     return sw_fail(err, SW_EINVAL,
                    "force clip: radius = %g m of the seat is below the wire's %g m; leave it out, "
-                   "or name the wires that it is for",
+                   "or name the wires of this clip",
                    a->radius, beam->radius);
   return SW_OK;
 }

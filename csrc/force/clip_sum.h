@@ -36,8 +36,9 @@ typedef struct sw_clip_args {
                   "largest force of the lips on the way in"),                                     \
       SW_CLIP_ROW(retention, "N", 0, SW_PARAM_REQUIRED,                                           \
                   "largest force of the lips on the way out"),                                    \
-      SW_CLIP_ROW(radius, "m", NAN, 0, "of the seat (default: that of the wire)"),                \
-      SW_CLIP_ROW(way, "m", NAN, 0, "of the wire over the lips (default: 1.5 of its radius)")
+      SW_CLIP_ROW(radius, "m", NAN, 0, "radius of the seat (default: that of the wire)"),         \
+      SW_CLIP_ROW(way, "m", NAN, 0,                                                               \
+                  "travel of the wire over the lips (default: 1.5 of its radius)")
 
 /* A clip with the law for one wire. */
 typedef struct sw_clip {

@@ -179,20 +179,22 @@ int sw_clip_news(const void *args, const double *history, sw_force_news *out) {
   if (what == SW_CLIP_NO_NEWS) return 0;
   *out = (sw_force_news){.kind = "clip", .s = history[SW_CLIP_NEWS_S], .value = value};
   if (what == SW_CLIP_CROSSING)
-    snprintf(out->text, sizeof out->text,
-             "the wire crosses it at %.3g degrees; its model holds up to 45 degrees", value);
+    snprintf(
+        out->text, sizeof out->text,
+        "the wire crosses the clip at %.3g degrees; the clip's model is valid up to 45 degrees",
+        value);
   else if (what == SW_CLIP_COARSE)
     snprintf(out->text, sizeof out->text,
-             "the wire comes out askew (%.2g degrees); its edges of %.3g mm should be a quarter of "
-             "the clip's width, else the force may be 25 %% off",
+             "the wire comes out askew (%.2g degrees): its edges of %.3g mm are longer than a "
+             "quarter of the clip's width, so the force may be 25 %% wrong",
              180.0 / M_PI * atan(fabs(history[SW_CLIP_PEAK_SLOPE])), 1e3 * value);
   else if (what == SW_CLIP_PASSED)
     snprintf(out->text, sizeof out->text,
-             "the wire goes through it within one step, by %.3g mm, and is free of it",
+             "the wire passes through the clip within one step, by %.3g mm, and is free; take "
+             "smaller steps",
              1e3 * value);
   else
     snprintf(out->text, sizeof out->text,
-             "OVERLOADED, the wire breaks through %s with %.4g N and is free of it", how[what],
-             value);
+             "OVERLOADED, the wire breaks through %s with %.4g N and is free", how[what], value);
   return 1;
 }

@@ -19,7 +19,7 @@ static const sw_param rows[] = {
      "arc length where the couple acts"},
     {"moment", SW_PARAM_VECTOR, "N m", 0, -HUGE_VAL, HUGE_VAL, SW_PARAM_REQUIRED | SW_PARAM_CHANGES,
      NULL, offsetof(moment_args, moment),
-     "the couple, fixed in world axes; it bends, it does not twist"},
+     "the couple, fixed in world axes; it bends the wire and does not twist it"},
 };
 
 /* An edge whose part across the axis is below this share of its length has no azimuth [-]. */

@@ -17,12 +17,12 @@ typedef struct plane_strain_args {
 
 static const sw_param rows[] = {
     {"direction", SW_PARAM_VECTOR, "-", 0, -HUGE_VAL, HUGE_VAL, SW_PARAM_REQUIRED, NULL,
-     offsetof(plane_strain_args, direction), "of the wire, along which nothing is to move"},
+     offsetof(plane_strain_args, direction), "direction of the wire, along which nothing may move"},
     {"at", SW_PARAM_VECTOR, "m", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL, offsetof(plane_strain_args, at),
-     "any point of the plane in which the wire starts (where it does now)"},
+     "any point of the plane in which the wire starts (default: its present start)"},
     {"stiffness", SW_PARAM_NUMBER, "N/m2", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
      offsetof(plane_strain_args, stiffness),
-     "against motion, per length of wire (10000 EA/radius^2 when not given)"},
+     "stiffness against motion, per length of wire (default: 10000 EA/radius^2)"},
 };
 
 static const double STIFF = 1e4; /* default, over a slice as thick as the wire's radius [-] */
@@ -69,8 +69,8 @@ static sw_status place(void *args, size_t n, const double *x, const double *s, s
   if (sw_finite(a->at)) return SW_OK;
   if (!n)
     return sw_fail(err, SW_EINVAL,
-                   "force plane_strain: at is required where it acts on several wires [m]: any "
-                   "point of the plane in which they start; or give on");
+                   "force plane_strain: at is required if it acts on several wires [m]: any point "
+                   "of the plane in which they start; or give on");
   sw_vec d = sw_unit_or(a->direction, sw_v(1, 0, 0));
   double mean = 0, mean_s = 0, along = 0, most = 0, first = s[0], last = s[0];
   for (size_t i = 0; i < n; i++) {
@@ -82,18 +82,18 @@ static sw_status place(void *args, size_t n, const double *x, const double *s, s
   for (size_t i = 0; i < n; i++) mean += (sw_dot(sw_vec_at(x, i), d) - s[i]) / (double)n;
   for (size_t i = 0; i < n; i++) most = fmax(most, fabs(sw_dot(sw_vec_at(x, i), d) - s[i] - mean));
   if (most > LARGEST_OFF * (last - first))
-    return sw_fail(err, SW_EINVAL,
-                   "force plane_strain: the wire does not lie along direction: it is up to %.3g m "
-                   "from where its arc length says; give the direction of the wire, or at [m] to "
-                   "pull it there",
-                   most);
+    return sw_fail(
+        err, SW_EINVAL,
+        "force plane_strain: the wire does not lie along direction: it is up to %.3g m away from "
+        "the place of its arc length; give the direction of the wire, or at [m] to pull it there",
+        most);
   a->direction = d, a->at = sw_scale(d, mean);
   return SW_OK;
 }
 
 const sw_force_class sw_force_plane_strain = {
     .name = "plane_strain",
-    .summary = "keeps nodes and particles where they are along the wire, free to move across",
+    .summary = "keeps nodes and particles in their place along the wire, free to move across it",
     .flags = SW_FORCE_ANY_BODY,
     .params = SW_PARAMS("force plane_strain", rows),
     .eval = eval,

@@ -34,7 +34,7 @@ SW_MEMORY_FORCE(law_of)
 
 const sw_force_class sw_force_plastic = {
     .name = "plastic",
-    .summary = "bending beyond a yield moment stays, with hardening",
+    .summary = "bending beyond a yield moment is permanent, with hardening",
     .flags = SW_FORCE_BY_ANGLE,
     .params = SW_PARAMS("force plastic", rows),
     .eval = eval,

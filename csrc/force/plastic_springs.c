@@ -28,7 +28,8 @@ static const sw_param rows[] = {
     {"yield", SW_PARAM_NUMBER, "-", NAN, 0, 1, SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN, NULL,
      offsetof(yield_args, yield), "strain of a spring beyond which it stays longer or shorter"},
     {"hardening", SW_PARAM_NUMBER, "-", 0, 0, 1e6, 0, NULL, offsetof(yield_args, hardening),
-     "force gained per plastic elongation, of the spring's stiffness; lost in the other direction"},
+     "yield force gained per plastic elongation, as a share of the spring's stiffness; lost in the "
+     "other direction"},
 };
 
 /* An excess over the limit below this share of it is rounding and counts as no yield: solves start

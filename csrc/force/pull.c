@@ -20,13 +20,13 @@ static const sw_param rows[] = {
     {"s", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, SW_PARAM_REQUIRED, NULL, offsetof(pull_args, s),
      "arc length of the pulled place"},
     {"to", SW_PARAM_VECTOR, "m", 0, -HUGE_VAL, HUGE_VAL, SW_PARAM_REQUIRED | SW_PARAM_CHANGES, NULL,
-     offsetof(pull_args, to), "the point that it is pulled to"},
+     offsetof(pull_args, to), "the point to which it is pulled"},
     {"force", SW_PARAM_NUMBER, "N", NAN, 0, HUGE_VAL,
      SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN | SW_PARAM_CHANGES, NULL, offsetof(pull_args, force),
-     "that it does not exceed"},
+     "largest force"},
     {"stiffness", SW_PARAM_NUMBER, "N/m", NAN, 0, HUGE_VAL,
      SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN | SW_PARAM_CHANGES, NULL,
-     offsetof(pull_args, stiffness), "of the spring, below that"},
+     offsetof(pull_args, stiffness), "stiffness of the spring, below the largest force"},
 };
 
 typedef struct pulled {
@@ -92,7 +92,7 @@ static double stable_dt(const void *args, const sw_plan *plan) {
 
 const sw_force_class sw_force_pull = {
     .name = "pull",
-    .summary = "a spring from one place to a point, of limited force, as of a hand",
+    .summary = "a spring of limited force from one place to a point, like a hand",
     .flags = SW_FORCE_AT_PLACE | SW_FORCE_ANY_BODY | SW_FORCE_ANY_SHAPE,
     .params = SW_PARAMS("force pull", rows),
     .eval = eval,

@@ -169,7 +169,7 @@ static double stable_dt(const void *args, const sw_plan *plan) {
 
 const sw_force_class sw_force_slide = {
     .name = "slide",
-    .summary = "parts of a composite press on each other and slide along the wire with friction",
+    .summary = "contact of the parts of a composite, which slide along the wire with friction",
     .loses = "friction",
     .flags = SW_FORCE_INNER | SW_FORCE_ANY_BODY,
     .params = {"force slide", NULL, 0},

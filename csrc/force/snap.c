@@ -19,7 +19,7 @@ typedef struct snap_args {
 static const sw_param rows[] = {
     SW_CLIP_ROWS,
     {"time", SW_PARAM_NUMBER, "s", 2e-3, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
-     offsetof(sw_clip_args, stiffness), "that the lips take to pull the wire in"},
+     offsetof(sw_clip_args, stiffness), "time that the lips take to pull the wire in"},
 };
 
 /* Returns the share of the dashpot that acts at height u: all of it below the middle of the flank
@@ -68,7 +68,7 @@ static sw_status check(const void *args, const sw_beam *beam, sw_error *err) {
 
 const sw_force_class sw_force_snap = {
     .name = "snap",
-    .summary = "what a clip's lips take out of a wire that snaps in; part of scene:clip",
+    .summary = "energy that a clip's lips take from a wire that snaps in; part of scene:clip",
     .flags = SW_FORCE_DISSIPATIVE | SW_FORCE_ANY_BODY | SW_FORCE_OF_AXIS | SW_FORCE_FROZEN,
     .params = SW_PARAMS("force snap", rows),
     .check = check,

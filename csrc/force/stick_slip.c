@@ -31,7 +31,7 @@ static sw_status check(const void *args, const sw_beam *beam, sw_error *err) {
   if (a->EI_stick > beam->EI) return SW_OK;
   return sw_fail(err, SW_EINVAL,
                  "force stick_slip: EI_stick = %g N m2 must be above the wire's EI = %g N m2, "
-                 "which is that of slipping strands",
+                 "which is the stiffness of slipping strands",
                  a->EI_stick, beam->EI);
 }
 
@@ -54,7 +54,7 @@ static double stable_dt(const void *args, const sw_plan *plan) {
 
 const sw_force_class sw_force_stick_slip = {
     .name = "stick_slip",
-    .summary = "friction between strands: stiff until they slip on one another",
+    .summary = "friction between strands: stiff until the strands slip",
     .params = SW_PARAMS("force stick_slip", rows),
     .eval = eval,
     .stable_dt = stable_dt,

@@ -16,7 +16,7 @@ static double stable_dt(const void *args, const sw_plan *plan) {
 
 const sw_force_class sw_force_stretch = {
     .name = "stretch",
-    .summary = "axial spring of each edge against elongation (rod: both ways)",
+    .summary = "axial spring of each edge against elongation (rod: also against shortening)",
     .flags = SW_FORCE_INNER,
     .params = {"force stretch", NULL, 0},
     .eval = eval,

@@ -36,7 +36,7 @@ static double viscosity(const void *args, const sw_plan *plan) {
 
 const sw_force_class sw_force_viscous_bend = {
     .name = "viscous_bend",
-    .summary = "bending moment in proportion to the rate of curvature",
+    .summary = "bending moment proportional to the rate of curvature",
     .flags = SW_FORCE_DISSIPATIVE | SW_FORCE_POWER,
     .params = SW_PARAMS("force viscous_bend", rows),
     .eval = eval,

@@ -27,19 +27,20 @@ typedef struct wind_args {
 #define AT(field) offsetof(wind_args, field)
 static const sw_param rows[] = {
     {"velocity", SW_PARAM_VECTOR, "m/s", 0, -1e3, 1e3, SW_PARAM_REQUIRED | SW_PARAM_CHANGES, NULL,
-     AT(velocity), "mean velocity of the wind, where it blows to"},
+     AT(velocity), "mean velocity of the wind, in the direction to which it blows"},
     {"gust", SW_PARAM_VECTOR, "m/s", 0, -1e3, 1e3, SW_PARAM_CHANGES, NULL, AT(gust),
-     "largest velocity of gusts, which come and go as a sine of time"},
+     "largest velocity of gusts, which vary with time as a sine"},
     {"frequency", SW_PARAM_NUMBER, "Hz", 1, 0, HUGE_VAL, SW_PARAM_CHANGES, NULL, AT(frequency),
      "frequency of gusts"},
     {"density", SW_PARAM_NUMBER, "kg/m3", 1.2, 0, HUGE_VAL, SW_PARAM_CHANGES, NULL, AT(density),
      "density of the fluid: air; water has 1000"},
     {"normal", SW_PARAM_NUMBER, "-", 1.2, 0, HUGE_VAL, SW_PARAM_CHANGES, NULL, AT(normal),
-     "drag coefficient across the wire, by its diameter; 1.2 is a smooth cylinder's"},
+     "drag coefficient across the wire, over its diameter; a smooth cylinder has 1.2"},
     {"tangential", SW_PARAM_NUMBER, "-", 0.02, 0, HUGE_VAL, SW_PARAM_CHANGES, NULL, AT(tangential),
-     "drag coefficient along the wire, by its surface; 0.02 is rough"},
+     "drag coefficient along the wire, over its surface; a rough wire has 0.02"},
     {"diameter", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN | SW_PARAM_CHANGES,
-     NULL, AT(diameter), "diameter in the wind where it is not the wire's, as of a cover"},
+     NULL, AT(diameter),
+     "diameter in the wind, if it differs from the wire's, such as that of a cover"},
 };
 #undef AT
 
@@ -112,7 +113,7 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
 
 const sw_force_class sw_force_wind = {
     .name = "wind",
-    .summary = "drag of air or liquid that streams past, across and along, with gusts",
+    .summary = "drag of flowing air or liquid, across and along the wire, with gusts",
     .flags = SW_FORCE_DRIVEN | SW_FORCE_ANY_BODY | SW_FORCE_OF_AXIS | SW_FORCE_FROZEN,
     .params = SW_PARAMS("force wind", rows),
     .eval = eval,

@@ -63,7 +63,7 @@ sw_status sw_scene_tool_pad(sw_scene *s, sw_handle tool, sw_handle obstacle, int
   sw_pose pose;
   if (!o) return SW_EDEAD;
   if (t->pads == SW_TOOL_PADS)
-    return sw_fail(err, SW_EINVAL, "gripper '%s': more than %d parts of pads", t->name,
+    return sw_fail(err, SW_EINVAL, "gripper '%s': its pads have more than %d parts", t->name,
                    SW_TOOL_PADS);
   SW_TRY(sw_drive_eval(s, &o->drive, sw_scene_time(s), &now, err));
   SW_TRY(local_pose(s, t, now.pose, &pose, err));

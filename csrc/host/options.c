@@ -13,13 +13,13 @@ static const char help_text[] =
     "  script       run this Lua file; '-' reads it from standard input\n"
     "  doc          show a topic of the manual, or all topics (./doc is a script of that name)\n"
     "  new          write a starting script name.lua\n"
-    "  lint         build the scenes of a script, run nothing, and warn of what is hardly meant\n"
-    "  --check      exit with what the script's checks of runs found (run:check), see below\n"
-    "  --log file   append to this file what is run, when, and how it ended\n"
+    "  lint         build the scenes of a script without running them; warn of likely mistakes\n"
+    "  --check      set the exit code by the script's checks of runs (run:check), see below\n"
+    "  --log file   append to this file each run, its time and how it ended\n"
     "  -e code      run this Lua code first (may be repeated)\n"
-    "  -i           go on at the prompt afterwards\n"
+    "  -i           continue at the prompt afterwards\n"
     "  --view       show the script's scenes in a browser while they run, until Ctrl-C;\n"
-    "               without a script: begin with nothing, and put a scene together there\n"
+    "               without a script: start with an empty scene and build it there\n"
     "  --functions  with --view: pages may type Lua functions, which can do whatever you can\n"
     "  -v           show the version (also --version)\n"
     "  -h           show this text (also --help)\n"
@@ -39,7 +39,7 @@ static int usage(const char *what, const char *word) {
       "[arguments]]; "
       "softworld "
       "doc [topic]; "
-      "softworld --help tells more\n",
+      "see softworld --help\n",
       stderr);
   return HOST_USAGE;
 }

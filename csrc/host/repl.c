@@ -21,7 +21,7 @@ static void require_module(lua_State *L, const char *name) {
   lua_pushstring(L, name);
   if (lua_pcall(L, 1, 1, 0) == LUA_OK) return;
   const char *text = luaL_tolstring(L, -1, NULL);
-  fprintf(stderr, "note: %s is not there: %.*s\n", name, (int)strcspn(text, "\n"), text);
+  fprintf(stderr, "note: %s cannot be loaded: %.*s\n", name, (int)strcspn(text, "\n"), text);
   lua_pop(L, 2);
   lua_pushnil(L);
 }
@@ -197,7 +197,8 @@ static void hint_about_locals(lua_State *L) {
   if (told || !isatty(STDIN_FILENO)) return;
   if (strncmp(line, "local ", 6) != 0 || strncmp(line, "local function", 14) == 0) return;
   told = 1;
-  fputs("note: a local ends with its line here; without 'local' it stays\n", stderr);
+  fputs("note: at the prompt a local ends with its line; leave out 'local' to keep the variable\n",
+        stderr);
 }
 
 /* Reads and runs one chunk; 0 at the end of input. */

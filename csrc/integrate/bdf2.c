@@ -5,7 +5,7 @@
 
 const sw_integrator sw_integrator_bdf2 = {
     .name = "bdf2",
-    .summary = "two-step backward differences: second order, one solve a step",
+    .summary = "two-step backward differences: second order, one solve per step",
     .order = 2,
     .flags = SW_INTEGRATOR_IMPLICIT | SW_INTEGRATOR_HISTORY,
     .stages = 1,

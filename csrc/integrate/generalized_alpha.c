@@ -24,7 +24,9 @@
 
 const sw_integrator sw_integrator_generalized_alpha = {
     .name = "generalized-alpha",
-    .summary = "second order, one solve a step, damps what is too fast by a fifth; not for contact",
+    .summary =
+        "second order, one solve per step, damps motion too fast for the step by a fifth; not for "
+        "contact",
     .order = 2,
     .flags = SW_INTEGRATOR_IMPLICIT | SW_INTEGRATOR_ONWARDS | SW_INTEGRATOR_NO_CONTACT,
     .stages = 1,

@@ -14,7 +14,7 @@
 
 const sw_integrator sw_integrator_sdirk2 = {
     .name = "sdirk2",
-    .summary = "two equal implicit stages: second order, L-stable, starts from rest or shocks",
+    .summary = "two equal implicit stages: second order, L-stable, also right after shocks",
     .order = 2,
     .flags = SW_INTEGRATOR_IMPLICIT | SW_INTEGRATOR_EMBEDDED,
     .stages = 2,

@@ -9,7 +9,8 @@ static const sw_param rows[] = {
     {"s", SW_PARAM_NUMBER, "m", 0, 0, HUGE_VAL, 0, NULL, offsetof(sw_hold_args, s),
      "arc length of the held point"},
     {"direction", SW_PARAM_VECTOR, "-", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL,
-     offsetof(sw_hold_args, direction), "held tangent (default: the wire's present one)"},
+     offsetof(sw_hold_args, direction),
+     "tangent that is held (default: the wire's present tangent)"},
     SW_NAME_ROW(sw_hold_args),
 };
 

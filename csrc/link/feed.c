@@ -21,14 +21,14 @@ static const sw_param rows[] = {
      "arc length at the guide: 0 or the wire's length with a spool behind it"},
     {"direction", SW_PARAM_VECTOR, "-", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL,
      offsetof(sw_hold_args, direction),
-     "where the guide points, the way of the wire that is paid out (default: the wire's own)"},
+     "direction of the wire that is paid out at the guide (default: the wire's own)"},
     {"speed", SW_PARAM_NUMBER, "m/s", NAN, -1e4, 1e4, 0, NULL, offsetof(sw_hold_args, speed),
-     "wire paid out per time, unstressed; negative draws it in (default 0, without force)"},
+     "unstressed wire paid out per time; below 0 draws it in (default 0, without force)"},
     {"force", SW_PARAM_NUMBER, "N", NAN, -1e9, 1e9, 0, NULL, offsetof(sw_hold_args, force),
-     "pushes the wire out with this force instead of a speed; negative: a pull against it"},
+     "pushes the wire out with this force instead of a speed; below 0: a pull inwards"},
     {"force_limit", SW_PARAM_NUMBER, "N", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
      offsetof(sw_hold_args, force_limit),
-     "the wire slips through where holding its speed would take more (default: never)"},
+     "the wire slips if its speed would need a larger force (default: never)"},
     SW_NAME_ROW(sw_hold_args),
 };
 
@@ -44,7 +44,7 @@ static int outward(const sw_mesh *m, double s) {
 
 static sw_status check(const sw_link_wire *w, sw_hold_args *a, sw_error *err) {
   if (isfinite(a->speed) && isfinite(a->force))
-    return sw_fail(err, SW_EINVAL, "feed: give speed or force, not both; the other one follows");
+    return sw_fail(err, SW_EINVAL, "feed: give speed or force, not both; the run finds the other");
   if (outward(w->mesh, a->s) < 0) a->direction = sw_neg(a->direction); /* it must point outwards */
   return SW_OK;
 }
@@ -319,8 +319,8 @@ static sw_status pay_out(sw_hold *h, const sw_link_wire *w, double length, sw_mo
   const double there = reserve(h, w->mesh, length);
   if (!(fabs(length) < there))
     return sw_fail(err, SW_EINVAL,
-                   "feed '%s': length = %g m is not allowed; %.6g m of wire '%s' are there",
-                   h->name, length, there, w->name);
+                   "feed '%s': length = %g m is not allowed; %.6g m of wire '%s' are left", h->name,
+                   length, there, w->name);
   stop(h, w->time);
   h->feed.motion = sw_motion_retain(motion), h->feed.start = w->time;
   return SW_OK;

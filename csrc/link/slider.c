@@ -9,17 +9,20 @@
 
 static const sw_param rows[] = {
     {"s", SW_PARAM_NUMBER, "m", 0, 0, HUGE_VAL, 0, NULL, offsetof(sw_hold_args, s),
-     "arc length of the place that slides"},
+     "arc length of the place of the wire that slides"},
     {"direction", SW_PARAM_VECTOR, "-", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL,
-     offsetof(sw_hold_args, line), "of a straight rail through where the wire is"},
+     offsetof(sw_hold_args, line),
+     "direction of a straight rail through the present place of the wire"},
     {"from", SW_PARAM_NUMBER, "m", -HUGE_VAL, -HUGE_VAL, 0, 0, NULL, offsetof(sw_hold_args, from),
-     "end of a straight rail against its direction, from where the wire is (default: none)"},
+     "start of a straight rail, measured along its direction from the present place (default: "
+     "none)"},
     {"to", SW_PARAM_NUMBER, "m", HUGE_VAL, 0, HUGE_VAL, 0, NULL, offsetof(sw_hold_args, to),
-     "its end along the direction (default: none)"},
+     "end of a straight rail, measured in the same way (default: none)"},
     {"path", SW_PARAM_OTHER, "m", 0, 0, 0, 0, NULL, 0,
-     "list of points {x, y, z} of a curved rail, a smooth curve through all; the wire is on it"},
+     "list of points {x, y, z} of a curved rail, a smooth curve through all of them; the wire must "
+     "be on it"},
     {"closed", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(sw_hold_args, closed),
-     "the path's last point is followed by the first; false: it stops at both ends"},
+     "true: the path closes from its last point to the first; false: the rail ends at both ends"},
     {"friction", SW_PARAM_NUMBER, "-", 0, 0, 100, SW_PARAM_CHANGES, NULL,
      offsetof(sw_hold_args, friction), "Coulomb coefficient along the rail"},
     SW_NAME_ROW(sw_hold_args),
@@ -49,10 +52,10 @@ static sw_status check(const sw_link_wire *w, sw_hold_args *a, sw_error *err) {
                    "slider: from and to go with direction; a path has its own ends");
   const sw_status status = sw_curve_spline(a->points, a->count, a->closed, &curve);
   if (status == SW_EINVAL)
-    return sw_fail(err, status,
-                   "slider: path has %zu points; it must have 3 at least, each away from the one "
-                   "before",
-                   a->count);
+    return sw_fail(
+        err, status,
+        "slider: path has %zu points; it must have at least 3, each away from the one before",
+        a->count);
   SW_TRY(status);
   const sw_mesh *m = w->mesh;
   const double edge = (m->s[m->n - 1] - m->s[0]) / (double)(m->n - 1);
@@ -61,8 +64,8 @@ static sw_status check(const sw_link_wire *w, sw_hold_args *a, sw_error *err) {
   sw_curve_release(curve);
   if (sw_dist(near.x, at) <= LARGEST_GAP * edge) return SW_OK;
   return sw_fail(err, SW_EINVAL,
-                 "slider: wire '%s' is %.4g m away from the path at s = %.6g m; it must be on it, "
-                 "within %.2g m",
+                 "slider: wire '%s' is %.4g m away from the path at s = %.6g m; it must be on the "
+                 "path, within %.2g m",
                  w->name, sw_dist(near.x, at), a->s - m->s[0], LARGEST_GAP * edge);
 }
 
@@ -173,7 +176,7 @@ static const sw_hold_acts acts = {.outputs = outputs,
 
 const sw_link_class sw_link_slider = {
     .name = "slider",
-    .summary = "keeps a place of the wire on a line or a curve, along which it slides",
+    .summary = "keeps a place of the wire on a line or a curve, along which that place slides",
     .params = SW_PARAMS("slider", rows),
     .hold = &acts,
 };

@@ -60,7 +60,7 @@ static const sw_joint_acts acts = {.apart = 1,
 
 const sw_link_class sw_link_tie = {
     .name = "tie",
-    .summary = "keeps places of two wires from going further apart than its slack",
+    .summary = "keeps the distance of places of two wires below its slack",
     .params = SW_PARAMS("tie", rows),
     .joint = &acts,
 };

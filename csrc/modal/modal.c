@@ -93,8 +93,8 @@ static sw_status choose_shift(job *p, size_t modes) {
   SW_TRY(count_below(p, -p->floor, p->other, &unstable));
   if (unstable > MOST_UNSTABLE)
     return sw_fail(p->err, SW_EDIVERGED,
-                   "frequencies: the state is unstable in %zu ways (slack, or pressed far beyond "
-                   "buckling); let it settle first",
+                   "frequencies: the state is unstable in %zu ways (slack, or compressed far "
+                   "beyond buckling); call scene:settle() before",
                    unstable);
   p->target = modes + unstable;
   if (p->target > p->free_unknowns) p->target = p->free_unknowns;
@@ -110,7 +110,7 @@ static sw_status choose_shift(job *p, size_t modes) {
     if (below == 0) return SW_OK;
     p->shift *= 4;
   } while (isfinite(p->shift));
-  return sw_fail(p->err, SW_EDIVERGED, "frequencies: there is no lowest one");
+  return sw_fail(p->err, SW_EDIVERGED, "frequencies: no lowest frequency was found");
 }
 
 /* --- Krylov space ------------------------------------------------------------- */
@@ -199,10 +199,10 @@ static sw_status compare(const job *p, const double *before, const double *after
   for (size_t i = 0; i < p->target && p->neutral < p->floor; i++) {
     const double d = after[i] - before[i];
     if (!(d * d / beyond <= fmax(ROUNDING * fabs(after[i]), least)))
-      return sw_fail(p->err, SW_EDIVERGED,
-                     "frequencies: rounding drowns the softest motions among %zu nodes; use fewer "
-                     "segments",
-                     p->system->bodies[p->body].plan->nodes);
+      return sw_fail(
+          p->err, SW_EDIVERGED,
+          "frequencies: rounding errors hide the softest modes among %zu nodes; use fewer segments",
+          p->system->bodies[p->body].plan->nodes);
   }
   return SW_OK;
 }
@@ -260,7 +260,8 @@ static sw_status polish(const job *p, sw_modes *out) {
   size_t q = 0;
   while (q < m && q < p->target + SPARE && p->residuals[m - 1 - q] <= NEARLY * p->values[m - 1 - q])
     q++;
-  if (q < p->target) return sw_fail(p->err, SW_ENOCONV, "frequencies: only %zu were found", q);
+  if (q < p->target)
+    return sw_fail(p->err, SW_ENOCONV, "frequencies: only %zu frequencies were found", q);
   double **x = sw_alloc(q, sizeof *x);
   double *dense = sw_alloc(3 * q * q + 2 * q, sizeof *dense);
   double *w = sw_alloc(2 * p->n, sizeof *w);

@@ -13,10 +13,10 @@ static sw_status check(const sw_motion_law *law, const sw_motion_plan *plan, con
   const int rests = law->profile->rests;
   const int limited = !isnan(plan->acceleration) || !isnan(plan->angular_acceleration);
   if (!rests && limited)
-    return sw_fail(err, SW_EINVAL,
-                   "%s: law 'linear' changes speed at once, so an acceleration cannot be kept; use "
-                   "'trapezoidal'",
-                   route->name);
+    return sw_fail(
+        err, SW_EINVAL,
+        "%s: law 'linear' jumps to its speed, so an acceleration cannot be kept; use 'trapezoidal'",
+        route->name);
   if (!rests && plan->stop > 0)
     return sw_fail(err, SW_EINVAL, "%s: law 'linear' never rests; use 'trapezoidal' to stop",
                    route->name);

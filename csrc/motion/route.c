@@ -88,10 +88,10 @@ static sw_status check_times(sw_route *route, size_t implied, sw_error *err) {
   for (size_t i = 1; route->timed && i < route->count; i++)
     if (!(route->t[i] > route->t[i - 1])) {
       if (implied && i == 1)
-        return sw_fail(err, SW_EINVAL,
-                       "%s: way-point 1 is not at displacement 0, so its time (%g s) must be "
-                       "above 0 s",
-                       route->name, route->t[1]);
+        return sw_fail(
+            err, SW_EINVAL,
+            "%s: way-point 1 is not at displacement 0, so its time (%g s) must be above 0 s",
+            route->name, route->t[1]);
       return sw_fail(err, SW_EINVAL,
                      "%s: times must increase, but way-point %zu has t = %.9g s after %.9g s",
                      route->name, i + 1 - implied, route->t[i], route->t[i - 1]);

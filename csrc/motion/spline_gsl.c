@@ -206,10 +206,10 @@ static sw_status keep_limits(spline *s, const sw_motion_plan *plan, const sw_rou
   for (size_t i = 0; i + 1 < s->count; i++) most = fmax(most, leg_excess(s, plan, &s->knots[i]));
   if (free) slow_down(s, most * (1 + 1e-12));
   if (!free && most > 1 + 1e-9)
-    return sw_fail(err, SW_EINVAL,
-                   "%s: the times are too short for the acceleration; they would have to be %.4g "
-                   "times as long",
-                   route->name, most);
+    return sw_fail(
+        err, SW_EINVAL,
+        "%s: the times are too short for the acceleration; they must be %.4g times as long",
+        route->name, most);
   return SW_OK;
 }
 

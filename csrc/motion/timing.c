@@ -8,13 +8,12 @@ static double most(double a, double b) { return a > b ? a : b; }
 static sw_status untimed_leg(const sw_route *route, size_t k, double speed, sw_error *err) {
   const int straight = route->legs[k].length > 0;
   const double much = straight ? route->legs[k].length : route->legs[k].angle;
-  return sw_fail(
-      err, SW_EINVAL,
-      "%s: between way-points %zu and %zu there is only a %s of %.4g %s; %s does not say "
-      "how long it takes: give %s, or a time to every way-point",
-      route->name, k + 1, k + 2, straight ? "move" : "turn", much, straight ? "m" : "rad",
-      isnan(speed) ? "angular_speed" : "speed or duration",
-      straight ? "speed [m/s]" : "angular_speed [rad/s]");
+  return sw_fail(err, SW_EINVAL,
+                 "%s: between way-points %zu and %zu there is only a %s of %.4g %s, and %s does "
+                 "not give its duration: give %s, or a time for every way-point",
+                 route->name, k + 1, k + 2, straight ? "move" : "turn", much,
+                 straight ? "m" : "rad", isnan(speed) ? "angular_speed" : "speed or duration",
+                 straight ? "speed [m/s]" : "angular_speed [rad/s]");
 }
 
 static sw_status by_speed(sw_route *route, double speed, double angular, sw_error *err) {
@@ -40,16 +39,15 @@ sw_status sw_route_time(const sw_motion_plan *plan, sw_route *route, sw_error *e
                    "%s: the way-points have times; leave out speed, angular_speed and duration",
                    route->name);
   if (speeds && lasts)
-    return sw_fail(err, SW_EINVAL,
-                   "%s: duration = %g s and a speed exclude each other; give one of them",
-                   route->name, plan->duration);
+    return sw_fail(err, SW_EINVAL, "%s: give duration = %g s or a speed, not both", route->name,
+                   plan->duration);
   for (size_t k = 0; route->timed && k + 1 < route->count; k++)
     route->legs[k].time = route->t[k + 1] - route->t[k];
   if (route->timed) return SW_OK;
   if (speeds) return by_speed(route, plan->speed, plan->angular_speed, err);
   if (lasts) return by_speed(route, route->length > 0 ? 1 : NAN, route->length > 0 ? NAN : 1, err);
   return sw_fail(err, SW_EINVAL,
-                 "%s: nothing says how fast; give speed [m/s], duration [s] or a time to every "
+                 "%s: the speed is not given; give speed [m/s], duration [s] or a time for every "
                  "way-point [s]",
                  route->name);
 }

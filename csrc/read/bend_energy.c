@@ -78,8 +78,8 @@ static sw_status read(sw_scene *s, sw_handle h, double place, double *out, sw_er
   }
   if (beam->EI_axis[0] != beam->EI_axis[1])
     return sw_fail(err, SW_EINVAL,
-                   "wire '%s': bend_energy is not known of meshes with two values of EI; it is of "
-                   "model = 'rod'",
+                   "wire '%s': bend_energy is not known for meshes with two values of EI; it is "
+                   "for model = 'rod'",
                    w->name);
   *out = of_mesh(b->plan, system->x + 3 * b->first_node, sw_system_elastic(system, b),
                  beam->EI_axis[0]);

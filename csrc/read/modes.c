@@ -18,12 +18,13 @@ static const sw_param rows[] = {
     {"modes", SW_PARAM_INTEGER, "-", 6, 1, 200, 0, NULL, offsetof(sw_modes_args, modes),
      "number of frequencies, from the lowest"},
     {"shapes", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(sw_modes_args, shapes),
-     "true adds the shapes: flat node displacements of unit modal mass"},
+     "true: add mode shapes, as flat node displacements of unit modal mass"},
     {"tolerance", SW_PARAM_NUMBER, "-", 1e-4, 0, 1e9, SW_PARAM_ABOVE_MIN, NULL,
      offsetof(sw_modes_args, tolerance),
-     "how far from rest the wire may be, as a share of its length"},
+     "allowed distance from rest, as a share of the wire's length"},
     {"alone", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(sw_modes_args, alone),
-     "true: wires that it is joined to stay where they are; together they swing more slowly"},
+     "true: frequencies of this wire alone, with the wires joined to it fixed; together they are "
+     "lower"},
 };
 const sw_params sw_modes_params = SW_PARAMS("wire:frequencies", rows);
 
@@ -73,7 +74,7 @@ static sw_status check_rest(sw_scene *s, size_t w, double tolerance, sw_error *e
     return sw_fail(err, SW_EINVAL, "wire '%s' moves at up to %.3g m/s; %s", name, speed, advice);
   if (!(away <= most))
     return sw_fail(err, SW_EINVAL,
-                   "wire '%s' is not at rest: what holds it has gone %.3g m away; %s", name, away,
+                   "wire '%s' is not at rest: a hold of it has moved %.3g m away; %s", name, away,
                    advice);
   SW_TRY(sw_modal_unrest(system, w, PATIENCE * tau, &drift, &axial, err));
   if (!(drift <= most))
@@ -82,7 +83,7 @@ static sw_status check_rest(sw_scene *s, size_t w, double tolerance, sw_error *e
                    drift, advice);
   if (!(axial <= FORCE_SHARE * tolerance))
     return sw_fail(err, SW_EINVAL,
-                   "wire '%s' is not at rest: its tension is still to change by %.3g of it; %s",
+                   "wire '%s' is not at rest: its tension will still change by a share of %.3g; %s",
                    name, axial, advice);
   return SW_OK;
 }
@@ -90,15 +91,15 @@ static sw_status check_rest(sw_scene *s, size_t w, double tolerance, sw_error *e
 static sw_status check_joins(const sw_scene *s, size_t w, int alone, sw_error *err) {
   SW_EACH(hold, h, s)
     if (h->alive && h->wire == w && h->cls->hold->rail)
-      return sw_fail(err, SW_EINVAL,
-                     "frequencies: wire '%s' slides along '%s'; only wires without rails are "
-                     "looked at",
-                     sw_scene_wire_in(s, w)->name, h->name);
+      return sw_fail(
+          err, SW_EINVAL,
+          "frequencies: wire '%s' slides along '%s'; frequencies are for wires without sliders",
+          sw_scene_wire_in(s, w)->name, h->name);
   const sw_joint *join = sw_scene_joined(s, w);
   if (!join || alone) return SW_OK; /* its own stiffness has what joins do to it, without bridges */
   return sw_fail(err, SW_EINVAL,
                  "frequencies: wire '%s' is joined to others by '%s' and moves with them; give "
-                 "alone = true for its own while they stay where they are",
+                 "alone = true for the frequencies of this wire with the others fixed",
                  sw_scene_wire_in(s, w)->name, join->name);
 }
 

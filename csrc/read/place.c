@@ -67,9 +67,10 @@ static sw_status spin(sw_scene *s, sw_handle h, double place, double *out, sw_er
 
 const sw_readout sw_readout_curvature = {"curvature", "1/m", "curvature of the wire at s", 1,
                                          curvature};
-const sw_readout sw_readout_tension = {"tension", "N", "axial force at s, above 0 where it pulls",
-                                       1, tension};
+const sw_readout sw_readout_tension = {"tension", "N", "axial force at s, above 0 for tension", 1,
+                                       tension};
 const sw_readout sw_readout_twist_moment = {
     "twist_moment", "N m", "moment about the wire's own axis at s", 1, twist_moment};
 const sw_readout sw_readout_spin = {
-    "spin", "rad/s", "speed of turning about its own axis at s, of wires that roll", 1, spin};
+    "spin", "rad/s", "angular velocity about the wire's own axis at s, of wires that roll", 1,
+    spin};

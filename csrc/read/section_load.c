@@ -19,8 +19,8 @@ static sw_status open_mesh(sw_scene *s, sw_handle h, const char *what, const sw_
   *body = &sw_scene_system(s)->bodies[h.slot];
   if (sw_scene_has_sections(wire)) return SW_OK;
   return sw_fail(err, SW_EINVAL,
-                 "wire:%s: wire '%s' is a %s, which has no surface of its own; it is known of "
-                 "meshes of particles (model = 'tube', 'radial', 'cubic', ...)",
+                 "wire:%s: wire '%s' is a %s, which has no surface of its own; this is for meshes "
+                 "of particles (model = 'tube', 'radial', 'cubic', ...)",
                  what, wire->name, wire->cls->name);
 }
 

@@ -31,7 +31,7 @@ static sw_status open_mesh(sw_scene *s, sw_handle h, const char *what, spot *out
   *out = (spot){.wire = wire, .web = b->plan->web, .x = sw_scene_system(s)->x + 3 * b->first_node};
   if (sw_scene_has_sections(wire)) return SW_OK;
   sw_fail(err, SW_EINVAL,
-          "wire:%s: wire '%s' is a %s, whose section does not change; it is known of meshes of "
+          "wire:%s: wire '%s' is a %s, whose section does not change; this is for meshes of "
           "particles (model = 'tube', 'radial', 'cubic', ...)",
           what, wire->name, wire->cls->name);
   return SW_EINVAL;

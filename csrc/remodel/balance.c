@@ -61,11 +61,10 @@ sw_status sw_frozen_balance(sw_scene *s, size_t wire, const double *rings, size_
   memcpy(system->v, v, n * sizeof *v);
   memcpy(system->a, a, n * sizeof *a);
   if (status == SW_ENOCONV)
-    sw_scene_tell(
-        s, "unbalanced", sw_scene_wire_in(s, wire)->name, NAN, NAN,
-        "the change between pads and a rigid grip leaves wire '%s' out of balance: forces "
-        "just after it may be too large",
-        sw_scene_wire_in(s, wire)->name);
+    sw_scene_tell(s, "unbalanced", sw_scene_wire_in(s, wire)->name, NAN, NAN,
+                  "the change between pads and a rigid grip leaves wire '%s' out of balance: "
+                  "forces just after the change may be too large",
+                  sw_scene_wire_in(s, wire)->name);
   return status == SW_ENOMEM || status == SW_ECALLBACK || status == SW_EINTR ? status : SW_OK;
 }
 

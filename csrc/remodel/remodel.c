@@ -23,13 +23,13 @@
 #include "scene/wire.h"
 
 static const sw_param rows[] = {
-    {"model", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0, "the model that the wire is to have"},
+    {"model", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0, "the new model of the wire"},
     {"segments", SW_PARAM_INTEGER, "-", 0, 0, 1e7, 0, NULL, offsetof(sw_wire_args, segments),
-     "number of segments, 2 or more (default 50; of a mesh slices, as many as their spacing "
+     "number of segments, 2 or more (default 50; of a mesh the number of slices, by their spacing "
      "gives)"},
     {"region", SW_PARAM_OTHER, "m", 0, 0, 0, 0, NULL, 0,
-     "{s1, s2}: only there, and beside clamps, the wire is the mesh; elsewhere a line of particles "
-     "of a rod's EA and EI, without twist (not given: all of it)"},
+     "{s1, s2}: the wire becomes a mesh only there and beside clamps; elsewhere it is a line of "
+     "particles with EA and EI, without twist (not given: all of the wire)"},
 };
 const sw_params sw_remodel_params = SW_PARAMS("remodel", rows);
 
@@ -84,8 +84,8 @@ static sw_status check(const sw_scene *s, size_t wire, const sw_wire_class *cls,
   as.cls = cls;
   if (w->mesh.rest)
     return sw_fail(err, SW_EINVAL,
-                   "remodel: wire '%s' is curved at rest, has two values of EI or rolls; only "
-                   "wires without frames are remodelled",
+                   "remodel: wire '%s' is curved at rest, has two values of EI or rolls; such "
+                   "wires cannot be remodelled",
                    w->name);
   if (w->drawing.rest == SW_REST_PATH)
     return sw_fail(err, SW_EINVAL, "remodel: wire '%s' is curved at rest", w->name);
@@ -143,8 +143,8 @@ static sw_status plan_region(sw_scene *s, sw_handle h, const sw_wire_args *args,
   SW_TRY(sw_scene_wire_length(s, h, &length, err));
   if (!plan->mesh)
     return sw_fail(err, SW_EINVAL,
-                   "remodel: region goes with a model that is a mesh, not with a "
-                   "line; without it the whole wire changes");
+                   "remodel: region goes with a model that is a mesh, not with a line; leave "
+                   "region out to change the whole wire");
   if (!(region[0] >= 0) || !(region[1] <= length * (1 + 1e-9)) || !(region[0] < region[1]))
     return sw_fail(err, SW_EINVAL,
                    "remodel: region = {%.6g, %.6g} m is not on wire '%s'; it must be two arc "
@@ -152,8 +152,8 @@ static sw_status plan_region(sw_scene *s, sw_handle h, const sw_wire_args *args,
                    region[0], region[1], w->name, length);
   if (w->beam.rest_twist != 0)
     return sw_fail(err, SW_EINVAL,
-                   "remodel: wire '%s' is twisted without load, which lines beside a region are "
-                   "not; leave region out",
+                   "remodel: wire '%s' is twisted without load, and the lines beside a region "
+                   "cannot be; leave region out",
                    w->name);
   SW_TRY(sw_strand_slices(plan, &w->beam, length, &slices, err));
   const double segments = args->segments ? (double)args->segments : USUAL_SEGMENTS;

@@ -41,11 +41,10 @@ static sw_status check_drive(const sw_scene *s, const sw_drive *d, const char *n
         "scene '%s' cannot be saved at t = %.6g s: '%s' follows a Lua function until t = "
         "%.6g s; save it after that, or give the trajectory as points",
         s->name, s->time, name, end);
-  return sw_fail(
-      err, SW_EINVAL,
-      "scene '%s' cannot be saved: '%s' follows a Lua function without an end; give it a "
-      "duration and save after that, or give the trajectory as points",
-      s->name, name);
+  return sw_fail(err, SW_EINVAL,
+                 "scene '%s' cannot be saved: '%s' follows a Lua function without an end; give the "
+                 "function a duration and save after that time, or give the trajectory as points",
+                 s->name, name);
 }
 
 /* Refuses forces and motions that are functions: they cannot leave the process. */
@@ -87,22 +86,23 @@ static void write_all(sw_tape *t, sw_scene *s, const void *note, size_t note_siz
 static sw_status check_head(const void *bytes, size_t size, sw_error *err) {
   head h;
   if (size < sizeof MAGIC || memcmp(bytes, MAGIC, sizeof MAGIC) != 0)
-    return sw_fail(err, SW_EFORMAT, "it is no scene that SoftWorld saved");
+    return sw_fail(err, SW_EFORMAT, "it is not a scene saved by SoftWorld");
   if (size < sizeof h) return sw_fail(err, SW_EFORMAT, "it is cut off after %zu bytes", size);
   memcpy(&h, bytes, sizeof h);
   if (h.order != ORDER)
-    return sw_fail(err, SW_EFORMAT, "it is of a machine with another order of bytes");
+    return sw_fail(err, SW_EFORMAT, "it was written on a machine with another byte order");
   if (h.version != VERSION)
-    return sw_fail(err, SW_EFORMAT,
-                   "it is of version %lu of the format; this SoftWorld reads %d; let the scene's "
-                   "script write it again, or read it with the SoftWorld that wrote it",
-                   (unsigned long)h.version, VERSION);
+    return sw_fail(
+        err, SW_EFORMAT,
+        "it has version %lu of the file format, and this SoftWorld reads version %d; write it "
+        "again with the scene's script, or read it with the SoftWorld that wrote it",
+        (unsigned long)h.version, VERSION);
   if (h.size > size)
     return sw_fail(err, SW_EFORMAT, "it is cut off: %zu of its %llu bytes are there", size,
                    (unsigned long long)h.size);
   if (h.size < size ||
       h.sum != sw_sum(SW_SUM_START, (const char *)bytes + sizeof h, size - sizeof h))
-    return sw_fail(err, SW_EFORMAT, "it is damaged: its checksum is not that of its content");
+    return sw_fail(err, SW_EFORMAT, "it is damaged: its checksum does not match its content");
   return SW_OK;
 }
 

@@ -24,7 +24,7 @@ static const sw_param scene_rows[] = {
     {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_scene_args, name),
      "name used in messages and files"},
     {"gravity", SW_PARAM_VECTOR, "m/s2", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL,
-     offsetof(sw_scene_args, gravity), "gravity (default {0, 0, -9.81})"},
+     offsetof(sw_scene_args, gravity), "acceleration of gravity (default {0, 0, -9.81})"},
 };
 const sw_params sw_scene_params = SW_PARAMS("scene", scene_rows);
 

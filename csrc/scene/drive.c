@@ -53,7 +53,7 @@ sw_status sw_drive_eval(sw_scene *s, const sw_drive *d, double t, sw_motion_stat
 
 static sw_status check_free(sw_scene *s, const sw_drive *d, const char *object, sw_error *err) {
   if (!d->tool) return SW_OK;
-  return sw_fail(err, SW_EINVAL, "'%s' goes with gripper '%s'; move that", object,
+  return sw_fail(err, SW_EINVAL, "'%s' moves with gripper '%s'; move the gripper", object,
                  sw_scene_tool_in(s, d->tool - 1)->name);
 }
 
@@ -80,8 +80,8 @@ sw_status sw_drive_follow(sw_scene *s, sw_drive *d, const char *object, sw_motio
     sw_drive_free(&next);
     if (status != SW_OK) return status;
     return sw_fail(err, SW_EINVAL,
-                   "%s: the trajectory starts at (%g, %g, %g) m, %.4g m and %.3g rad away from "
-                   "where it is; start it there or give relative = true",
+                   "%s: the trajectory starts at (%g, %g, %g) m, %.4g m and %.3g rad away from the "
+                   "present pose; start at that pose or give relative = true",
                    object, first.pose.p.x, first.pose.p.y, first.pose.p.z, jump, turn);
   }
   sw_drive_free(d);

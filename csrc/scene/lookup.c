@@ -24,8 +24,8 @@ double sw_scene_window(const sw_scene *s) { return s->course.window; }
 sw_status sw_scene_readable(const sw_scene *s, sw_error *err) {
   if (!s->diverged) return SW_OK;
   return sw_fail(err, SW_EDIVERGED,
-                 "scene '%s': the last run diverged (%.300s); its numbers mean nothing, restore a "
-                 "snapshot or build the scene anew",
+                 "scene '%s': the last run diverged (%.300s); its state is not valid; restore a "
+                 "snapshot or build the scene again",
                  s->name, s->why.text);
 }
 
@@ -43,11 +43,10 @@ sw_status sw_scene_still(const sw_scene *s, sw_error *err) {
 sw_status sw_scene_editable(const sw_scene *s, sw_error *err) {
   SW_TRY(sw_scene_still(s, err));
   if (s->looking)
-    return sw_fail(
-        err, SW_EBUSY,
-        "scene '%s' cannot be changed while an observer looks at it; hand the change in: "
-        "observer:change(function() ... end)",
-        s->name);
+    return sw_fail(err, SW_EBUSY,
+                   "scene '%s' cannot be changed inside an observer's function; use "
+                   "observer:change(function() ... end)",
+                   s->name);
   return SW_OK;
 }
 
@@ -65,7 +64,7 @@ sw_scene_wire *sw_scene_find_body(const sw_scene *s, sw_handle h, sw_error *err)
     sw_fail(err, SW_EDEAD, "'%s' was taken away from scene '%s' at t = %.6g s", name, s->name,
             time);
   else
-    sw_fail(err, SW_EDEAD, "this object is not of scene '%s' any more", s->name);
+    sw_fail(err, SW_EDEAD, "this object is no longer in scene '%s'", s->name);
   return NULL;
 }
 
@@ -78,7 +77,7 @@ sw_scene_wire *sw_scene_find_wire(const sw_scene *s, sw_handle h, sw_error *err)
 
 /* Returns NULL and sets err: there is no such object. */
 static void *missing(const sw_scene *s, const char *word, sw_error *err) {
-  sw_fail(err, SW_EDEAD, "this %s is not of scene '%s' any more", word, s->name);
+  sw_fail(err, SW_EDEAD, "this %s is no longer in scene '%s'", word, s->name);
   return NULL;
 }
 
@@ -153,11 +152,10 @@ sw_hold *sw_scene_living_hold(const sw_scene *s, sw_handle hold, sw_error *err) 
 sw_status sw_scene_check_line(const sw_scene_wire *w, const char *what, sw_error *err) {
   if (!w->cls->mesh) return SW_OK;
   if (sw_scene_is_loose(w))
-    return sw_fail(err, SW_EINVAL, "%s: '%s' is an object of particles; it goes with wires only",
+    return sw_fail(err, SW_EINVAL, "%s: '%s' is an object of particles; this goes with wires only",
                    what, w->name);
   return sw_fail(err, SW_EINVAL,
-                 "%s: wire '%s' is a %s, a mesh of particles; it goes with rods "
-                 "and strings only",
+                 "%s: wire '%s' is a %s, a mesh of particles; this goes with rods and strings only",
                  what, w->name, w->cls->name);
 }
 

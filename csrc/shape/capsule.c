@@ -109,18 +109,19 @@ static const sw_param rows[] = {
 static const sw_shape_wrong wrong[] = {{"radius = 1", "obstacle capsule: length is required [m]"},
                                        {NULL, NULL}};
 
-const sw_shape_class sw_shape_class_capsule = {.kind = "capsule",
-                                               .summary = "all within radius of a segment along z",
-                                               .sample = "radius = 0.2, length = 0.7",
-                                               .wrong = wrong,
+const sw_shape_class sw_shape_class_capsule = {
+    .kind = "capsule",
+    .summary = "rounded rod: all points within radius of a segment along z",
+    .sample = "radius = 0.2, length = 0.7",
+    .wrong = wrong,
 
-                                               .params = SW_PARAMS("obstacle capsule", rows),
-                                               .args_size = sizeof(capsule_args),
-                                               .size = sizeof(capsule),
-                                               .create = create,
-                                               .distance = distance,
-                                               .support = support,
-                                               .segment = segment,
-                                               .triangles = triangles,
-                                               .bones = bones,
-                                               .middle = middle};
+    .params = SW_PARAMS("obstacle capsule", rows),
+    .args_size = sizeof(capsule_args),
+    .size = sizeof(capsule),
+    .create = create,
+    .distance = distance,
+    .support = support,
+    .segment = segment,
+    .triangles = triangles,
+    .bones = bones,
+    .middle = middle};

@@ -114,7 +114,7 @@ static int sweep(const sw_shape *shape, const sw_sweep *path, sw_closest *out, d
 
 static const sw_param rows[] = {
     {"points", SW_PARAM_OTHER, "m", NAN, -SW_SHAPE_LARGEST, SW_SHAPE_LARGEST, SW_PARAM_REQUIRED,
-     NULL, 0, "places whose hull is the solid, at least four: {x, y, z, x, y, z, ...}"},
+     NULL, 0, "points whose convex hull is the solid, at least four: {x, y, z, x, y, z, ...}"},
 };
 
 static const sw_shape_wrong wrong[] = {

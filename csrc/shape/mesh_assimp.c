@@ -115,7 +115,8 @@ static sw_status copy(const char *object, const struct aiScene *scene, sw_mesh_d
   if (whole) return SW_OK;
   sw_free(out->vertices), sw_free(out->indices);
   *out = (sw_mesh_data){0};
-  return sw_fail(err, SW_EFORMAT, "%s: data has a face with a corner that is not there", object);
+  return sw_fail(err, SW_EFORMAT, "%s: data has a face whose corner is not among its points",
+                 object);
 }
 
 sw_status sw_mesh_read(const sw_mesh_file *from, sw_mesh_data *out, sw_error *err) {

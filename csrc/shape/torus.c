@@ -190,7 +190,7 @@ static const sw_shape_wrong wrong[] = {
 
 static const sw_param rows[] = {
     SW_LENGTH_ROW(torus_args, radius, "radius of the circle in the middle of the tube, around z"),
-    SW_LENGTH_ROW(torus_args, tube, "radius of the tube, less than that of the circle"),
+    SW_LENGTH_ROW(torus_args, tube, "radius of the tube, less than the circle's radius"),
 };
 
 const sw_shape_class sw_shape_class_torus = {.kind = "torus",

@@ -148,8 +148,8 @@ static sw_status check_counts(const char *object, size_t vertex_count, const int
                    (int)SW_TRIMESH_MOST);
   for (size_t i = 0; i < 3 * triangle_count; i++)
     if (indices[i] < 0 || (size_t)indices[i] >= vertex_count)
-      return sw_fail(err, SW_EFORMAT, "%s: triangle %zu names point %d of %zu", object, i / 3 + 1,
-                     indices[i] + 1, vertex_count);
+      return sw_fail(err, SW_EFORMAT, "%s: triangle %zu names point %d, and there are %zu points",
+                     object, i / 3 + 1, indices[i] + 1, vertex_count);
   return SW_OK;
 }
 

@@ -15,9 +15,9 @@
 
 /* Parameter rows that describe a tie. */
 #define SW_TIE_ROWS(args)                                                                      \
-  SW_NUMBER_ROW(args, slack, "m", 0, 0, HUGE_VAL, 0, "distance up to which it does not pull"), \
+  SW_NUMBER_ROW(args, slack, "m", 0, 0, HUGE_VAL, 0, "distance below which it does not pull"), \
       SW_NUMBER_ROW(args, stiffness, "N/m", SW_TIE_STIFFNESS, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, \
-                    "when it is taut"),                                                        \
+                    "stiffness of the taut tie"),                                              \
       SW_NUMBER_ROW(args, strength, "N", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN,                 \
                     "pull at which it breaks (default: never)")
 

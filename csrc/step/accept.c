@@ -46,8 +46,8 @@ static sw_status count_small(sw_ladder *p, double h, double whole, sw_error *err
   if (share >= (adaptive ? SMALL_ADAPTIVE : SMALL)) return SW_OK;
   return sw_fail(
       err, SW_ELIMIT,
-      "steps have collapsed: the last %zu were about %.2g s, of %.3g s asked for%s%.200s", most,
-      share * whole, whole, p->held.text[0] ? "; larger ones fail, for " : "", p->held.text);
+      "steps have collapsed: the last %zu were about %.2g s long, and dt is %.3g s%s%.200s", most,
+      share * whole, whole, p->held.text[0] ? "; larger steps fail: " : "", p->held.text);
 }
 
 sw_status sw_step_observe(sw_scene *s, sw_error *err) {

@@ -76,7 +76,7 @@ sw_status sw_step_adaptive(sw_ladder *p, double left, double t1, sw_error *err) 
       const double before = sw_scene_time(s);
       sw_ladder_accept(p, h, last ? t1 : before + h);
       if (!(sw_scene_time(s) > before))
-        return sw_fail(err, SW_ENOCONV, "steps of %g s are no time", h);
+        return sw_fail(err, SW_ENOCONV, "a step of %g s is too short to advance the time", h);
       course->next_dt = uncut > 0 ? uncut : last && next > h ? fmax(next, course->next_dt) : next;
       return sw_ladder_record(p, h, err);
     }

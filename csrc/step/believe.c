@@ -39,9 +39,9 @@ static sw_status fail_at(const sw_scene *s, size_t b, size_t node, const char *w
   const sw_body *body = &sw_scene_system(s)->bodies[b];
   const char *name = sw_scene_wire_in(s, b)->name;
   if (sw_scene_is_loose(sw_scene_wire_in(s, b)))
-    return sw_fail(err, SW_EDIVERGED, "%s of particle %zu of '%s' is no finite number", what,
+    return sw_fail(err, SW_EDIVERGED, "%s of particle %zu of '%s' is not a finite number", what,
                    node + 1, name);
-  return sw_fail(err, SW_EDIVERGED, "%s of wire '%s' near s = %.4g m is no finite number", what,
+  return sw_fail(err, SW_EDIVERGED, "%s of wire '%s' near s = %.4g m is not a finite number", what,
                  name, body->plan->s[node] - body->plan->s[0]);
 }
 
@@ -55,7 +55,7 @@ static sw_status find_infinite(const sw_scene *s, const double *x, const char *w
       if (!isfinite(sw_norm2(sw_vec_at(x, body->first_node + i))))
         return fail_at(s, b, i, what, err);
   }
-  return sw_fail(err, SW_EDIVERGED, "%s of a wire about itself is no finite number", what);
+  return sw_fail(err, SW_EDIVERGED, "%s of a wire about its axis is not a finite number", what);
 }
 
 static sw_status check_finite(const sw_scene *s, const double *values, const char *what,
@@ -179,7 +179,8 @@ void sw_scene_remark_contact(sw_scene *s) {
   if (!sw_scene_touches(s)) return;
   for (size_t k = 0; (e = sw_scene_event(s, k)) != NULL; k++)
     if (strcmp(e->kind, "integrator") == 0) return;
-  sw_scene_tell(s, "integrator", sw_scene_course(s)->method->name, NAN, NAN,
-                "integrator '%s' gains energy where wires touch something; take 'tr-bdf2' there",
-                sw_scene_course(s)->method->name);
+  sw_scene_tell(
+      s, "integrator", sw_scene_course(s)->method->name, NAN, NAN,
+      "integrator '%s' gains energy in contacts of wires; use integrator = 'tr-bdf2' for contact",
+      sw_scene_course(s)->method->name);
 }

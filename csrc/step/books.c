@@ -259,10 +259,11 @@ static void tell_unknown(sw_scene *s) {
   const sw_ledger *l = &sw_scene_books(s)->sums;
   const double share = l->play > 0 ? l->gap / l->play : 0.0;
   if (!(share > UNKNOWN)) return;
-  sw_scene_tell(s, "energy", "", NAN, share,
-                "%.3g J come from nowhere, %.2g %% of what was in play: work of holds is not known "
-                "that well, nor are their forces and moments; smaller steps know more",
-                l->gap, 100.0 * share);
+  sw_scene_tell(
+      s, "energy", "", NAN, share,
+      "%.3g J come from nowhere, %.2g %% of the energy in play: the work of holds, their forces "
+      "and moments are not more exact than that; smaller steps make them more exact",
+      l->gap, 100.0 * share);
 }
 
 /* Returns advice for another method. With stages of first order (sdirk2) turning wires have up to
@@ -280,7 +281,8 @@ sw_status sw_scene_end_run(sw_scene *s, sw_error *why) {
   const sw_ledger *l = &sw_scene_books(s)->sums;
   const double share = l->play > 0 ? l->gained / l->play : 0.0;
   sw_scene_end_breaking(s);
-  tell_retries(s, "accepted although they made energy, because smaller ones did too", &l->accepted);
+  tell_retries(s, "accepted although they made energy, because smaller steps made energy too",
+               &l->accepted);
   if (l->redone.count > FEW && (double)l->redone.count > 0.01 * (double)l->steps)
     tell_retries(s, "redone, more than 1 % of all, because they made energy", &l->redone);
   if (!(share > REMARK)) {
@@ -289,8 +291,8 @@ sw_status sw_scene_end_run(sw_scene *s, sw_error *why) {
   }
   if (!(share > FAILURE)) {
     sw_scene_tell(s, "energy", "", NAN, share,
-                  "steps made %.3g J from nowhere, %.2g %% of what was in play; smaller steps show "
-                  "what that changes",
+                  "steps made %.3g J from nowhere, %.2g %% of the energy in play; run again with "
+                  "smaller steps to see how much results change",
                   l->gained, 100.0 * share);
     return SW_OK;
   }

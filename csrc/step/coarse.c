@@ -140,22 +140,22 @@ static const double TOLD = 8.0;
 static void tell(sw_scene *s, double h, double over, const char *of) {
   if (!(over > TOLD)) return;
   sw_scene_tell(s, "coarse", "", NAN, over,
-                "a step of %.3g ms is too long for %s: peaks may be wrong; compare them with those "
-                "of dt = %.2g s",
+                "a step of %.3g ms is too long for %s: peaks may be wrong; run again with dt = "
+                "%.2g s and compare the peaks",
                 1e3 * h, of, h * exp2(-ceil(log2(over) / power_of(s))));
 }
 
 void sw_coarse_tell(sw_scene *s, double h) {
   char of[96];
   if (sw_coarse_is_bundle(s)) {
-    snprintf(of, sizeof of, "%d wires and more that touch each other", MOST_NEAR + 1);
+    snprintf(of, sizeof of, "a bundle of %d or more wires that touch", MOST_NEAR + 1);
     tell(s, h, over_of(s, HUGE_VAL), of);
   } else if (sw_scene_wire_slots(s) > MOST_WIRES) {
-    snprintf(of, sizeof of, "how a wire moves (with more than %d none is taken in parts)",
+    snprintf(of, sizeof of, "the motion of a wire (steps are not divided with more than %d wires)",
              MOST_WIRES);
     tell(s, h, over_of(s, HUGE_VAL), of);
   } else {
-    snprintf(of, sizeof of, "how a wire moves (by %s none is taken in parts)",
+    snprintf(of, sizeof of, "the motion of a wire (the integrator %s does not divide steps)",
              sw_scene_course(s)->stepper.method->name);
     tell(s, h, defect_of(s), of);
   }

@@ -74,7 +74,7 @@ sw_status sw_rung_strike(sw_ladder *p, const sw_rung *below, double h, sw_error 
       break;
     }
     if (verdict == SW_CONTACT_SMALLER)
-      status = sw_fail(err, SW_ENOCONV, "what the wire touches cuts too deep into it");
+      status = sw_fail(err, SW_ENOCONV, "an obstacle cuts too deep into the wire");
     sw_restart_struck(s, verdict == SW_CONTACT_STRIKE);
   }
   memcpy(system->v, p->v_start, system->freedoms * sizeof(double));

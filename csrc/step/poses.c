@@ -28,7 +28,7 @@ static sw_status pose_steps(sw_ladder *p, double t, sw_error *err) {
     SW_TRY(sw_ladder_make_room(p, &h, err));
     const double part = h < (t - sw_scene_time(s)) * (1 - 1e-9) ? sw_scene_time(s) + h : t;
     if (!(part > sw_scene_time(s)))
-      return sw_fail(err, SW_ENOCONV, "wire is fed too fast to follow it");
+      return sw_fail(err, SW_ENOCONV, "a wire is fed too fast for the steps");
     SW_TRY(sw_ledger_open(s, err));
     const sw_pose_args how = {p->interrupted, SW_SHORTEST_BREAK * p->args->dt,
                               SHORTEST_PASSING * p->args->dt};
@@ -52,7 +52,8 @@ sw_status sw_step_poses(sw_ladder *p, double t1, sw_error *err) {
   SW_TRY(sw_system_place_holds(system, t1, NULL, NULL, NULL, err));
   const double turn = system->fastest_turn * (t1 - t0);
   if (turn > MOST_TURN_PARTS * SW_WIDEST_TURN)
-    return sw_fail(err, SW_EDIVERGED, "what holds a wire turns by %g rad between two poses", turn);
+    return sw_fail(err, SW_EDIVERGED,
+                   "a hold of a wire turns by %g rad between two poses; they must be closer", turn);
   const int parts = 1 + (int)(turn / SW_WIDEST_TURN);
   for (int part = 1; part <= parts; part++)
     SW_TRY(pose_steps(p, part < parts ? t0 + (t1 - t0) * part / parts : t1, err));

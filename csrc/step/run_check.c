@@ -21,42 +21,44 @@ static const char *const *integrator_names(void) {
 
 static sw_param run_rows[] = {
     {"duration", SW_PARAM_NUMBER, "s", NAN, 0, 1e9, 0, NULL, offsetof(sw_run_args, duration),
-     "simulated time; without it until the processes end"},
+     "simulated time; without it the run lasts until the processes end"},
     {"dt", SW_PARAM_NUMBER, "s", 0.01, 0, 1e3, SW_PARAM_ABOVE_MIN, NULL, offsetof(sw_run_args, dt),
-     "time step; with tolerance the largest one"},
+     "time step; with tolerance the largest time step"},
     {"tolerance", SW_PARAM_NUMBER, "m", NAN, 0, 1e3, SW_PARAM_ABOVE_MIN, NULL,
      offsetof(sw_run_args, tolerance),
-     "error allowed in one step; controls the step size (or quantities, see help 'tolerance')"},
+     "allowed error of one step, which sets the step size (or quantities, see help 'tolerance')"},
     {"integrator", SW_PARAM_CHOICE, "-", 0, 0, 0, 0, NULL, offsetof(sw_run_args, integrator),
      "time integration method"},
     {"frame", SW_PARAM_NUMBER, "s", NAN, 0, 1e9, SW_PARAM_ABOVE_MIN, NULL,
      offsetof(sw_run_args, frame), "time between stored frames (default 1/30 s)"},
     {"frames", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
-     "{ memory = [B] } that they may take (default 256e6), when full every second one goes; false: "
-     "none"},
+     "{ memory = [B] } that frames may take (default 256e6); when it is full, every second frame "
+     "is dropped; false: none"},
     {"parts", SW_PARAM_BOOLEAN, "-", 1, 0, 1, 0, NULL, offsetof(sw_run_args, parts),
-     "false: steps are not taken in parts where wires move too fast for dt, as error bars have it; "
+     "false: steps are not divided where wires move too fast for dt, as in runs for error bars; "
      "see help 'peaks'"},
     {"quasistatic", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(sw_run_args, quasistatic),
-     "true: equilibrium at every step instead of motion; dt is then the pose step, less where "
-     "pads hold a wire"},
+     "true: equilibrium at every step instead of motion; dt is then the time between poses, less "
+     "where pads hold a wire"},
     {"window", SW_PARAM_NUMBER, "s", SW_WINDOW, 0, 1e9, 0, NULL, offsetof(sw_run_args, window),
-     "largest forces and tensions are of means over this time; 0: of single steps; see help "
+     "peaks of forces and tensions are those of means over this time; 0: of single steps; see help "
      "'peaks'"},
     {"max_steps", SW_PARAM_INTEGER, "-", 1e15, 1, 1e15, 0, NULL, offsetof(sw_run_args, max_steps),
-     "stop after so many steps; one that had to be divided is finished first, and its parts count"},
+     "largest number of steps, parts of divided steps included; a divided step is finished before "
+     "the stop"},
     {"unstable", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(sw_run_args, unstable),
-     "true lets an explicit integrator take steps above its stable one"},
+     "true: allow an explicit integrator steps above its stability limit"},
     {"wear", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(sw_run_args, wear),
-     "true: wear is recorded in all steps, for run:check of fatigue and abrasion"},
+     "true: record wear in all steps, for run:check of fatigue and abrasion"},
     {"check", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
-     "arguments of run:check; error bars decide its rows, see help 'check'"},
+     "arguments of run:check; the run is refined until error bars decide its rows, see help "
+     "'check'"},
     {"progress", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
-     "true shows a progress bar (default: when on a terminal and longer than a second)"},
+     "true: show a progress bar (default: on a terminal, if the run takes longer than a second)"},
     {"save", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
-     "file to which the scene is written after every step of its processes; see help 'save'"},
+     "file to which the scene is written after every step of a process, see help 'save'"},
     {"resume", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
-     "file from which the scene goes on, if it is there; see help 'save'"},
+     "file from which the run goes on, if the file exists, see help 'save'"},
 };
 const sw_params sw_run_params = SW_PARAMS("scene:run", run_rows);
 
@@ -76,8 +78,8 @@ static sw_status check_rails(const sw_scene *s, const sw_integrator *m, sw_error
     const int jumps = rail.friction > 0 || isfinite(rail.to - rail.from);
     if (!(m->flags & SW_INTEGRATOR_IMPLICIT) || (jumps && m->flags & SW_INTEGRATOR_NO_CONTACT))
       return sw_fail(err, SW_EINVAL,
-                     "scene:run: integrator '%s' is %s; %s '%s' needs another one, as tr-bdf2",
-                     m->name, jumps ? "not meant for what sticks or stops" : "explicit",
+                     "scene:run: integrator '%s' is %s; %s '%s' needs another one, such as tr-bdf2",
+                     m->name, jumps ? "not suitable for sticking or stops" : "explicit",
                      h->cls->name, h->name);
   }
   return SW_OK;
@@ -109,8 +111,8 @@ sw_status sw_run_check(const sw_scene *s, const sw_run_args *args, sw_error *err
         "quasi-static run");
   if (args->quasistatic && isfinite(args->tolerance))
     return sw_fail(err, SW_EINVAL,
-                   "scene:run: tolerance controls the time step of motion; a quasi-static run "
-                   "takes dt, the time between two poses");
+                   "scene:run: tolerance controls the time step of motion; give a quasi-static run "
+                   "dt, the time between two poses");
   if (isfinite(args->tolerance) && !(m->flags & SW_INTEGRATOR_EMBEDDED))
     return sw_fail(err, SW_EINVAL,
                    "scene:run: integrator '%s' has no error estimate; give dt instead of "
@@ -130,7 +132,7 @@ sw_status sw_run_check_clock(const sw_scene *s, const sw_run_args *args, double 
   if (args->dt >= least || !(span > 0)) return SW_OK;
   return sw_fail(err, SW_EINVAL,
                  "scene:run: dt = %g s is too short for t = %.6g to %.6g s; it must be at least "
-                 "%.2g s, or the clock would not advance by it or never arrive",
+                 "%.2g s, or the clock would not advance or never reach the end",
                  args->dt, sw_scene_time(s), until, least);
 }
 
@@ -141,10 +143,9 @@ sw_status sw_scene_check_step(const sw_scene *s, const sw_run_args *args, double
   const double most = 0.5 * m->leapfrog_limit * sw_system_stable_dt(sw_scene_system(s));
   const double h = fmin(args->dt, until - sw_scene_time(s));
   if (!(h > most * (1.0 + 1e-9))) return SW_OK;
-  return sw_fail(
-      err, SW_EINVAL,
-      "scene:run: dt = %.3g s is above %.3g s, up to which integrator '%s' is stable here "
-      "(%.3g times scene:stable_dt()); give a smaller dt [s], an implicit integrator, or "
-      "unstable = true to try it all the same",
-      h, most, m->name, 0.5 * m->leapfrog_limit);
+  return sw_fail(err, SW_EINVAL,
+                 "scene:run: dt = %.3g s is above %.3g s, up to which integrator '%s' is stable "
+                 "here (%.3g times scene:stable_dt()); give a smaller dt [s], an implicit "
+                 "integrator, or unstable = true to try this dt",
+                 h, most, m->name, 0.5 * m->leapfrog_limit);
 }

@@ -21,7 +21,7 @@ sw_status sw_rung_solve(sw_ladder *p, const sw_rung *below, double h, sw_error *
   }
   if (status == SW_OK) status = sw_scene_check_trial(s, err);
   if (status == SW_OK && system->fastest_turn * h > SW_WIDEST_TURN)
-    status = sw_fail(err, SW_ENOCONV, "what holds a wire turns too far in one step");
+    status = sw_fail(err, SW_ENOCONV, "a hold of a wire turns too far in one step");
   if (status == SW_OK && sw_scene_join_slots(s) + sw_scene_force_slots(s) > 0 &&
       h > SW_SHORTEST_BREAK * p->args->dt)
     status = sw_scene_check_ties(s, course->stepper.trial_x, err);

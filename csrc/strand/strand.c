@@ -122,7 +122,7 @@ sw_status sw_strand_slices(const sw_strand_plan *p, const sw_beam *beam, double 
   }
   const double count = ceil(length / spacing - 1e-6);
   if (!(count < 1e7))
-    return sw_fail(err, SW_EINVAL, "wire '%s': slices of %g m are too many", p->name, spacing);
+    return sw_fail(err, SW_EINVAL, "wire '%s': slices every %g m are too many", p->name, spacing);
   *out = (size_t)fmax(2.0, count);
   return SW_OK;
 }

@@ -293,14 +293,14 @@ static sw_status iterate(sw_system *s, const sw_stage *stage, const sw_newton *n
     SW_TRY(solve_once(s, stage, newton, report, err));
     const double share = share_of(s, newton, report);
     if (share < 0) return sw_fail(err, SW_EDIVERGED, "the positions left the finite numbers");
-    if (share == 0) return sw_fail(err, SW_ENOCONV, "nothing holds a wire where it is");
+    if (share == 0) return sw_fail(err, SW_ENOCONV, "nothing holds a wire in its place");
     far += share < report->share;
     if (sw_lead_fails(s, newton, far, shortened))
       return sw_fail(err, SW_ENOCONV, "wires would go too far in %d iterations", i);
     if (sw_lead_waits(s, newton, stage->y, share, &waits)) continue;
     shortened += share < report->share;
     if (is_thrown(s, newton, shortened))
-      return sw_fail(err, SW_ENOCONV, "wires of a bundle would be thrown about");
+      return sw_fail(err, SW_ENOCONV, "wires of a bundle would be thrown apart");
     apply(s, stage, share);
     if (share < 1.0) continue;
     if (sw_stage_converged(s, stage, newton, report, mass_rate(stage))) return SW_OK;

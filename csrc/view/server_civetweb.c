@@ -39,11 +39,11 @@ static sw_status find_port(int *port, sw_error *err) {
   if (fine) *port = ntohs(at.sin_port);
   if (fine) return SW_OK;
   if (why == EADDRINUSE)
-    return sw_fail(err, SW_EINVAL,
-                   "port %d is taken by another program; give another one, or port = 0 for any "
-                   "that is free",
-                   *port);
-  return sw_fail(err, SW_EINVAL, "port %d cannot be listened on: %s", *port, strerror(why));
+    return sw_fail(
+        err, SW_EINVAL,
+        "port %d is used by another program; give another port, or port = 0 for any that is free",
+        *port);
+  return sw_fail(err, SW_EINVAL, "cannot listen on port %d: %s", *port, strerror(why));
 }
 
 static sw_status draw_token(sw_server *s, sw_error *err) {

@@ -25,7 +25,7 @@ static void tell(sw_scene *s, const sw_scene_wire *w, double s_from_start, doubl
   sw_events_go_on(sw_scene_events_of(s), "breaking", w->name, sw_scene_time(s));
   sw_scene_tell(s, "breaking", w->name, s_from_start, pull,
                 "wire '%s' is pulled by %.4g %s near s = %.4g m, more than its breaking load of "
-                "%.4g %s (%s); it is simulated on as if it held",
+                "%.4g %s (%s); the simulation goes on as if the wire held",
                 w->name, F.value, F.unit, s_from_start, most.value, most.unit,
                 sw_breaking_flags[w->drawing.breaking_flag]);
 }

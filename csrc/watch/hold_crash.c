@@ -103,9 +103,10 @@ static void watch_force(sw_scene *s, const sw_hold *h, double arc) {
   const double force = sw_norm(h->force);
   const double most = fmin(b->EA, STRONGEST * M_PI * b->radius * b->radius);
   if (!(most > 0) || force <= most) return;
-  sw_scene_tell(s, "overload", h->name, arc, force,
-                "%s '%s' drives wire '%s' with %.4g N, more than any wire like it bears (%.3g N)",
-                h->cls->name, h->name, sw_scene_wire_in(s, h->wire)->name, force, most);
+  sw_scene_tell(
+      s, "overload", h->name, arc, force,
+      "%s '%s' loads wire '%s' with %.4g N; no wire of this radius and EA bears more than %.3g N",
+      h->cls->name, h->name, sw_scene_wire_in(s, h->wire)->name, force, most);
 }
 
 sw_status sw_hold_look_out(sw_scene *s, sw_hold *h, sw_error *err) {
@@ -123,7 +124,7 @@ sw_status sw_hold_look_out(sw_scene *s, sw_hold *h, sw_error *err) {
   h->watch.crashing = crashing;
   if (!crashing) return SW_OK;
   sw_scene_tell(s, "crash", h->name, arc, now.depth,
-                "%s '%s' drives wire '%s' %.3g mm deep into '%s', which nothing stops",
+                "%s '%s' pushes wire '%s' %.3g mm deep into '%s'; no force can stop that",
                 h->cls->name, h->name, sw_scene_wire_in(s, h->wire)->name, 1e3 * now.depth,
                 sw_scene_obstacle_in(s, now.obstacle)->name);
   return SW_OK;

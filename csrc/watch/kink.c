@@ -47,12 +47,11 @@ static void watch_walls(sw_scene *s, size_t wire, const sw_wire_extremes *now) {
   sw_event *known = sw_events_go_on(sw_scene_events_of(s), "walls", w->name, sw_scene_time(s));
   if (known) known->count++;
   if (known) return;
-  sw_scene_tell(
-      s, "walls", w->name, at - w->mesh.s[0], apart,
-      "tube '%s' is flat at s = %.4g m: the middles of opposite walls are %.3g m apart, "
-      "which are %.3g m thick; they do not touch each other, so that it is too soft there "
-      "from now on",
-      w->name, at - w->mesh.s[0], apart, wall);
+  sw_scene_tell(s, "walls", w->name, at - w->mesh.s[0], apart,
+                "tube '%s' is flat at s = %.4g m: the middles of opposite walls are %.3g m apart, "
+                "the walls %.3g m thick; in the model walls do not touch each other, so it is too "
+                "soft there from now on",
+                w->name, at - w->mesh.s[0], apart, wall);
 }
 
 void sw_scene_watch_kink(sw_scene *s, size_t wire, const sw_wire_extremes *now) {
@@ -72,8 +71,8 @@ void sw_scene_watch_kink(sw_scene *s, size_t wire, const sw_wire_extremes *now) 
   if (known) known->count++;
   if (known) return;
   sw_scene_tell(s, "kink", w->name, now->curvature.s - w->mesh.s[0], now->curvature.value,
-                "tube '%s' kinks at s = %.4g m: it is bent by %.3g 1/m and bears %.3g N m there; "
-                "its wall buckles at about %.3g 1/m and %.3g N m",
+                "tube '%s' kinks at s = %.4g m: its curvature there is %.3g 1/m and its moment "
+                "%.3g N m; its wall buckles at about %.3g 1/m and %.3g N m",
                 w->name, now->curvature.s - w->mesh.s[0], now->curvature.value, moment,
                 BUCKLES * unit, most);
 }

@@ -37,10 +37,11 @@ static void tell(sw_scene *s, size_t wire, const sw_contact_push *a, const sw_co
   const sw_scene_obstacle *one = sw_scene_obstacle_in(s, a->obstacle),
                           *two = sw_scene_obstacle_in(s, b->obstacle);
   const double place = 0.5 * (a->place + b->place) - w->mesh.s[0];
-  sw_scene_tell(s, "crash", w->name, place, by,
-                "obstacles '%s' and '%s' squeeze wire '%s' by %.3g mm; its section does not give "
-                "way, so the force depends on the step: take pads of a gripper, or a mesh",
-                one->name, two->name, w->name, 1e3 * by);
+  sw_scene_tell(
+      s, "crash", w->name, place, by,
+      "obstacles '%s' and '%s' squeeze wire '%s' by %.3g mm; its section is rigid, so the force "
+      "depends on the time step: use a gripper's pads, or a mesh as the wire's model",
+      one->name, two->name, w->name, 1e3 * by);
 }
 
 void sw_scene_watch_squeezed(sw_scene *s, size_t wire) {

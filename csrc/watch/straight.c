@@ -130,17 +130,16 @@ static sw_status look_at(sw_scene *s, size_t w, double push, size_t edge, sw_vec
   const char *name = sw_scene_wire_in(s, w)->name;
   const double at = b->plan->s[edge] - b->plan->s[0];
   if (flat)
-    sw_scene_tell(
-        s, "buckling", name, at, push,
-        "wire '%s' stays in a plane under a push of %.3g N, though it is unstable across "
-        "it: it would fall to a side, but nothing bends it there; draw it bent out of the "
-        "plane by a thousandth of its length, or add a small force across",
-        name, push);
+    sw_scene_tell(s, "buckling", name, at, push,
+                  "wire '%s' stays in a plane under a push of %.3g N, but is unstable across it: a "
+                  "real wire would fall to a side; draw it bent out of the plane by a thousandth "
+                  "of its length, or add a small force across it",
+                  name, push);
   else
     sw_scene_tell(s, "buckling", name, at, push,
-                  "wire '%s' stays straight under a push of %.3g N, though it is unstable in %zu "
-                  "directions: it would buckle, but nothing bends it to a side; draw it bent by a "
-                  "thousandth of its length, or add a small force across",
+                  "wire '%s' stays straight under a push of %.3g N, but is unstable in %zu "
+                  "directions: a real wire would buckle; draw it bent by a thousandth of its "
+                  "length, or add a small force across it",
                   name, push, count);
   return SW_OK;
 }

@@ -20,12 +20,12 @@ static const sw_param rows[] = {
     {"at", SW_PARAM_VECTOR, "m", 0, -HUGE_VAL, HUGE_VAL, 0, NULL, offsetof(sw_zone_args, at),
      "place of the shape's origin"},
     {"rotation", SW_PARAM_ROTATION, "rad", 0, 0, 0, 0, NULL, offsetof(sw_zone_args, rotation),
-     "turn of the shape: { axis = {x, y, z}, angle = } or quaternion {w, x, y, z}"},
+     "rotation of the shape: { axis = {x, y, z}, angle = } or quaternion {w, x, y, z}"},
     {"temperature", SW_PARAM_NUMBER, "degC", NAN, -273.15, 5000, 0, NULL,
      offsetof(sw_zone_args, temperature),
-     "of wires in the zone; a zone without a temperature is forbidden"},
+     "temperature of wires in the zone; a zone without it is forbidden for wires"},
     {"on", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
-     "an obstacle that the zone moves with, as if it were fixed to it now"},
+     "an obstacle to which the zone is fixed, as they are placed now"},
 };
 const sw_params sw_zone_params = SW_PARAMS("zone", rows);
 

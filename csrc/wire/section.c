@@ -13,7 +13,7 @@
 static const sw_param rows[] = {
     ROW(EA, "N", 1e-12, 1e15, "axial stiffness"),
     {"EI", SW_PARAM_NUMBER, "N m2", NAN, 0, SW_EI_MOST, 0, NULL, offsetof(sw_section, EI),
-     "bending stiffness, or {EI1, EI2} with normal; 0 only with model = 'string'"},
+     "bending stiffness, or {EI1, EI2} with normal; 0 is for model = 'string' only"},
     ROW(GJ, "N m2", 1e-30, 1e15, "twist stiffness"),
     ROW(mass_per_length, "kg/m", 1e-12, 1e9, "mass per length"),
     ROW(radius, "m", 1e-9, 1e3, "outer radius"),
@@ -22,7 +22,7 @@ static const sw_param rows[] = {
      "Poisson's ratio of a solid round wire (0.35 when not given)"},
     ROW(density, "kg/m3", 1e-6, 1e9, "density of a solid round wire"),
     ROW(spin_inertia, "kg m", 1e-30, 1e15,
-        "with rolls: inertia per length against turning about the axis (that of a solid wire, "
+        "with rolls: rotational inertia per length about the axis (that of a solid wire, "
         "mass_per_length radius^2/2, when not given)"),
 };
 

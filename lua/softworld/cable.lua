@@ -88,7 +88,8 @@ function cable.define(given)
   load_all()
   local entry = placed(3, pcall(read, given))
   if by_name[entry.name] then
-    error(("cable '%s': the catalogue has one of this name; take another"):format(entry.name), 2)
+    error(("cable '%s': the catalogue already has a cable of this name; give another name"):format(
+      entry.name), 2)
   end
   by_name[entry.name], names[#names + 1] = entry, entry.name
   return entry
@@ -153,7 +154,7 @@ end
 local function of_entry(name, f)
   return function(self, ...)
     if getmetatable(self) ~= Entry then
-      error(("cable.%s: a cable is wanted, as sw.cable gives it, got %s"):format(name, type(self)), 2)
+      error(("cable.%s: must get a cable from sw.cable, got %s"):format(name, type(self)), 2)
     end
     return f(self, ...)
   end

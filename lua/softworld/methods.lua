@@ -30,7 +30,7 @@ function methods.found(kind, class, fields, unnamed)
     error(checks.lacks("a " .. kind, key, class.__names()), 2)
   end
   function class.__newindex(_, key)
-    error(("a %s has no '%s' to set; what it found can only be read"):format(kind, checks.shown(key)), 2)
+    error(("a %s has no '%s' to set; its results can only be read"):format(kind, checks.shown(key)), 2)
   end
   methods.guard_table(kind, class)
 end

@@ -108,9 +108,9 @@ local JERK = 10 -- largest pull of a new tie without a remark [N]
 function remarks.tie(what, apart, args)
   local pull = args.stiffness * (apart - args.slack)
   if pull <= math.min(JERK, args.strength or JERK) or not remarks.wanted() then return end
-  local breaks = args.strength and pull > args.strength and ", and breaks at once" or ""
-  tell("tie", ("%s: the places are %.4g mm apart and the slack is %.4g mm: it jerks them together with "
-    .. "%.3g N%s; without `slack` it begins as long as the places are apart"):format(what, 1e3 * apart,
+  local breaks = args.strength and pull > args.strength and ", and breaks" or ""
+  tell("tie", ("%s: the places are %.4g mm apart and the slack is %.4g mm: the tie pulls them together with "
+    .. "%.3g N at once%s; without `slack` its length is the present distance"):format(what, 1e3 * apart,
       1e3 * args.slack, pull, breaks))
 end
 
@@ -219,9 +219,9 @@ local round = { cylinder = true, capsule = true }
 local function look_round(wire, obstacle)
   local radius = round[obstacle.shape] and obstacle.radius
   if type(radius) ~= "number" or not wire.edge or wire.edge <= radius + wire.radius then return end
-  tell("round", ("wire '%s': its edges of %.3g mm are longer than the radius of '%s', %.3g mm: there "
-    .. "the wire is a polygon, and its pull may be wrong by 5 %% or more; segments = %d makes "
-    .. "edges half as long as the radius"):format(wire.name, 1e3 * wire.edge, obstacle.name, 1e3 * radius,
+  tell("round", ("wire '%s': its edges of %.3g mm are longer than the radius of '%s', %.3g mm, so the wire "
+    .. "goes round it as a polygon, and its pull may be wrong by 5 %% or more; segments = %d makes edges "
+    .. "half as long as the radius"):format(wire.name, 1e3 * wire.edge, obstacle.name, 1e3 * radius,
     math.min(1e6, math.ceil(2 * wire.length / radius))))
 end
 
@@ -267,8 +267,8 @@ function remarks.mesh(wire)
   if not remarks.wanted() or wire.model == "rod" or wire.model == "string" then return end
   local particles = #wire:calibration().particles * (wire.segments + 1) -- reading places builds the scene
   if particles > MANY then
-    tell("mesh", ("wire '%s' as %s has %d particles in %d slices, so steps will be slow; a "
-      .. "larger spacing [m], or remodelling only a region = {s1, s2} [m] of a rod, makes fewer")
+    tell("mesh", ("wire '%s' as %s has %d particles in %d slices, so steps will be slow; to have fewer, give "
+      .. "a larger spacing [m], or start as a rod and remodel only a region = {s1, s2} [m]")
       :format(wire.name, wire.model, particles, wire.segments + 1))
   end
 end
@@ -296,7 +296,8 @@ local function look_at_size(entry)
   if size >= usual_mesh[1] and size <= usual_mesh[2] then return end
   local scale = type(entry.scale) == "number" and entry.scale or 1
   local better = size > usual_mesh[2] and 1e-3 * scale or 1e3 * scale
-  tell("size", ("obstacle '%s' is %.4g m long; which unit has its file? scale = %g makes it %.4g m"):format(
+  tell("size", ("obstacle '%s' is %.4g m long; is the length unit of its file right? with scale = %g it is "
+    .. "%.4g m long"):format(
     entry.name, size, better, size * better / scale))
 end
 

@@ -8,7 +8,7 @@ local CHANGE = 0.01 -- relative change of the stiffness [-]
 local MORE = 2      -- allowed relative change of a value over CHANGE [-]
 
 local function bits(run)
-  local text = tostring(run:why()):gsub(", [%d.e-]+ s; the run [%d.e-]+ s", "")
+  local text = tostring(run:why()):gsub(" took [%d.e-]+ s; the run took [%d.e-]+ s", "")
   return tostring(run:error_bars()) .. text
 end
 

@@ -134,7 +134,7 @@ describe("p:wait_until", function()
         clamp:release()
         return { force = 1, on = clamp }
       end,
-      ["not of scene"] = function(scene)
+      ["no longer in scene"] = function(scene)
         local wall = scene:obstacle{ shape = "plane", at = { 0, 0, -1 } }
         wall:remove()
         return { contact = wall }

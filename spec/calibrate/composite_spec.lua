@@ -321,7 +321,7 @@ describe("a composite refuses", function()
     refused(with(SOLID, { particles = 2 }), "particles = 2 is not allowed; it must be 0 (chooses) or "
       .. "in [3, 64]")
     refused(with(SOLID, { particles = 16, cores = 5 }), "particles = 16 must be a multiple of the 5 cores "
-      .. "around the axis", "take 20")
+      .. "around the axis", "give 20")
     refused(with(SOLID, { particles = 8, reach = 4 }), "reach = 4 must be below half of particles = 8")
     refused(with(SOLID, { core_particles = 2 }), "core_particles = 2 is not allowed")
     refused(with(SOLID, { core = "line", core_layers = 2 }),
@@ -360,16 +360,17 @@ describe("a composite refuses", function()
     refused(with(WIRE, { core_EA = 0.9 * EA }), "with core_EA = 7068.58 N", "would be at 0.01043 m, outside "
       .. "of its wall from 0.003 m to 0.005 m: make core_EA between about 0 N and 4435.9 N")
     refused(with(WIRE, { cores = 3, core_EA = 0.3 * EA, core_EI = 1e-3, EI = 0.2 * EI, GJ = 0.2 * EI }),
-      "3 bonded cores with core_EA = 2356.19 N that lie off the axis have more than EI", "or bonded = false")
-    refused(with(CABLE, { cores = 3 }), "cores = 3 that are bonded off the axis bend with all the EA",
+      "3 bonded cores with core_EA = 2356.19 N off the axis alone have more than EI", "or bonded = false")
+    refused(with(CABLE, { cores = 3 }), "cores = 3 bonded off the axis add their whole EA to bending",
       "make bonded = false, or cores = 1")
-    refused(with(WIRE, { EA = 0.5 * EA }), "has the rest of EI = 0.0490874 N m2 has more than the wire's EA",
+    refused(with(WIRE, { EA = 0.5 * EA }), "with the rest of EI = 0.0490874 N m2 would have more than the "
+      .. "wire's EA",
       "give core_EI more than")
   end)
 
   it("targets that cannot be reached, and says what helps", function()
     refused(with(WIRE, { core_EA = 0.01 * EA }), "no springs of the core give core_EA = 78.5398 N",
-      "core_EI/core_EA is 8.1e-05 m2 and that of a solid core of this radius 2.25e-06 m2")
+      "core_EI/core_EA is 8.1e-05 m2, and that of a solid core of this radius is 2.25e-06 m2")
     refused(with(WIRE, { core = "cubic", core_across = 1 }), "make core_across = 1 more")
     refused(with(WIRE, { spacing = 0.008 }), "make spacing = 0.008 m less than about")
     refused(with(WIRE, { core = "line", spacing = 0.02 }), "with spacing = 0.02 m the shell's particles "

@@ -148,7 +148,7 @@ describe("calibrate refuses, of solid elements:", function()
     refused(round { body = "solids" }, "solid")
     refused(round { spin_inertia = 1e-9, density = 1000 }, "spin_inertia")
     refused({ mesh = "radial", section = "solid", EA = 1e4, EI = 0.3, GJ = 0.05, radius = R },
-      "EI/EA = 3e-05 m2 is too near to half of radius^2 = 2.5e-05 m2")
+      "EI/EA = 3e-05 m2 is too close to half of radius^2 = 2.5e-05 m2")
   end)
 
   it("wrong elements of a cell", function()
@@ -167,7 +167,7 @@ describe("calibrate refuses, of solid elements:", function()
     end
     says("element 1 has no volume", function(a) a.elements[1].particles = { 1, 3, 2, 1, 3, 2 } end)
     says("element 1 must have a list of 6 or 8", function(a) a.elements[1].particles = { 1, 2, 3 } end)
-    says("particle that is not there", function(a) a.elements[1].particles[2] = 99 end)
+    says("particle that does not exist", function(a) a.elements[1].particles[2] = 99 end)
     says("nu must be a number", function(a) a.nu = nil end)
     says("nu = 0.5 must be in", function(a) a.nu = 0.5 end)
     says("modulus must be a number", function(a) a.modulus = nil end)

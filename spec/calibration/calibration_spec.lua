@@ -141,7 +141,7 @@ describe("sw.calibration with errors", function()
     holds(found.EA, 5e4)
     holds(found.squeeze, 2e6)
     near(1e-5 / math.sqrt(sxx) * found.EA.value / 0.5, found.EA.error / found.EA.value, 1e-3)
-    assert.truthy(found.remarks[1]:find("sigma of plates was not given: ", 1, true), found.remarks[1])
+    assert.truthy(found.remarks[1]:find("sigma of plates was not given; ", 1, true), found.remarks[1])
   end)
 
   it("reports a section that is not linear", function()
@@ -149,7 +149,7 @@ describe("sw.calibration with errors", function()
     for k = 1, 15 do points[k] = { k ^ 1.5, k * 1e-4 } end
     local found = sw.calibration { mass_per_length = 0.02, outer_diameter = 0.004,
       squeeze = { length = 0.02, points = points } }
-    assert.truthy(table.concat(found.remarks, "\n"):find("residuals of plates are no noise", 1, true))
+    assert.truthy(table.concat(found.remarks, "\n"):find("residuals of plates are not random", 1, true))
   end)
 
   it("reports a sag that tells nothing of EI", function()
@@ -164,7 +164,7 @@ describe("sw.calibration with errors", function()
     local found = sw.calibration { mass_per_length = 0.02, outer_diameter = 0.004,
       sag = { points = points, length = length, to = { 1, 0 }, ends = "hung", sigma = 0.002 } }
     local told = table.concat(found.remarks, "\n")
-    assert.truthy(told:find "interval of EI reaches an end" or told:find "the sag is that of a chain", told)
+    assert.truthy(told:find "interval of EI reaches an end" or told:find "the wire hangs like a chain", told)
   end)
 end)
 
@@ -271,7 +271,7 @@ describe("a calibrated cable", function()
   it("takes missing values from a similar cable", function()
     local entry = calibrate({ like = "GXL 1.5" }).cable
     assert.equal(sw.cable "GXL 1.5".friction.value, entry.friction.value)
-    assert.equal("that of GXL 1.5, taken for alike", entry.friction.source)
+    assert.equal("that of GXL 1.5, assumed to be alike", entry.friction.source)
     assert.equal("guessed", entry.EA.flag)
   end)
 
@@ -287,7 +287,7 @@ describe("a calibrated cable", function()
   it("has no entry without EI", function()
     local found = sw.calibration { mass_per_length = 0.02, outer_diameter = 0.004,
       twist = { length = 0.8, inertia = 2e-5, period = 0.7, sigma = 0.007 } }
-    assert.error_matches(function() return found.cable end, "an entry needs EI; give a sag, or EI")
+    assert.error_matches(function() return found.cable end, "a catalogue entry needs EI; give a sag, or EI")
   end)
 
   it("is drawn, measured and computed", function()

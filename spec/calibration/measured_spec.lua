@@ -75,7 +75,7 @@ describe("sw.calibration refuses", function()
   end
   local TWIST = { length = 0.5, angle = 12, sigma = 0.2 }
   for text, args in pairs {
-    ["nothing was measured; give sag, twist, pull or squeeze"] = {},
+    ["no measurement is given; give sag, twist, pull or squeeze"] = {},
     ["sag.length is required"] = with({}, "length"),
     ["sag: length = 0.9 m is not allowed; it must be above 0.952381 m"] = with { length = 0.9 },
     ["sag: length = -1 m is not allowed"] = with { length = -1 },
@@ -95,11 +95,11 @@ describe("sw.calibration refuses", function()
     ["pixel_sigma goes with pixels only"] = with({ pixel_sigma = 1 }, "sigma"),
     ["sag.file must be a string, got 5"] = with({ file = 5 }, "points"),
     ["nowhere.csv"] = with({ file = "nowhere.csv" }, "points"),
-    ["tells EI / GJ only; give a sag too, or EI"] = { twist = TWIST },
+    ["determines EI / GJ only; give a sag too, or EI"] = { twist = TWIST },
     ["twist: give one of angle"] = { EI = 1e-3, twist = { length = 1, sigma = 1 } },
     ["twist.sigma is required"] = { EI = 1e-3, twist = { length = 1, angle = 9 } },
     ["twist: period and inertia go together"] = { twist = { length = 1, period = 9, sigma = 1 } },
-    ["EI is what the sag tells"] = { EI = 1e-3, sag = SAG },
+    ["give EI or sag, not both: the sag determines EI"] = { EI = 1e-3, sag = SAG },
     ["mass_per_length: there is no 'unit'"] = { sag = SAG, mass_per_length = { 1, unit = "g" } },
     ["outer_diameter = 0 m is not allowed"] = { sag = SAG, outer_diameter = 0 },
     ["there is no cable 'GXL 1.6'; did you mean"] = { sag = SAG, like = "GXL 1.6" },

@@ -128,7 +128,7 @@ describe("run:check of a run that is not whole", function()
     assert.equal(most, run:check{}:row "max_tension".value)
     assert(scene:settle().ok)
     assert.is_true(wire:max_tension() < most)
-    fails(function() run:check{} end, "has gone on since this run", "before it settles")
+    fails(function() run:check{} end, "has gone on since this run", "before scene:settle")
   end)
 
   it("is open where a wire was removed", function()

@@ -150,8 +150,8 @@ describe("sw.compare", function()
     fails("sw.compare: a: the name of a file is empty", "", check)
     fails("did you mean 'tolerance'?", check, check, { tolerence = 1 })
     local wrong = { [""] = "JSON", ["{}"] = "no rows", ['{"rows":[]}'] = "no verdict",
-      ['{"verdict":"PASS","rows":[1]}'] = "row 1 is no object",
-      ['{"verdict":"PASS","rows":{"x":1}}'] = "its rows are no list",
+      ['{"verdict":"PASS","rows":[1]}'] = "row 1 is not an object",
+      ['{"verdict":"PASS","rows":{"x":1}}'] = "its rows are not a list",
       ['{"verdict":"PASS","rows":[{"verdict":"PASS"}]}'] = "row 1 has no name",
       ['{"verdict":"PASS","rows":[{"verdict":"x"}]}'] = "row 1 has no verdict",
       ['{"verdict":"PASS","rows":[{"verdict":"PASS","name":"x","unit":"m","value":[]}]}']

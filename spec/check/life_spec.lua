@@ -100,7 +100,7 @@ describe("run:check of fatigue without curves in the script", function()
     assert.is_near(1, row.high / most, 0.02)
     assert.equal("PASS", row.verdict)
     for _, words in ipairs{ "literature, not of this cable", "Manson 1965", "guessed", "0.57 % if they slip",
-      ("by the curves' spread %.3g to %.3g"):format(row.low, row.high) } do
+      ("%.3g to %.3g with the curves' spread"):format(row.low, row.high) } do
       assert.truthy(row.note:find(words, 1, true), row.note)
     end
   end)
@@ -163,7 +163,7 @@ describe("run:check of fatigue without curves in the script", function()
   it("fails where nothing is known of the strands", function()
     local row = run_of "identified red":check{ fatigue = {} }:row "fatigue"
     assert.equal("FAIL", row.verdict)
-    assert.truthy(row.note:find("nothing is known of the wire's strands", 1, true), row.note)
+    assert.truthy(row.note:find("the wire's strands are not known", 1, true), row.note)
   end)
 
   it("records wear by itself when the check is given to the run, and has a bar beside its spread", function()
@@ -194,7 +194,7 @@ describe("S-N curves of a cable", function()
     ["fatigue has no field 'bendin'"] = { bendin = 1 },
     ["fatigue.curve must be points { range [N], cycles }, got 3"] = { curve = 3 },
     ["fatigue.bending has fewer than 2 points"] = { bending = { { 1, 2 } } },
-    ["fatigue.bending[2]: a larger range"] = { bending = { { 2, 5 }, { 1, 2 } } },
+    ["fatigue.bending[2]: each range must be larger"] = { bending = { { 2, 5 }, { 1, 2 } } },
     ["fatigue: spread is a factor of the life, from 1, got 0.5"] = { bending = { { 1, 5 }, { 2, 2 } },
       spread = 0.5 }, ["there is no flag 'sure'"] = { bending = { { 1, 5 }, { 2, 2 } }, flag = "sure" },
     ["fatigue must be a table"] = 7 } do

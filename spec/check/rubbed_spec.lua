@@ -37,7 +37,7 @@ describe("work of friction", function()
     local row = run:check{ abrasion = { coefficient = 1e-12, source = "this spec", flag = "guessed" },
       limits = { wear_depth = 1e-9 } }:row "wear_depth"
     assert.truthy(row.note:find("1e-12 1/Pa, this spec; guessed", 1, true), row.note)
-    assert.truthy(row.note:find("assumed: its radius", 1, true), row.note)
+    assert.truthy(row.note:find("assumed to be the wire's radius", 1, true), row.note)
   end)
 
   it("is open without a limit or a record, and fails without a coefficient", function()

@@ -57,7 +57,7 @@ describe("run:check of the clearance", function()
     assert.is_true(row.value > 0.005)
     assert.is_true(row.low < 0)
     assert.same({ "OPEN", "OPEN" }, { row.verdict, check.verdict })
-    assert.truthy(row.note:find("within steps it may have been", 1, true), row.note)
+    assert.truthy(row.note:find("between steps it may have been", 1, true), row.note)
     row = carried({ wall }, { steps = 1600 }):check{}:row "clearance"
     assert.same({ "FAIL" }, { row.verdict })
     assert.is_true(row.value < 0)

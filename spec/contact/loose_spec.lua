@@ -282,7 +282,7 @@ describe("an object of particles", function()
       to = { 0.02, 0, 1 } }
     local object = block(scene, { at = { 0, 0, 0 } })
     assert.error_matches(function() scene:wire_contact{ between = { tube, object } } end,
-      "is a tube, a mesh of particles; it goes with rods and strings only")
+      "is a tube, a mesh of particles; this goes with rods and strings only")
     assert.error_matches(function() scene:wire_contact{ between = 3 } end,
       "is a wire, an object of particles or a list of these, got")
     scene:wire_contact{ between = object, friction = 0.2 }

@@ -103,7 +103,7 @@ describe("frames", function()
     end
     local text = {}
     run:summary { write = function(_, line) text[#text + 1] = line end }
-    assert.truthy(table.concat(text):find("one of so many is kept", 1, true))
+    assert.truthy(table.concat(text):find("one of this many is kept", 1, true))
   end)
 
   it("are not stored when switched off, and the results keep every bit", function()

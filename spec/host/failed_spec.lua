@@ -185,7 +185,7 @@ describe("what to try next", function()
   local cases = {
     { "wire 'w' is torn apart", { integrator = "rk4" }, "scene:stable_dt()" },
     { "no convergence in 30 iterations", { dt = 0.02 }, "dt = 5 ms" },
-    { "wire is fed too fast to follow it", {}, "a slower feed" },
+    { "a wire is fed too fast for the steps", {}, "a slower feed" },
     { "no convergence in 30 iterations", { quasistatic = true, dt = 0.1 }, "without quasistatic" },
     { "the tolerance needs steps below 1e-09 s", { tolerance = 1e-9 }, "a larger tolerance" },
   }

@@ -33,14 +33,15 @@ describe("remarks", function()
     { "s:clip{ at = {0, 0, 0}, width = 8, insertion = 5, retention = 9 }", "sw.units.mm(8)" },
     { "local w = " .. wire(good)
       .. " s:tie(w, { s = 0.5, to = {0.5, 0, 0.15}, slack = 0.02, strength = 50 })",
-      "the places are 50 mm apart and the slack is 20 mm: it jerks them together with 3e+03 N, and breaks" },
+      "the places are 50 mm apart and the slack is 20 mm: the tie pulls them together with 3e+03 N at once, "
+        .. "and breaks" },
     { "local w = " .. wire("E = 5e7, density = 1500, radius = 0.001, from = {0,0,1}, to = {0.4,0,1}")
       .. " w:remodel{ model = 'composite' }", "wire 'wire1' as composite has 33375 particles" },
     { wire "model = 'radial', E = 5e7, density = 1500, radius = 0.001, from = {0,0,1}, to = {0.4,0,1}",
       "wire 'wire1' as radial has 15130 particles" },
     { wire(good .. ", segments = 20") .. " s:obstacle{ name = 'peg', shape = 'cylinder', radius = 0.01, "
       .. "length = 1, at = {0.5, 0, -1} }", "wire 'wire1': its edges of 50 mm are longer than the radius of "
-      .. "'peg', 10 mm: there the wire is a polygon" },
+      .. "'peg', 10 mm, so the wire goes round it as a polygon" },
     { "s:obstacle{ name = 'peg', shape = 'capsule', radius = 0.01, length = 1, at = {0.5, 0, -3} } "
       .. wire(good .. ", segments = 20"), "segments = 200 makes edges half as long as the radius" },
   }

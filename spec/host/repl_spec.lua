@@ -8,7 +8,7 @@ local run = program.run
 -- Output of a session through a pipe; the library may be missing, and the prompt then says so.
 local function session(text, arguments)
   local out, err, code = run(arguments or { "-i" }, { stdin = text })
-  return out, err:gsub("note: softworld is not there:[^\n]*\n", ""), code
+  return out, err:gsub("note: softworld cannot be loaded:[^\n]*\n", ""), code
 end
 
 local function prints(expected, text)
@@ -173,7 +173,7 @@ describe("the prompt at a terminal", function()
 
   terminal_it("hints once at what becomes of locals", function()
     local out = at_terminal { "local x = 1\n", "local y = 1\n", "\4" }
-    assert.equal(1, select(2, out:gsub("note: a local ends", "")))
+    assert.equal(1, select(2, out:gsub("note: at the prompt a local ends", "")))
   end)
 
   terminal_it("remembers lines from session to session", function()

@@ -143,7 +143,7 @@ describe("an entry that a script has written into", function()
     local EA = entry.EA
     for _, spoil in ipairs{ function() entry.EA = 0.138 end, function() entry.EA = { value = "x" } end } do
       spoil()
-      local told = "into its EA; an entry of your own is made by sw.cable.define"
+      local told = "into its EA; to make an entry of your own use sw.cable.define"
       local function wire(cable)
         return function() sw.scene{}:wire{ cable = cable, from = { 0, 0, 0 }, to = { 1, 0, 0 } } end
       end
@@ -194,7 +194,7 @@ describe("cable.define", function()
     assert.are.equal("our bench", e.GJ.source)
     near(0.0225, (e:bend_limit()), 1e-12)
     refuses(function() e:bend_limit "load" end, "it has no bend limit for the use 'load'")
-    refuses(function() sw.cable.define(own { name = e.name }) end, "has one of this name")
+    refuses(function() sw.cable.define(own { name = e.name }) end, "already has a cable of this name")
     assert.is_true(#tostring(e) > 200)
   end)
 
@@ -325,7 +325,7 @@ describe("scene:wire{ cable = }", function()
       { { cable = "GXL 1.5", stiffness = "stuck" }, "did you mean 'stick'?" },
       { { cable = "identified red", stiffness = "slip" }, "no bound 'slip'; EI is measured" },
       { { cable = "GXL 1.5", use = "pulley" }, "did you mean 'pulleys'?" },
-      { { cable = "GXL 1.5", E = 1e9 }, "E is of a solid round wire" },
+      { { cable = "GXL 1.5", E = 1e9 }, "E describes a solid round wire" },
       { { stiffness = "slip", radius = 1 }, "stiffness goes with cable" },
     }
     for _, case in ipairs(wrong) do

@@ -57,7 +57,7 @@ describe("an equilibrium with error bars", function()
     local hopeless = t.fine(scene:settle{ tolerance = { tip = 1e-14 } })
     assert.is_false(hopeless.met)
     assert.are.equal(3, #hopeless.levels)
-    assert.matches("needs more than levels = 12: ask for less", hopeless.advice)
+    assert.matches("needs more than levels = 12: give a larger tolerance", hopeless.advice)
   end)
 
   it("knows every quantity of the objects", function()

@@ -78,7 +78,7 @@ describe("an error in a computation with error bars", function()
   it("about a list whose length changes with the mesh leaves everything as it was", function()
     check(function(scene, wire)
       scene:run{ tolerance = { { name = "all", value = 1, of = function() return wire:positions() end } } }
-    end, "quantity 'all': its list is not as long on every mesh")
+    end, "quantity 'all': its list must have the same length on every mesh")
   end)
 
   it("in a process leaves everything as it was", function()
@@ -138,10 +138,11 @@ describe("a wrong request for error bars", function()
     end
     refused("settle", { tolerance = { tip = 1 }, levels = 2 }, "levels = 2", "from 3 to 12")
     refused("settle", { tolerance = { tip = 1 }, levels = 3.5 }, "levels = 3.5")
-    refused("settle", { tolerance = { { name = "q", value = 1, of = value, at = 1 } } }, "'q'", "in a run")
+    refused("settle", { tolerance = { { name = "q", value = 1, of = value, at = 1 } } },
+      "'q'", "a time of a run, and settling has none")
     refused("settle", { tolerance = { tip = 1 }, iterations = 3 }, "'iterations'")
     refused("run", { tolerance = { tip = 1 }, duration = 0.1, levels = 100 }, "levels = 100")
-    refused("run", { tolerance = { tip = 1 } }, "no process that could end")
+    refused("run", { tolerance = { tip = 1 } }, "there is no process to run to its end")
     refused("run", { tolerance = { tip = 1 }, duration = -1 }, "duration = -1")
     refused("run", { tolerance = { tip = 1 }, duration = 1, max_steps = 3 }, "max_steps")
     refused("run", { tolerance = { { name = "q", value = 1, of = value, at = 2 } }, duration = 1 },
@@ -191,7 +192,7 @@ describe("a wrong request for error bars", function()
     end)
     local ok, message = pcall(scene.run, scene, { tolerance = { ["wire1.tip"] = 1 } })
     assert.is_false(ok)
-    assert.matches("wire 'wire2' was made on the way", message)
+    assert.matches("wire 'wire2' was made during the run", message)
     assert.are.equal(1, wire.length)
   end)
 

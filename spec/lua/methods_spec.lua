@@ -135,7 +135,7 @@ describe("methods", function()
     says("bend_limit: diameter = table", entry.bend_limit, entry, "fixed", {})
     says("bend_limit: diameter = -1 is not allowed; it must be a number above 0 m", entry.bend_limit,
       entry, "fixed", -1)
-    says("cable.bend_limit: a cable is wanted", sw.cable.bend_limit, { use = "fixed" })
+    says("cable.bend_limit: must get a cable from sw.cable", sw.cable.bend_limit, { use = "fixed" })
     says("trajectory:save: the number of samples = 1 must be", call, "trajectory", "save", "x", 1)
     says("gripper:move is a method: call it with a colon", objects.gripper.move)
     says("wire:position is a method: call it with a colon (wire expected, got nothing)",

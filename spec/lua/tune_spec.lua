@@ -110,7 +110,7 @@ describe("tune.minimise", function()
       ["f is required"] = { from = 0, to = 1 },
       ["f must be a function, got number"] = { f = 3, from = 0, to = 1 },
       ["did you mean 'tolerance'"] = { f = f, from = 0, to = 1, tolerence = 1e-3 },
-      ["from = 2 and to = 1 are no interval"] = { f = f, from = 2, to = 1 },
+      ["from = 2 and to = 1 are not an interval"] = { f = f, from = 2, to = 1 },
       ["give either from and to, or start"] = { f = f },
       ["give either from and to, or start "] = { f = f, from = 1, to = 2, start = 3 },
       ["give either from and to, or start  "] = { f = f, from = 1 },

@@ -16,7 +16,7 @@ describe("scene:advise", function()
     local scene, w = cantilever()
     local before = scene:advise { duration = 1000 }
     assert.equal("dynamic", before.motion)
-    assert.truthy(before.motion_why:find("scene:settle() first", 1, true))
+    assert.truthy(before.motion_why:find("call scene:settle() before", 1, true))
     scene:settle()
     local period = 1 / w:frequencies { modes = 1 }[1]
     assert.equal("dynamic", scene:advise { duration = 9.9 * period }.motion)

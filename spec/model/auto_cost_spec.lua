@@ -52,7 +52,7 @@ describe("model = 'auto', where a bar stays too long,", function()
     local run = beside(0.015)
     assert.is_false(run.met)
     assert.equal("wires", run.model.contact, tostring(run:why()))
-    assert.truthy(tostring(run:why()):find("with no touches of wires the bar of odd stays at", 1, true))
+    assert.truthy(tostring(run:why()):find("with no touches of wires the error bar of odd is still", 1, true))
   end)
 
   it("does not if the value changes by far less than the bar is too long", function()

@@ -47,7 +47,7 @@ describe("a run that chose its model", function()
     local run = sets_off()
     assert.equal("dynamic", run.model.motion, tostring(run:why()))
     assert.equal("switched", choice(run, "motion").by)
-    local words = "motion dynamic: poses until 20.00 s, where the run went back to a snapshot: by 2"
+    local words = "motion dynamic: poses until 20.00 s, where the run went back to a snapshot, because by 2"
     assert.truthy(tostring(run:why()):find(words, 1, true), tostring(run:why()))
     local e = event_of(run, "motion: poses until")
     assert.is_near(20, e.time, 0.2)
@@ -107,7 +107,7 @@ describe("a run that chose its model", function()
   it("begins again where a twisted wire cannot go on rolling, and says why", function()
     local run = lifted(1)
     assert.are_not.equal("switched", choice(run, "twist").by)
-    assert.truthy(tostring(run:why()):find("and the run began again: ", 1, true), tostring(run:why()))
+    assert.truthy(tostring(run:why()):find("and the run began again, because ", 1, true), tostring(run:why()))
     assert.truthy(tostring(run:why()):find("is twisted by", 1, true), tostring(run:why()))
   end)
 
@@ -130,7 +130,8 @@ describe("a run that chose its model", function()
     local e = event_of(run, "the pads of 'hand' bore")
     assert.truthy(e, tostring(run:why()))
     assert.is_true(e.time < 1.1, ("%g s"):format(e.time))
-    assert.truthy(tostring(run:why()):find("began again: no run goes on with another grip", 1, true))
+    assert.truthy(tostring(run:why()):find("began again, because a run cannot change its grip on the way", 1,
+      true))
     assert.are_not.equal("free", choice(run, "grip").by)
   end)
 

@@ -94,7 +94,7 @@ describe("sw.plot", function()
       assert.is_false(fine)
       assert.truthy(why:find("plot_spec.lua:%d+: ") and why:find(text, 1, true), why)
     end
-    refuses({}, "a run or a curve is wanted")
+    refuses({}, "give a run or a curve")
     refuses({ 1 }, "[1] must be a run, or a curve")
     refuses({ { y = {} } }, "[1]: y has no values")
     refuses({ { x = { 1 }, y = { 1, 2 } } }, "[1]: x has 1 values, and y 2")

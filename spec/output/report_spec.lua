@@ -170,7 +170,7 @@ describe("sw.report", function()
   it("refuses arguments that are not runs, at the script's line", function()
     local run = runs.laying()
     for told, args in pairs { ["[1] must be a run, got"] = { 3, path = "x.html" },
-      ["path is required"] = { run }, ["a run is wanted"] = { path = "x.html" },
+      ["path is required"] = { run }, ["sw.report: give a run"] = { path = "x.html" },
       ["did you mean 'path'"] = { run, pat = "x.html" } } do
       local ok, text = pcall(sw.report, args)
       assert.is_false(ok)

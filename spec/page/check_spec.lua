@@ -207,7 +207,7 @@ describe("the page of a check", function()
     local again, back = laying()
     local restored, snapshot = again:check {}, back:snapshot()
     back:restore(snapshot)
-    fails("went when a snapshot was restored", restored.report, restored, folder .. "/gone.html")
+    fails("were lost when a snapshot was restored", restored.report, restored, folder .. "/gone.html")
   end)
 end)
 

@@ -96,13 +96,13 @@ describe("orders to add and remove objects during a run", function()
     end
     refused({ ["do"] = "remove", force = 1 }, "there is no such force")
     refused({ ["do"] = "remove", force = "1)] os.exit(3) --" }, "there is no such force")
-    refused({ ["do"] = "lead", gripper = "cord", to = { 0, 0, 0 }, speed = 1 }, "'cord' is no gripper")
+    refused({ ["do"] = "lead", gripper = "cord", to = { 0, 0, 0 }, speed = 1 }, "'cord' is not a gripper")
     refused({ ["do"] = "lead", gripper = "hand", to = { 0, 0, 0 }, speed = 0 }, "speed")
-    refused({ ["do"] = "lead", gripper = "hand", to = { 0, 0, 0 }, speed = 1 }, "'hand' is nowhere yet")
+    refused({ ["do"] = "lead", gripper = "hand", to = { 0, 0, 0 }, speed = 1 }, "'hand' has no place yet")
     refused({ ["do"] = "remove", object = "nobody" }, "nothing named 'nobody'")
     refused({ ["do"] = "remove", object = "" }, "the scene itself cannot be taken away")
-    refused({ ["do"] = "remove", made = "1] os.exit(3) --" }, "made is no number")
-    refused({ ["do"] = "remove", object = { "cord" } }, "is no name")
+    refused({ ["do"] = "remove", made = "1] os.exit(3) --" }, "made is not a number")
+    refused({ ["do"] = "remove", object = { "cord" } }, "is not a name")
     refused(an_order("step", "wait", { seconds = 1 }), "while a run is under way")
     refused(an_order("obstacle", "sphere", { radius = -1 }), "radius = %-1 m")
     refused(an_order("hold", "pin", { _on = "cord\") os.exit(3) --" }),
@@ -111,7 +111,7 @@ describe("orders to add and remove objects during a run", function()
     refused({ ["do"] = "set", object = "cord", values = { at = { 0 / 0, 0, 0 } } }, "has nothing to set")
     local nan = 0 / 0
     refused({ ["do"] = "pull", wire = "cord", s = nan, to = { 0, 0, 0 }, force = 1, stiffness = 1 },
-      "no number")
+      "s is not a number")
   end)
 end)
 

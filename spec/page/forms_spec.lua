@@ -193,7 +193,7 @@ describe("a scene put together by forms", function()
       { a_change("step", "wait", { seconds = -1 }), "seconds = %-1 s is not" },
       { a_change("step", "wait", {}), "seconds is required" },
       { a_change("step", "wait", { seconds = 1 }, { process = 99 }), "from 1 to 6" },
-      { { what = "remove", id = 99 }, "not there any more" },
+      { { what = "remove", id = 99 }, "this item no longer exists" },
       { { what = "scene", values = { gravity = { 0, 0, 0 / 0 } } }, "gravity%[3%] must be a finite number" },
     } do
       local fine, message = pcall(d.change, d, case[1])
@@ -210,7 +210,7 @@ describe("a scene put together by forms", function()
     local d = hanging()
     local full = d:script()
     local _, words = d:change { what = "remove", id = 1 }
-    assert.equal("cord went too: clamp1", words)
+    assert.equal("with cord these were removed too: clamp1", words)
     local less = d:script()
     assert.is_nil(less:find "clamp")
     d:change { what = "undo" }
@@ -321,7 +321,7 @@ describe("hostile messages", function()
     end
     assert.error_matches(function()
       add(d, "wire", "rod", { cable = "GXL 1", from = { 0, 0, 0 }, to = { 1, 0, 0 }, segments = 10000000 })
-    end, "too much for a form")
+    end, "too large for a form")
     for _, file in ipairs { "/etc/passwd", "../x.stl", ".hidden", "a/b.stl", "", "a\nb" } do
       assert.error_matches(function() add(d, "obstacle", "mesh", { file = file }) end, "without a folder")
     end

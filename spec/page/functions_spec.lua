@@ -195,16 +195,17 @@ describe("a view that was not allowed to take functions", function()
   it("refuses each of them, before and during a run, and any code put into one", function()
     for _, kind in ipairs(LUA) do
       local values = { on = "cord", func = "os.exit(3)", condition = "os.exit(3)", call = "os.exit(3)" }
-      refused("takes no Lua functions from pages", add, draft.new(), kind.class, kind.kind, values)
+      refused("accepts no Lua functions from pages", add, draft.new(), kind.class, kind.kind, values)
       local scene = sw.scene()
-      refused("takes no Lua functions from pages", orders.line, scene,
+      refused("accepts no Lua functions from pages", orders.line, scene,
         { ["do"] = "add", class = kind.class, kind = kind.kind, values = values, serial = 1 })
     end
     local d = draft.new(true)
     add(d, "observer", "observe", { call = "local x" })
     d.may = false
-    refused("takes no Lua functions", d.change, d, { what = "put", id = 1, values = { call = "os.exit(3)" } })
-    refused("takes no Lua functions", d.change, d,
+    refused("accepts no Lua functions", d.change, d,
+      { what = "put", id = 1, values = { call = "os.exit(3)" } })
+    refused("accepts no Lua functions", d.change, d,
       { what = "change", id = 1, class = "observer", kind = "observe", values = { call = "os.exit(3)" } })
   end)
 

@@ -218,7 +218,7 @@ describe("a run that pages watch", function()
       page.socket:send(('{"do":"remove","ask":%d,%s}'):format(k, what))
     end
     page:hear(0.5)
-    local none = "there is no such force any more"
+    local none = "there is no such force"
     for k = 1, 3 do assert.same({ ask = k, ok = false, text = none }, page.answers[k]) end
     for k = 4, 10 do assert.is_false(page.answers[k].ok) end
     assert.same({ "floor", "wire" }, scene:names())
@@ -248,7 +248,7 @@ describe("scene:view", function()
     local other = scene_of()
     local fine, message = pcall(function() other:view { port = port, open = false } end)
     assert.is_false(fine)
-    assert.truthy(message:find("server_spec%.lua:%d+: scene:view: port %d+ is taken by another program"),
+    assert.truthy(message:find("server_spec%.lua:%d+: scene:view: port %d+ is used by another program"),
       message)
     assert.error_matches(function() other:view { port = 70000 } end, "port = 70000")
     assert.error_matches(function() other:view { prt = 1 } end, "did you mean 'port'")

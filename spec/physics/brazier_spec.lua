@@ -139,8 +139,8 @@ describe("a thin tube in pure bending", function()
       -- a kink that is folded further also reports that its walls meet
       assert.is_true(#told == 1 or (#told == 2 and told[2].kind == "walls"))
       assert.are.equal(wire.name, told[1].object)
-      assert.matches("^tube 'wire1' kinks at s = [%d.]+ m: it is bent by [%d.]+ 1/m and bears "
-        .. "[%d.]+ N m there; its wall buckles at about 3.81 1/m and 0.0936 N m$", told[1].text)
+      assert.matches("^tube 'wire1' kinks at s = [%d.]+ m: its curvature there is [%d.]+ 1/m and its moment "
+        .. "[%d.]+ N m; its wall buckles at about 3.81 1/m and 0.0936 N m$", told[1].text)
       assert.matches("at rest after %d+ iterations.*; tube 'wire1' kinks at s", tostring(scene:settle()))
     end
   end)

@@ -125,7 +125,7 @@ describe("a feed", function()
     scene = make { speed = 1e4, name = "spool" }
     run = scene:run { duration = 1000, dt = 1000 }
     assert.is_false(run.ok)
-    assert.matches("wire 'w' goes through feed 'spool' at 1e%+04 m/s, faster than steps can follow",
+    assert.matches("wire 'w' goes through feed 'spool' at 1e%+04 m/s, too fast for the steps",
       run.reason)
   end)
 

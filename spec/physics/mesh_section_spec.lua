@@ -213,8 +213,8 @@ describe("a hollow tube pressed flat", function()
     assert.equal(1, #scene:events())
     assert.equal("walls", told.kind)
     assert.equal("hose", told.object)
-    assert.matches("^tube 'hose' is flat at s = [%d.]+ m: the middles of opposite walls are %S+ m apart, "
-      .. "which are 0.001 m thick", told.text)
+    assert.matches("^tube 'hose' is flat at s = [%d.]+ m: the middles of opposite walls are %S+ m apart, the "
+      .. "walls 0.001 m thick", told.text)
   end)
 end)
 
@@ -284,7 +284,7 @@ describe("plane strain", function()
     t.near(1.02, wire:position(0)[1], 1e-6, "start")
     scene:wire{ E = E, density = 1000, radius = R, from = { 0, 1, 0 }, to = { 0.1, 1, 0 } }
     assert.error_matches(function() scene:force{ kind = "plane_strain", direction = { 1, 0, 0 } } end,
-      "at is required where it acts on several wires")
+      "at is required if it acts on several wires")
   end)
 
   it("carries a load along the wire", function()

@@ -175,6 +175,6 @@ describe("a quasi-static run", function()
     s:wire{ E = 1e8, density = 1400, radius = 0.0025, from = { 0, 0, 0 }, to = { 1, 0, 0 } }
     local ok, message = pcall(function() s:run{ duration = 1, tolerance = 1e-4, quasistatic = true } end)
     assert.is_false(ok)
-    assert.matches("quasi%-static run takes dt", message)
+    assert.matches("give a quasi%-static run dt", message)
   end)
 end)

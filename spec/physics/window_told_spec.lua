@@ -96,7 +96,7 @@ describe("a blow of few steps", function()
     for _, h in ipairs{ 4e-3, 8e-3 } do
       local p = peak(h, blow)
       assert.is_true(p.coarse, ("%g s"):format(h))
-      assert.is_truthy(window.text(p, "N"):find "a blow of few steps: shorter ones may tell another%)$")
+      assert.is_truthy(window.text(p, "N"):find "blow lasts few steps: a smaller dt may give another peak%)$")
     end
     for _, h in ipairs{ 1e-4, 1e-3, 2e-3 } do assert.is_nil(peak(h, blow).coarse, ("%g s"):format(h)) end
     for _, h in ipairs{ 1e-3, 0.01, 0.02 } do
@@ -120,7 +120,7 @@ describe("a blow of few steps", function()
       return T, note
     end
     local T, note = swung(0.01, false)
-    assert.is_truthy(note:find "a blow of few steps: shorter ones may tell another$", note)
+    assert.is_truthy(note:find "the blow lasts few steps: a smaller dt may give another peak$", note)
     local finer, said = swung(2.5e-3, false)
     assert.is_nil(said:find "few steps", said)
     t.share(finer, T, 0.1, "tension [N] of whole steps")

@@ -168,7 +168,7 @@ describe("a channel", function()
     refused("channel 'd': points[2] must be a table of 3 finite numbers",
       { points = { { 0, 0, 0 }, { 1, 2 } } })
     refused("channel 'd': points 1 and 2 are the same", { points = { { 0, 0, 0 }, { 0, 0, 0 } } })
-    refused("channel 'd': leg 1 goes along up", { points = { { 0, 0, 0 }, { 0, 0, 1 } } })
+    refused("channel 'd': leg 1 is parallel to up", { points = { { 0, 0, 0 }, { 0, 0, 1 } } })
     refused("meet at 180 degrees", { points = { { 0, 0, 0 }, { 0.1, 0, 0 }, { 0, 0, 0 } } })
     refused("leg 2 is too short for the bends", { points = { { 0, 0, 0 }, { 0.1, 0, 0 }, { 0.1, 0.005, 0 },
       { 0, 0.005, 0 } } })

@@ -184,7 +184,8 @@ describe("implicit-midpoint", function()
     local told = events("implicit-midpoint", -0.01)
     assert.equal(1, #told)
     assert.equal(1, told[1].count)
-    assert.matches("'implicit%-midpoint' gains energy where wires touch something; take 'tr%-bdf2'",
+    assert.matches("'implicit%-midpoint' gains energy in contacts of wires; use integrator = 'tr%-bdf2' for "
+      .. "contact$",
       told[1].text)
     assert.same({}, events("implicit-midpoint", -5))
     assert.same({}, events("tr-bdf2", -0.01))

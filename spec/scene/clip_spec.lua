@@ -381,7 +381,7 @@ describe("a clip", function()
         assert.is_truthy(text:find("force " .. kind .. ": insertion = 9.2e+18 N", 1, true), text)
       end
       refused("clip 'd': at must be a table of 3 finite numbers [m]", { at = { 0, 0, 0 / 0 } })
-      refused("clip 'd': axis, along the wire, and direction, towards the mouth, are the same",
+      refused("clip 'd': axis (along the wire) and direction (towards the mouth) are parallel",
         { axis = { 0, 0, 1 } })
       refused("clip 'd': direction and axis must not be zero vectors", { direction = { 0, 0, 0 } })
       refused("there is no parameter 'insertoin'; did you mean 'insertion'?", { insertoin = 3 })

@@ -122,7 +122,7 @@ describe("a clip reports a wire that", function()
       t.below(2 * STRENGTH, most, "largest force")
       assert.equal(case[2], #told)
       if told[1] then
-        assert.is_truthy(told[1].text:find("crosses it at", 1, true), told[1].text)
+        assert.is_truthy(told[1].text:find("crosses the clip at", 1, true), told[1].text)
         t.near(case[1], told[1].value, 5, "angle")
       end
     end)

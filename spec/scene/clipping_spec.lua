@@ -67,7 +67,8 @@ describe("gripper:clip", function()
       return guide:clip{ into = clip, max_force = 6 }
     end)
     assert.is_false(ok)
-    assert.is_truthy(message:find "'guide': clip: wire not in 'c': 6%.%d+ N was reached, above max_force")
+    assert.is_truthy(message:find "'guide': clip: wire not in 'c': the force reached 6%.%d+ N, above "
+      .. "max_force")
     assert.is_false(clip:seated())
     local _, result = laid(function(guide, other)
       return guide:clip{ into = other, max_force = 6, fail = false }
@@ -129,7 +130,8 @@ describe("a wire that is pulled out askew", function()
 
   it("is warned of where edges are longer", function()
     local _, told = pulled(20, 0)
-    local advice = "its edges of 5 mm should be a quarter of the clip's width"
+    local advice = "its edges of 5 mm are longer than a quarter of the clip's width, so the force may be 25 "
+      .. "% wrong"
     assert.is_truthy(told and told:find(advice, 1, true), told)
   end)
 end)

@@ -76,7 +76,7 @@ describe("a gripper with pads", function()
       ["how far? give force [N], distance [m] or speed [m/s]"] = { s = 0.1, approach = "plates" },
       ["force goes with approach = 'plates' or 'mixed'"] = { s = 0.1, force = 1 },
       ["region goes with approach = 'mixed'"] = { s = 0.1, approach = "plates", force = 1, region = 0.1 },
-      ["a mixed grasp takes its time; call it in a process"] = { s = 0.1, approach = "mixed", force = 1 },
+      ["a mixed grasp takes time; call it in a process"] = { s = 0.1, approach = "mixed", force = 1 },
       ["force = -1 N is not allowed; it must be above 0 N"] = { s = 0.1, approach = "plates", force = -1 },
       ["on_slip = 'halt' is not one of: record stop warn"] =
         { s = 0.1, approach = "plates", force = 1, on_slip = "halt" },
@@ -146,7 +146,7 @@ describe("a gripper with pads", function()
       return said
     end)
     assert.matches("^[^ ]*gripper_use_spec%.lua:%d+: gripper 'hand' presses on wire 'b' %([45][%d.]* N%), "
-      .. "not on wire 'a', which", why)
+      .. "not on wire 'a', the one to grasp$", why)
     assert.is_nil(g.wire)
     assert.equal("grasp", scene:events()[1].kind)
     -- outside a process no call waits; the events of the run report it
@@ -274,7 +274,7 @@ describe("a gripper with pads", function()
       g:grasp(wire, { s = 0.1, approach = "plates", force = 2 })
       local ok, message = pcall(g.move, g, { points = { { t = 0, 0, 0, 0.5 }, { t = 1, 0, 0, 0.6 } } })
       assert.is_false(ok)
-      assert.is_truthy(message:find("away from where it is", 1, true), message)
+      assert.is_truthy(message:find("away from the present pose", 1, true), message)
     end)
   end)
 
@@ -317,7 +317,7 @@ describe("a gripper with pads", function()
       times.slip = p:wait_until({ slip = 0.01, on = g }, { timeout = 0.01 })
       for text, condition in pairs{
         ["there is no parameter 'forse'; did you mean 'force'?"] = { forse = 1 },
-        ["force needs on"] = { force = 1 }, ["wait for what?"] = {},
+        ["force needs on"] = { force = 1 }, ["no condition; give force, slip, contact or distance"] = {},
         ["contact needs an obstacle, got number"] = { contact = 1 },
         ["distance needs between"] = { distance = 1 },
       } do

@@ -100,7 +100,7 @@ describe("a gripper with several wires", function()
     hand:move{ by = { 0, 0, 0.1 }, duration = 1 }
     local fine, why = pcall(hand.grasp, hand, wires[2], { s = 0.1 })
     assert.is_false(fine)
-    assert.truthy(why:find("moves until", 1, true), why)
+    assert.truthy(why:find("is moving until", 1, true), why)
   end)
 
   it("goes on from a file", function()

@@ -140,7 +140,7 @@ describe("scene:remove with grippers", function()
 
   it("refuses a gripper's part and its grip, and names the gripper", function()
     table_with("plates", function(scene, hand)
-      refused("is a part of gripper 'hand'; remove that", function()
+      refused("is a part of gripper 'hand'; remove the gripper", function()
         scene:remove(hand.obstacles[1])
       end)
     end)

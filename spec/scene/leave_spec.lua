@@ -39,7 +39,7 @@ describe("scene:remove", function()
     refused(gone, function() scene:force{ kind = "point", on = b, s = 0, force = { 0, 0, 1 } } end)
     refused("scene:remove: 'b' was taken away already", function() scene:remove(b) end)
     refused("nothing named 'b'", function() scene:remove "b" end)
-    refused("scene:remove expects what is to go, or its name, got 3", function() scene:remove(3) end)
+    refused("scene:remove expects an object or its name, got 3", function() scene:remove(3) end)
     refused("got nil", function() scene:remove() end)
     refused("is of another scene", function() three():remove(a) end)
     refused("scene:remove is a method", function() scene.remove(a) end)
@@ -334,7 +334,7 @@ describe("scene:remove", function()
       return scene:run{ tolerance = { ["a.tip"] = 1e-3 } }
     end
     assert.is_true(run(function() end).ok)
-    refused("'b' was taken away on the way", function() run(function(scene, b) scene:remove(b) end) end)
+    refused("'b' was taken away during the run", function() run(function(scene, b) scene:remove(b) end) end)
   end)
 
   it("takes obstacles, clamps, forces and ties", function()

@@ -215,7 +215,7 @@ describe("an error in an observer", function()
       function(_, scene) scene:restore(scene:snapshot()) end,
       function(_, _, wire) wire:set_velocity { 0, 0, 1 } end,
     } do
-      assert.truthy(message_of(call):find("while an observer looks", 1, true)
+      assert.truthy(message_of(call):find("inside an observer's function", 1, true)
         or message_of(call):find("cannot be changed", 1, true), message_of(call))
     end
   end)

@@ -276,7 +276,7 @@ describe("forces on particles", function()
       assert.is_truthy(message:find(text, 1, true), message)
     end
     local any = { 0, 0, 1 }
-    refuses("'push' takes particles", scene.force, scene, { kind = "point", on = object, s = 0,
+    refuses("for particles use kind = 'push'", scene.force, scene, { kind = "point", on = object, s = 0,
       force = any })
     refuses("'net' is an object of particles", scene.force, scene, { kind = "plastic", on = object,
       yield_moment = 1 })
@@ -319,7 +319,7 @@ describe("snapshots of particles", function()
     local object = net(scene, 3, { name = "net" })
     scene:restore(snapshot)
     assert.is_false(object.present)
-    assert.error_matches(function() object:positions() end, "is not of scene 'scene' any more")
+    assert.error_matches(function() object:positions() end, "is no longer in scene 'scene'")
     assert.are.equal(0, #scene:names())
     local again = net(scene, 2, { name = "net" })
     assert.is_true(scene:run{ duration = 0.01 }.ok)

@@ -11,7 +11,7 @@ describe("particles", function()
   local nan, huge = 0 / 0, math.huge
   local cases = {
     { "no particle", { positions = {} } },
-    { "no threes", { positions = { 1, 2 } } },
+    { "which is not a multiple of 3", { positions = { 1, 2 } } },
     { "must be finite", { positions = { 0, 0, nan } } },
     { "must be finite", { positions = { 0, 0, huge } } },
     { "got string x", { positions = { 0, 0, "x" } }, "got string" },
@@ -35,7 +35,7 @@ describe("particles", function()
     { "hardening = -1", { links = { { 1, 2, k = 1, yield = 1, hardening = -1 } } } },
     { "did you mean 'rest'", { links = { { 1, 2, k = 1, rset = 0 } } } },
     { "names 3 particles", { links = { { 1, 2, 3, k = 1 } } } },
-    { "no multiple of 2", { links = { { pairs = { 1, 2, 3 }, k = 1 } } } },
+    { "which is not a multiple of 2", { links = { { pairs = { 1, 2, 3 }, k = 1 } } } },
     { "1 items for 2", { links = { { pairs = { 1, 2, 2, 3 }, k = { 1 } } } } },
     { "links 1 and 2 both join particles 1 and 2", { links = { { 1, 2, k = 1 }, { 2, 1, k = 2 } } } },
     { "at the same place", { positions = { 0, 0, 0, 0, 0, 0, 1, 0, 0 }, links = { { 1, 2, k = 1 } } } },

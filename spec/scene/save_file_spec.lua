@@ -91,12 +91,12 @@ describe("a file of a scene", function()
       fails(list, c.resume, c, path)
       same(here, saving.all(c))
     end
-    wrong("no scene that SoftWorld saved", "")
-    wrong("no scene that SoftWorld saved", "hello, world, this is no scene")
+    wrong("not a scene saved by SoftWorld", "")
+    wrong("not a scene saved by SoftWorld", "hello, world, this is no scene")
     wrong("cut off", bytes:sub(1, 20))
     wrong("cut off", bytes:sub(1, -2))
     wrong("version 99", bytes:sub(1, 16) .. string.pack("<I4", 99) .. bytes:sub(21))
-    wrong("order of bytes", bytes:sub(1, 20) .. bytes:sub(21, 24):reverse() .. bytes:sub(25))
+    wrong("another byte order", bytes:sub(1, 20) .. bytes:sub(21, 24):reverse() .. bytes:sub(25))
     wrong("damaged", bytes .. "x")
     wrong("damaged", bytes:sub(1, 500) .. "\1" .. bytes:sub(502))
     same(before, saving.all(scene))
@@ -111,8 +111,8 @@ describe("a file of a scene", function()
       local path, scene = ("spec/scene/old/version_%d.sws"):format(version), small()
       local before = saving.all(scene)
       for _, read in ipairs{ sw.load, function(name) return scene:resume(name) end } do
-        fails({ path, ("of version %d of the format; this SoftWorld reads 16"):format(version),
-          "let the scene's script write it again", "the SoftWorld that wrote it" }, read, path)
+        fails({ path, ("version %d of the file format, and this SoftWorld reads version 16"):format(version),
+          "write it again with the scene's script", "the SoftWorld that wrote it" }, read, path)
       end
       same(before, saving.all(scene))
     end)

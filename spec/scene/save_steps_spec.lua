@@ -208,11 +208,11 @@ print(("%%a %%a %%a"):format(wire:max_tension(), left.peak_force, wire:position(
       same(before, saving.all(scene))
       return message
     end
-    assert.is_truthy(other("friction"):find("obstacle 'plane1' is not as it was", 1, true))
-    assert.is_truthy(other("wire"):find("wire 'wire1' is not as it was", 1, true))
+    assert.is_truthy(other("friction"):find("obstacle 'plane1' differs from the file", 1, true))
+    assert.is_truthy(other("wire"):find("wire 'wire1' differs from the file", 1, true))
     assert.is_truthy(other("gripper"):find("gripper 'right' is there instead of gripper 'left'", 1, true))
     assert.is_truthy(other("more"):find("obstacle 'sphere2' is there instead of", 1, true))
-    assert.is_truthy(other("gravity"):find("gravity is not as it was", 1, true))
+    assert.is_truthy(other("gravity"):find("gravity differs from the file", 1, true))
 
     local e = sw.scene{ name = "laying" }
     e:obstacle{ shape = "plane", friction = 0.3 }
@@ -258,10 +258,10 @@ print(("%%a %%a %%a"):format(wire:max_tension(), left.peak_force, wire:position(
     files_of(c, { dt = 0.005, save = path })
     local d = script()
     d.scene:resume(path)
-    fails({ "error bars need the whole computation", path }, d.scene.run, d.scene,
+    fails({ "error bars need a computation from the start", path }, d.scene.run, d.scene,
       { tolerance = { ["wire1.tension"] = 1 } })
     local scene = sw.scene{}
-    fails("there is none", scene.run, scene, { duration = 1, save = "x" })
+    fails("there is no process", scene.run, scene, { duration = 1, save = "x" })
     c = script()
     fails("cannot write", c.scene.run, c.scene, { dt = 0.005, save = "/no/such/folder/x.sws" })
   end)

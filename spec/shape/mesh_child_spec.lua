@@ -127,7 +127,7 @@ describe("a mesh file that is cut off", function()
 
   it("is distinguished from a file without the corners that it names", function()
     refused(lines_of(ply_head("ascii", 8, 12)):gsub("3 %d %d %d\n", "3 0 1 77\n", 1), "ply",
-      "a corner that is not there")
+      "a face whose corner is not among its points")
   end)
 
   it("is named with its path, for obstacles and for pads", function()

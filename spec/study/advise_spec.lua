@@ -61,11 +61,11 @@ describe("study:advise", function()
 
   it("says how many evaluations it needs to see more", function()
     local told, s = advice(TWO, function(p) return { y = p.a } end, nil, 5)
-    assert.truthy(tostring(told):find("study:sweep { count = 24 } shows it", 1, true))
+    assert.truthy(tostring(told):find("run study:sweep { count = 24 }", 1, true))
     assert.error_matches(function() s:advise "z" end, "there is no parameter or result 'z'")
     assert.error_matches(function() s:advise(3) end, "the name of a result is wanted")
     local fresh = sw.study { name = "s", parameters = TWO, evaluate = function() return { y = 1 } end }
     assert.error_matches(function() fresh:advise "y" end,
-      "nothing has been evaluated; study:sweep { count = 24 }")
+      "there are no evaluations; study:sweep { count = 24 }")
   end)
 end)

@@ -71,7 +71,7 @@ describe("study:again", function()
     end
     assert.equal(0, s.computed)
     assert.error_matches(function() s:again(2) end,
-      "study 'lift': evaluation 2 is in the parts 1 2; say which, study:again%(2, 1%)")
+      "study 'lift': evaluation 2 is in the parts 1 2; give the part: study:again%(2, 1%)")
   end)
 
   it("gives the reason of a failed evaluation", function()
@@ -94,8 +94,8 @@ describe("study:again", function()
       return { force = p.height, calls = count }
     end }
     s:sweep { count = 3 }
-    assert.error_matches(function() s:again(2) end, "evaluation 1.2 comes out otherwise: calls is 4 and "
-      .. "was 2; evaluate depends on more than its parameters and the seed")
+    assert.error_matches(function() s:again(2) end, "evaluation 1.2 gives another result: calls is 4 and was "
+      .. "2; evaluate depends on more than its parameters and the seed")
   end)
 
   it("reports wrong arguments", function()

@@ -41,7 +41,7 @@ describe("the influence of parameters", function()
     assert.is_true(by.a.error < 0.05)
     -- the fifths at the ends of a have means of 4 * 0.1 and 4 * 0.9; b and c are 0.5 on average and add 0.5
     assert.is_true(math.abs(by.a.low - 0.9) < 0.12 and math.abs(by.a.high - 4.1) < 0.12)
-    assert.truthy(tostring(found):find("y goes with a %(7%d %+%- %d %%, rising%)"), tostring(found))
+    assert.truthy(tostring(found):find("y depends on a %(7%d %+%- %d %%, rising%)"), tostring(found))
     assert.is_nil(found.matters.pass) -- it does not vary
   end)
 
@@ -69,7 +69,7 @@ describe("the influence of parameters", function()
     near(0.5, by.u)
     assert.is_nil(by.c.rank)
     assert.is_true(found.matters.pass[1].share > 0.2)
-    assert.truthy(tostring(found):find("any goes with no parameter alone", 1, true))
+    assert.truthy(tostring(found):find("any depends on no parameter alone", 1, true))
   end)
 
   -- A single parameter has the whole influence, also with few evaluations and with values near the limits of
@@ -162,6 +162,6 @@ describe("study:chart", function()
     few:sweep { grid = { a = 3 } }
     assert.error_matches(function() few:chart { kind = "tornado", y = "any" } end, "'any' does not vary")
     assert.error_matches(function() study({ a = { 0, 1 } }, anything):chart { kind = "cross", y = "a" } end,
-      "there is no evaluation to be drawn")
+      "there is no evaluation to draw")
   end)
 end)

@@ -262,7 +262,7 @@ print(study:cancel(), study:cancel())
     local out, err = during(c, c.command("0.1", 4), function()
       second = select(2, program.shell(c.command("0.1", 4)))
     end)
-    assert.truthy(second:find("study 'lot': process .* works with its journal already; let it end first"),
+    assert.truthy(second:find("study 'lot': process .* already works with its journal; let it end first"),
       second)
     assert.equal("52\n", out, err)
     same(c)
@@ -315,7 +315,8 @@ local study = sw.study { name = "s", file = arg[1], parameters = { x = { 0, 1 } 
 study:sweep { count = 5 }
 ]], { program.folder() .. "/s.study" }, { before = slurm.env })
     assert.equal(1, code)
-    assert.truthy(err:find("script.lua:3: evaluate returned 0.5; a table of results is wanted", 1, true), err)
+    local told = "script.lua:3: evaluate returned 0.5; it must return a table of results"
+    assert.truthy(err:find(told, 1, true), err)
     assert.is_nil(err:find "sent")
   end)
 
@@ -329,7 +330,7 @@ local study = sw.study { name = "s", file = "%s", parameters = { x = { 0, 1 } },
 print(study:sweep { count = 2 }[2].failed)
 ]]):format(journal)
     local _, err = program.run({ "-e", text }, { before = slurm.env })
-    local told = "study 's': on = 'slurm' is for scripts in a file, which the nodes run too"
+    local told = "study 's': on = 'slurm' needs a script in a file, because the nodes run it too"
     assert.truthy(err:find(told, 1, true), err)
     _, err = program.run({ "-" }, { before = slurm.env, stdin = text })
     assert.truthy(err:find(told, 1, true), err)

@@ -72,7 +72,7 @@ describe("study:fit of a line", function()
     near(0.3, fit.parameters.a.value, 1e-9)
     assert.is_nil(fit.parameters.a.low)
     assert.equal("unknown", fit.sigma)
-    assert.truthy(fit.remarks[1]:find("leave nothing to tell sigma from", 1, true))
+    assert.truthy(fit.remarks[1]:find("leave no residuals to estimate sigma from", 1, true))
     fit = three:fit { data = { y = { 0.6, sigma = 0.02 } } }
     near(0.01, fit.parameters.a.error, 1e-6)
   end)
@@ -172,7 +172,7 @@ describe("study:fit with evaluations that fail", function()
     end):fit { data = { y = { 4, sigma = 1 } } }
     only = fit.parameters.x
     assert.is_false(fit.ok)
-    assert.equal("all evaluations beside the best place failed: no", fit.reason)
+    assert.equal("all evaluations near the best place failed: no", fit.reason)
     assert.equal(1.0, only.value)
     assert.is_nil(only.low)
   end)
@@ -210,7 +210,7 @@ describe("parameters that the data do not determine", function()
     assert.is_true(fit.ok, fit.reason)
     assert.equal(1, #fit.unresolved)
     local told = fit.unresolved[1]
-    assert.equal("EI and weight enter as EI / weight only", told.text)
+    assert.equal("the data depend on EI and weight only through EI / weight", told.text)
     assert.same({ "EI", "weight" }, told.parameters)
     near(0.1, told.value, 1e-6)
     near(math.exp(1.959963985 * 0.01 / math.sqrt(17.5) / 0.1), told.high / told.value, 1e-4)
@@ -219,20 +219,20 @@ describe("parameters that the data do not determine", function()
     assert.same({ 0.1, 10.0 }, { fit.parameters.EI.low, fit.parameters.EI.high })
     near(1, fit.parameters.c.value, 1e-6)
     assert.is_nil(fit.correlation.EI.c)
-    assert.truthy(tostring(fit):find("EI: not told by the data", 1, true))
+    assert.truthy(tostring(fit):find("EI: not determined by the data", 1, true))
   end)
 
   it("enter as a product, a power ratio or a difference", function()
     local a, b = { 0.2, 5 }, { 0.5, 2, log = true }
     for text, model in pairs {
-      ["a and b enter as a * b only"] = function(p, k) return p.a * p.b * k end,
-      ["a and b enter as a / b^3 only"] = function(p, k) return p.a / p.b ^ 3 * k end,
-      ["a and b enter as b / a^2 only"] = function(p, k) return p.b / p.a ^ 2 * k end,
+      ["the data depend on a and b only through a * b"] = function(p, k) return p.a * p.b * k end,
+      ["the data depend on a and b only through a / b^3"] = function(p, k) return p.a / p.b ^ 3 * k end,
+      ["the data depend on a and b only through b / a^2"] = function(p, k) return p.b / p.a ^ 2 * k end,
     } do
       assert.equal(text, found({ a = a, b = b }, model).unresolved[1].text)
     end
     local fit = found({ a = { -2, 2 }, b = { -5, 5 } }, function(p, k) return (p.a - 2 * p.b) * k end)
-    assert.equal("a and b enter as a - 2 b only", fit.unresolved[1].text)
+    assert.equal("the data depend on a and b only through a - 2 b", fit.unresolved[1].text)
     near(fit.parameters.a.value - 2 * fit.parameters.b.value, fit.unresolved[1].value, 1e-6)
   end)
 
@@ -247,7 +247,8 @@ describe("parameters that the data do not determine", function()
     end)
     local texts = { fit.unresolved[1].text, fit.unresolved[2].text }
     table.sort(texts)
-    assert.same({ "a and b enter as a / b only", "c and d enter as c * d only" }, texts)
+    assert.same({ "the data depend on a and b only through a / b",
+      "the data depend on c and d only through c * d" }, texts)
   end)
 
   it("may be three together, with the way they change", function()
@@ -259,15 +260,15 @@ describe("parameters that the data do not determine", function()
     end)
     local text = fit.unresolved[1].text
     local sign = { ["+"] = text:find "a by %+" and "+" or "-", ["-"] = text:find "a by %+" and "-" or "+" }
-    assert.equal("the data cannot tell a, b, c apart: nothing changes with a by +1 %, b by -1 %, c by +1 % "
-      .. "together", (text:gsub("[+-]", sign)))
+    assert.equal("the data do not distinguish a, b, c: changing a by +1 %, b by -1 %, c by +1 % together "
+      .. "changes no result", (text:gsub("[+-]", sign)))
   end)
 
   it("do not include those that are only poorly known", function()
     local fit = found({ a = { -20, 20 }, b = { 0, 20 } },
       function(p, k) return p.a + p.b * (1 + 0.01 * k) end)
     assert.same({}, fit.unresolved)
-    assert.truthy(table.concat(fit.remarks, "\n"):find("a and b can hardly be told apart", 1, true))
+    assert.truthy(table.concat(fit.remarks, "\n"):find("the data hardly distinguish a and b", 1, true))
   end)
 
   -- Columns (1, 1, 0) and (1, 1, 1e-2), scaled to unit length: one minus their cosine is 2.5e-5.
@@ -293,7 +294,7 @@ it("study:fit with a soft loss leaves outliers alone", function()
   assert.is_true(soft.ok, soft.reason)
   assert.is_true(math.abs(soft.parameters.b.value - 1.5) < 0.05, soft.parameters.b.value)
   assert.is_true(soft.parameters.b.low < 1.5 and soft.parameters.b.high > 1.5)
-  assert.truthy(table.concat(soft.remarks, "\n"):find "2 of 10 data are further off than 3 sigma")
+  assert.truthy(table.concat(soft.remarks, "\n"):find "2 of 10 data are more than 3 sigma from the model")
 end)
 
 -- One datum in ten is off by eight times the sigma. The intervals of the soft loss should contain the slope

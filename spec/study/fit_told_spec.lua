@@ -10,7 +10,7 @@ local study, near, Y, line, RANGES, data = straight.study, straight.near, straig
 describe("residuals that are not noise", function()
   it("are reported from their sum when sigma is given", function()
     local few = study(RANGES, line):fit { data = { y = data(Y, 0.01) } }
-    assert.truthy(few.remarks[1]:find("times what sigma says", 1, true), few.remarks[1])
+    assert.truthy(few.remarks[1]:find("times as large as sigma", 1, true), few.remarks[1])
     assert.is_true(few.chance < 1e-6)
     local many = study(RANGES, line):fit { data = { y = data(Y, 1) } }
     assert.truthy(many.remarks[1]:find("sigma is too large", 1, true), many.remarks[1])
@@ -25,7 +25,8 @@ describe("residuals that are not noise", function()
       for k = 1, 20 do out[k] = p.a + p.b * k end
       return { y = out }
     end):fit { data = { y = y } }
-    assert.truthy(fit.remarks[1]:find("residuals of y are no noise: they change sign 2 times in 20", 1, true))
+    assert.truthy(fit.remarks[1]:find("residuals of y are not random: they change sign 2 times in 20", 1,
+      true))
   end)
 
   -- All orders of 3 and 4 signs, counted.
@@ -121,7 +122,8 @@ end }:fit { data = { y = { 0.3, 0.2 } }, starts = 1000 }]], {},
     assert.is_false(fit.ok)
     assert.equal("evaluations used up", fit.reason)
     assert.is_true(fit.evaluations <= 9)
-    assert.truthy(tostring(fit):find("not found: these are the best values so far", 1, true))
+    assert.truthy(tostring(fit):find("the search did not converge: these are the best values so far", 1,
+      true))
   end)
 end)
 
@@ -148,7 +150,7 @@ describe("study:fit refuses", function()
     ["data.a is a parameter"] = of { a = 1 },
     ["data.y has a sigma and data.z has none"] = of { y = { 1, sigma = 1 }, z = 2 },
     ["data.y and data.z need a sigma each"] = of { y = 1, z = 2 },
-    ["1 data cannot tell 2 parameters"] = of { y = 1 },
+    ["1 data cannot determine 2 parameters"] = of { y = 1 },
     ["evaluate returns no 'force'; it returns: y"] = of { force = { 1, 2 } },
     ["data.y has 3 numbers, and evaluate returned 10"] = of { y = { 1, 2, 3 } },
     ["data.y has 11 numbers, and evaluate returned 10"] = of { y = { 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11 } },
@@ -174,7 +176,7 @@ describe("study:fit refuses", function()
   end)
 
   it("results that are not lists of numbers", function()
-    for _, case in ipairs { { {}, "an empty table" }, { { a = 1 }, "a table that is no list" },
+    for _, case in ipairs { { {}, "an empty table" }, { { a = 1 }, "a table that is not a list" },
       { { 1, "x" }, "returned y_2 = 'x'" }, { { 1, { 2 } }, "returned y_2 = a table" } } do
       local fine, why = pcall(function()
         study(RANGES, function() return { y = case[1] } end):fit { data = { y = { 1, 2 } } }

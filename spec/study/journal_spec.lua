@@ -101,7 +101,7 @@ describe("a journal", function()
         .. text:sub(place + offset + 1))
       local s, again
       local said = told(function() s, again = swept(path) end)
-      assert.truthy(said:find("s.study: 1 damaged line (the first is line 8) counts for nothing", 1, true),
+      assert.truthy(said:find("s.study: 1 damaged line (the first is line 8) contributes nothing", 1, true),
         said)
       assert.equal(1, s.computed)
       assert.same(rows, again)
@@ -115,7 +115,8 @@ describe("a journal", function()
     for _, text in ipairs { "hello\n", "\n\n", ("x"):rep(1000), "softworld study 2 0000000000000000\n",
       "\0\0\n" } do
       program.write(path, text)
-      assert.error_matches(function() study(path) end, "is no journal of a study; it is left as it is")
+      assert.error_matches(function() study(path) end, "is not a journal of a study; the file is left as it "
+        .. "is")
       assert.equal(text, program.read(path))
     end
     local function line(body) return ("%s %016x\n"):format(body, sw.core.checksum(body)) end
@@ -126,7 +127,7 @@ describe("a journal", function()
       told(function() study(path):table() end)
     end
     program.write(path, first .. line 's "s" 0 "x')
-    assert.error_matches(function() study(path) end, "s.study:2 is no line of a journal")
+    assert.error_matches(function() study(path) end, "s.study:2 is not a line of a journal")
   end)
 
   it("with nonsense behind correct checksums is not used", function()
@@ -164,8 +165,8 @@ describe("a journal", function()
     for _, case in ipairs(cases) do
       local s
       local said = told(function() s = swept(path, case[1]) end)
-      assert.truthy(said:find("20 evaluations of another definition, kept apart", 1, true)
-        or said:find("%d0 evaluations of another definition, kept apart"), said)
+      assert.truthy(said:find("20 evaluations of another definition, which are kept apart", 1, true)
+        or said:find("%d0 evaluations of another definition, which are kept apart"), said)
       assert.truthy(said:find(case[2], 1, true), said)
       assert.truthy(said:find(case[3] or "now:", 1, true), said)
       assert.equal(20, s.computed)
@@ -179,7 +180,7 @@ describe("a journal", function()
   it("that cannot be written is an error before anything is computed", function()
     local folder = program.folder()
     local cases = { ["/nowhere/s.study"] = "cannot write /nowhere/s.study: No such file or directory",
-      [folder] = "is a folder, no file", ["/dev/full"] = "is a device, no file" }
+      [folder] = "is a folder, not a file", ["/dev/full"] = "is a device, not a file" }
     for path, text in pairs(cases) do
       local calls = 0
       local fine, why = pcall(function()

@@ -29,7 +29,7 @@ describe("a parameter of a study", function()
   check {
     ["beyond what its row allows"] = { with { -1, 2, of = "obstacle.friction" },
       "-1 is not allowed; obstacle.friction is in [0, 100] -" },
-    ["of a row that ends nowhere"] = { with { of = "wire.EI" }, "which is no range to search in; give {" },
+    ["of a row that ends nowhere"] = { with { of = "wire.EI" }, "which is not a range to search in; give {" },
     ["at an end that its row leaves out"] = { with { 0, 1, of = "wire.breaking_load" },
       "0 is not allowed; wire.breaking_load is in (0, inf] N" },
     ["of a row that does not exist"] = { with { 0, 1, of = "obstacle.fricton" }, "did you mean 'friction'?" },
@@ -37,7 +37,7 @@ describe("a parameter of a study", function()
     ["of a row that is no number"] = { with { 0, 1, of = "obstacle.name" }, "'obstacle.name' is a text" },
     ["of a row with another unit"] = { with { 0, 1, unit = "N", of = "wire.EI" },
       "unit = 'N', and wire.EI is in N m2" },
-    ["of a row that is no name"] = { with { 0, 1, of = 5 }, "of = 5; the row's name is wanted" },
+    ["of a row that is no name"] = { with { 0, 1, of = 5 }, "of = 5; it must be the name of a row" },
     ["without a range"] = { with {}, "parameter 'force': it needs a range { lowest, highest }" },
     ["with half a range"] = { with { 1 }, "the highest is missing" },
     ["with a reversed range"] = { with { 2, 1, unit = "N" }, "the range 2 to 1 N is reversed" },
@@ -87,7 +87,7 @@ describe("a study", function()
     ["with a constraint that nothing can meet"] = {
       function() study { constraints = { y = { min = 2, max = 1 } } } end, "min = 2 is above max = 1" },
     ["with a constraint of a parameter"] = { function() study { constraints = { x = { max = 1 } } } end,
-      "is of a parameter" },
+      "is a limit of a parameter" },
     ["with a wrong unit of a constraint"] = {
       function() study { constraints = { y = { max = 1, unit = "lbf" } } } end, "unit = 'lbf'" },
     ["asked for a result that is not there"] = { function() study():minimise "zz" end,
@@ -152,8 +152,8 @@ describe("an evaluation", function()
   -- the body of evaluate and the message: the study ends when the first evaluation does this; later ones
   -- fail
   local cases = {
-    ["returns nothing"] = { function() end, "returned nothing; a table of results is wanted" },
-    ["returns a number"] = { function() return 5 end, "returned 5; a table of results is wanted" },
+    ["returns nothing"] = { function() end, "returned nothing; it must return a table of results" },
+    ["returns a number"] = { function() return 5 end, "returned 5; it must return a table of results" },
     ["returns two values"] = { function() return {}, 5 end, "returned more than one value" },
     ["returns an empty table"] = { function() return {} end, "returned 0 results" },
     ["returns a text"] = { function() return { y = "1" } end, "returned y = '1'" },
@@ -223,7 +223,7 @@ describe("an evaluation", function()
   it("cannot ask its study for more evaluations", function()
     local s
     s = study { evaluate = function() return { y = #s:sweep { count = 2 } } end }
-    assert.error_matches(function() s:sweep { count = 2 } end, "its evaluations cannot ask for more")
+    assert.error_matches(function() s:sweep { count = 2 } end, "evaluate cannot start other evaluations")
   end)
 end)
 

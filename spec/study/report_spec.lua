@@ -185,7 +185,7 @@ describe("the page of a study", function()
   end)
 
   it("reports wrong arguments", function()
-    assert.error_matches(function() study():report(folder .. "/x.html") end, "there is no evaluation to be")
+    assert.error_matches(function() study():report(folder .. "/x.html") end, "there is no evaluation to show")
     for _, path in ipairs { "x.pdf", 3, "" } do
       assert.error_matches(function() s:report(path) end, "the name of a file that ends in .html is wanted")
     end

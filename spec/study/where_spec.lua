@@ -31,10 +31,10 @@ describe("study:run", function()
       { { detached = true }, "did you mean 'detach'?" },
       { { options = { array = "1-3" } }, "study:run: options: array is set by the study itself" },
       { { options = { job_name = "x" } }, "job_name is set by the study itself" },
-      { { options = { "short" } }, "study:run: options: 1 is no name of an option of sbatch" },
+      { { options = { "short" } }, "study:run: options: 1 is not the name of an option of sbatch" },
       { { options = { partition = {} } }, "options: partition = a table must be a text on one line" },
       { { options = { partition = "a\nb" } }, "must be a text on one line" },
-      { { options = { ["a b"] = 1 } }, "options: 'a b' is no name of an option" },
+      { { options = { ["a b"] = 1 } }, "options: 'a b' is not the name of an option" },
       { { options = "-p short" }, "study:run: options" },
     }
     for _, case in ipairs(cases) do

@@ -23,10 +23,10 @@ rows.calls{
     "a table, or nil", example = "print(found.EI.value, found.EI.low, found.EI.high)" },
   { "calibration.GJ", nil, "the same of GJ", "a table, or nil" },
   { "calibration.EA", nil, "the same of EA", "a table, or nil" },
-  { "calibration.squeeze", nil, "the same of the section: force per length over the plates' approach",
+  { "calibration.squeeze", nil, "the same for the section: force per length over the plates' approach",
     "a table, or nil" },
   { "calibration.fit", nil, "with correlations, residuals, remarks: see help 'fit'", "a fit" },
-  { "calibration.remarks", nil, "what is to be known before the numbers are used", "a list of texts" },
+  { "calibration.remarks", nil, "read these before you use the numbers", "a list of texts" },
   { "calibration.cable", nil, "an entry for the catalogue, flagged measured", "a cable",
     example = "scene:wire { cable = found.cable, from = { 0, 0, 0 }, to = { 1, 0, 0 } }" },
   { "calibration.name", nil, "of the cable", "a text" },
@@ -35,11 +35,10 @@ rows.calls{
     example = 'found:save "my_cable.lua"' },
 }
 
-local chart = rows.call("calibration:chart", "{...}", "draws what was measured over what is computed; needs "
-  .. "gnuplot", {
+local chart = rows.call("calibration:chart", "{...}", "draws measured and computed values; needs gnuplot", {
   gives = "the path, or without one the drawing in characters",
   example = 'found:chart { of = "sag", path = "sag.svg" }',
-  { "of", "choice", "-", "what is drawn", choices = { "sag", "twist", "pull", "squeeze" },
+  { "of", "choice", "-", "the measurement to draw", choices = { "sag", "twist", "pull", "squeeze" },
     usual = "the first that was measured" },
   { "path", "text", "-", "a .svg, .png or .pdf file", usual = "drawn in characters" },
 })
@@ -63,8 +62,9 @@ local function add_hints(own)
   if group and at_bound.EI then
     local soft = EI.value < math.sqrt(group.EI[1] * group.EI[2])
     said[#said + 1] = soft
-      and "the sag is that of a chain: EI is too small to be seen; take a shorter wire, or a cantilever"
-      or "the wire hardly sags: EI is too large to be seen; take a longer one"
+      and "the wire hangs like a chain, so EI is too small to be measured; use a shorter wire, or a "
+        .. "cantilever"
+      or "the wire hardly sags, so EI is too large to be measured; use a longer wire"
   end
   local t = own.model.twist
   if t and t.needs_EI then
@@ -73,8 +73,8 @@ local function add_hints(own)
     local gamma = weight * t.options.length ^ 2 / value
     for _, point in ipairs(t.points) do
       if gamma > 1 and point[1] < 5 * weight then
-        said[#said + 1] = ("the weight of the twisted wire, %.3g N, counts beside its tension, %.3g N, and "
-          .. "is left out of the formula"):format(weight, point[1])
+        said[#said + 1] = ("the weight of the twisted wire, %.3g N, is not small against its tension, %.3g "
+          .. "N, and the formula neglects it"):format(weight, point[1])
         break
       end
     end
@@ -151,7 +151,7 @@ end
 local function line_of(own, name)
   local q = own.parameters[name]
   if not q then return nil end
-  if not q.low or q.told == false then return ("  %-7s not told by what was measured"):format(name) end
+  if not q.low or q.told == false then return ("  %-7s not determined by the measurements"):format(name) end
   return ("  %-7s %.5g %s, 95 %% interval %.5g to %.5g (-%.2g %%, +%.2g %%)"):format(name, q.value, q.unit,
     q.low, q.high, 100 * (1 - q.low / q.value), 100 * (q.high / q.value - 1))
 end

@@ -28,7 +28,7 @@ local call = rows.call(WHAT, "{...}", "EA, EI, GJ and section stiffness of a rea
   example = "sw.calibration { sag = { file = 'sag.csv', length = 1, to = { 0.8, 0 } }, "
     .. "mass_per_length = 0.01, outer_diameter = 0.0024 }",
   { "name", "text", "-", "of the cable", usual = "calibrated" },
-  { "source", "text", "-", "where and when it was measured; for the entry", usual = "measured" },
+  { "source", "text", "-", "where and when it was measured, for the catalogue entry", usual = "measured" },
   { "outer_diameter", "number or {value, sigma =}", "m", "of the cable; or { value, sigma = }",
     required = true },
   { "mass_per_length", "number or {value, sigma =}", "kg/m", "weighed; or { value, sigma = }",
@@ -38,7 +38,8 @@ local call = rows.call(WHAT, "{...}", "EA, EI, GJ and section stiffness of a rea
   { "pull", "table", "-", "elongation over force", rows = slope.kinds.pull.rows },
   { "squeeze", "table", "-", "approach of two plates over force", rows = slope.kinds.squeeze.rows },
   { "EI", "number or {value, sigma =}", "N m2", "known already, instead of a sag; or { value, sigma = }" },
-  { "like", "text or cable", "-", "entry of the catalogue for what is not measured, as a guess" },
+  { "like", "text or cable", "-", "entry of the catalogue from which values not measured are taken, as a "
+    .. "guess" },
 })
 
 local function fail(text, ...) error((WHAT .. ": " .. text):format(...), 0) end
@@ -78,7 +79,7 @@ end
 
 local function add_EI(model, o)
   if model.sag then
-    if o.EI ~= nil then fail("EI is what the sag tells; leave one of them out") end
+    if o.EI ~= nil then fail("give EI or sag, not both: the sag determines EI") end
     model.parameters.EI = { model.sag.EI[1], model.sag.EI[2], log = true, unit = "N m2" }
     model.EI = model.sag.EI
   elseif o.EI ~= nil then
@@ -86,7 +87,8 @@ local function add_EI(model, o)
     model.EI = { known.value / 2, known.value * 2 }
     add_known(model, "EI", known)
   elseif model.twist and model.twist.needs_EI then
-    fail("the twist at which a wire buckles tells EI / GJ only; give a sag too, or EI = { value, sigma = }")
+    fail("the twist at which a wire buckles determines EI / GJ only; give a sag too, or EI = { value, sigma "
+      .. "= }")
   end
 end
 
@@ -121,7 +123,7 @@ local function new_model(o, diameter, mass)
   model.twist = o.twist and add(twist.read(o.twist))
   model.pull = o.pull and add(slope.read("pull", o.pull))
   model.plates = o.squeeze and add(slope.read("squeeze", o.squeeze))
-  if #model.groups == 0 then fail("nothing was measured; give sag, twist, pull or squeeze") end
+  if #model.groups == 0 then fail("no measurement is given; give sag, twist, pull or squeeze") end
   add_EI(model, o)
   add_GJ(model)
   add_slope(model, model.pull)
@@ -187,7 +189,8 @@ local function estimate_sigma(model, said)
       end
       local alone = fit(model, "calibration, " .. group.name, { group }, own, held)
       group.sigma = math.max(alone.scatter, 1e-12)
-      said[#said + 1] = ("sigma of %s was not given: %.3g %s, as its points scatter"):format(group.name,
+      said[#said + 1] = ("sigma of %s was not given; %.3g %s is taken, from the scatter of its "
+        .. "points"):format(group.name,
         group.sigma, group.unit)
     end
   end

@@ -17,7 +17,8 @@ local function measured(own, key)
   local q = own.parameters[key]
   if not q then return nil end
   if q.told == false or not q.low then
-    error(("calibration of '%s': what was measured does not tell %s, so there is no entry; see .remarks")
+    error(("calibration of '%s': the measurements do not determine %s, so there is no catalogue entry; see "
+      .. ".remarks")
       :format(own.name, key), 0)
   end
   return { value = q.value, low = q.low, high = q.high, flag = "measured", source = source_of(own, key) }
@@ -37,7 +38,7 @@ local function of_like(own, key)
   if own.like == nil then return nil end
   local like = cable.get(own.like)
   local q = like[key]
-  return guessed(q.value, q.low, q.high, ("that of %s, taken for alike"):format(like.name))
+  return guessed(q.value, q.low, q.high, ("that of %s, assumed to be alike"):format(like.name))
 end
 
 -- Returns EI if it was given, not fitted.
@@ -56,7 +57,7 @@ end
 function entry.fields(own)
   local EI = measured(own, "EI") or given_EI(own)
   if not EI then
-    error(("calibration of '%s': an entry needs EI; give a sag, or EI"):format(own.name), 0)
+    error(("calibration of '%s': a catalogue entry needs EI; give a sag, or EI"):format(own.name), 0)
   end
   local EA = entry.EA(nil, own.mass_per_length.value)
   local like = own.like ~= nil and cable.get(own.like)

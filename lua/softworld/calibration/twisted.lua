@@ -51,7 +51,7 @@ end
 -- by point. Raises an error if it buckles untwisted.
 function twisted.angle(o, tension, EI, GJ)
   local m = twisted.moment(tension * o.length ^ 2 / EI, o.ends == "hinged")
-  if not m then error("the push buckles it without a twist", 0) end
+  if not m then error("the compression buckles the wire without any twist", 0) end
   return m * EI / GJ
 end
 

@@ -13,7 +13,8 @@ local abrasion = {}
 -- Returns the width on which the wire rubs, and a note if nobody gave it.
 local function width(entry, given)
   if given and given.width then return given.width end
-  return entry.object.radius, ("on a width of %.3g m, assumed: its radius"):format(entry.object.radius)
+  return entry.object.radius, ("on a width of %.3g m, assumed to be the wire's radius"):format(
+    entry.object.radius)
 end
 
 local function join(a, b) return a and b and a .. "; " .. b or a or b end

@@ -20,16 +20,16 @@ local writing = require "softworld.check.writing"
 local check = {}
 
 
-local call = rows.call("run:check", "{...}", "does the process pass? see help 'check'", {
+local call = rows.call("run:check", "{...}", "judges whether the process passes, see help 'check'", {
   gives = "a check: verdict, rows, csv, json, junit",
   example = 'print(run:check { use = "movement", limits = { max_tension = 80 } })',
-  { "use", "choice", "-", "use of the cable, which sets the allowed bend", choices = bendrule.uses,
+  { "use", "choice", "-", "use of the cable, which sets the allowed bend radius", choices = bendrule.uses,
     usual = "that of the wire" },
   { "limits", "limits", "-", "by name: a number, false or { max =, min =, source =, sure = }",
     usual = "of the catalogue, standards and definitions" },
-  { "checks", "list", "-", "of your own: { name =, unit =, of = function(run), max =, min = }" },
-  { "landing", "table", "-", "the path on which the wire is to lie at the end", rows = wanted.landing },
-  { "fatigue", "table", "-", "the curves by which cycles of tension and bending wear the wire",
+  { "checks", "list", "-", "checks of your own: { name =, unit =, of = function(run), max =, min = }" },
+  { "landing", "table", "-", "path on which the wire must lie at the end", rows = wanted.landing },
+  { "fatigue", "table", "-", "curves of how many cycles of tension and bending the wire endures",
     rows = wanted.fatigue },
   { "abrasion", "table", "-", "wear of the wire's surface by sliding", rows = wanted.abrasion },
   { "vibration", "table", "-", "vibration of the holds, with the wires as they lie at the end",
@@ -38,7 +38,7 @@ local call = rows.call("run:check", "{...}", "does the process pass? see help 'c
 })
 
 rows.calls{
-  { "check.verdict", nil, "of the whole: FAIL where a row fails, else OPEN where one is open, else PASS",
+  { "check.verdict", nil, "FAIL if a row fails, else OPEN if a row is open, else PASS",
     "a text" },
   { "check.ok", nil, "is it PASS?", "true or false" },
   { "check.reason", nil, "in one sentence", "a text" },
@@ -166,12 +166,12 @@ local function judge_one(self, member, entry, context, list)
   if not fine then
     if checks.is_interrupt(value) then error(value, 0) end
     local row = start_row(self, member.name, entry.name, member.label, member.unit, {})
-    row.verdict, row.note = "FAIL", "it cannot be told: " .. checks.shown(value)
+    row.verdict, row.note = "FAIL", "it cannot be computed: " .. checks.shown(value)
     return
   end
   if not value then
     if not (given and list[full]) then return end
-    value = { value = 0 / 0, note = "there is nothing to measure" } -- asked for by its full name
+    value = { value = 0 / 0, note = "this run has no such value" } -- asked for by its full name
   end
   with_error(value, error_bar(self.run, entry.name, member.name))
   local function fresh() return start_row(self, member.name, entry.name, member.label, member.unit, value) end
@@ -214,7 +214,7 @@ local function judge_unused(self, list)
   for _, member in ipairs(registry.list) do
     if list[member.name] and not self.made[member.name] then
       local row = start_row(self, member.name, nil, member.label, member.unit, {})
-      row.verdict, row.note = "OPEN", "nothing in this run has it; limits = { " .. member.name
+      row.verdict, row.note = "OPEN", "nothing in this run has this value; limits = { " .. member.name
         .. " = false } leaves it out"
     end
   end
@@ -224,8 +224,8 @@ end
 local function judge_gone(self)
   for _, g in ipairs(build.data(self.scene).gone or {}) do
     if g.kind == "wire" and g.time >= self.start then
-      local row = start_row(self, "removed", g.label, "taken away on the way", "-", { time = g.time })
-      row.verdict, row.note = "OPEN", "its values went with it; check it before"
+      local row = start_row(self, "removed", g.label, "removed during the run", "-", { time = g.time })
+      row.verdict, row.note = "OPEN", "its values were lost with it; check the run before you remove it"
     end
   end
 end
@@ -259,12 +259,12 @@ local function check_there(run)
   local fields = sealed.fields(run)
   local data = build.data(run.scene)
   if data.restores ~= fields.restores then
-    error(("run:check: the results of the run of '%s' went when a snapshot was restored; check it before "
-      .. "that"):format(run.name), 0)
+    error(("run:check: the results of the run of '%s' were lost when a snapshot was restored; check it "
+      .. "before you restore"):format(run.name), 0)
   end
   if fields.number ~= data.runs or run.scene.time ~= run.time then
-    error(("run:check: scene '%s' has gone on since this run, and its peaks are of that; check a run before "
-      .. "the next, and before it settles"):format(run.name), 0)
+    error(("run:check: scene '%s' has gone on since this run, and peaks are those of the later motion; check "
+      .. "a run before the next run, and before scene:settle"):format(run.name), 0)
   end
 end
 
@@ -304,7 +304,7 @@ local function make(run, args)
     local row = start_row(self, "wires", nil, "there is no wire", "-", {})
     local left = #(build.data(self.scene).gone or {}) > 0 and " any more" or ""
     row.verdict, row.note = "OPEN",
-      ("nothing of the scene is judged: it has no wire%s; give checks of your own"):format(left)
+      ("nothing of the scene can be judged: it has no wire%s; give checks of your own"):format(left)
   end
   for _, one in ipairs(own_list) do
     judge_own(self, one)

@@ -6,7 +6,7 @@
 local core = require "softworld.core"
 
 return { name = "clearance", unit = "m", side = "min", on = "wire",
-  label = "least distance from zones to be kept out of", missing = "wanted distance",
+  label = "smallest distance from forbidden zones", missing = "wanted distance",
   value = function(entry)
     local best
     for _, zone in ipairs(core.zones(entry.object)) do
@@ -21,11 +21,11 @@ return { name = "clearance", unit = "m", side = "min", on = "wire",
     end
     if best and best.low < best.value - 1e-12 then
       best.high = best.value
-      best.note = ("%s; within steps it may have been %.4g m"):format(best.note or "", best.low)
+      best.note = ("%s; between steps it may have been %.4g m"):format(best.note or "", best.low)
     elseif best then
       best.low = nil
     end
     return best
   end,
-  limit = function() return { value = 0, from = "definition", source = "nothing is to enter it" } end,
+  limit = function() return { value = 0, from = "definition", source = "nothing may enter it" } end,
   reference = function(entry) return entry.object.radius end }

@@ -21,7 +21,7 @@ local call = rows.call("sw.compare", "a, b, {...}",
   "differences between two checks, runs or files of check:json", {
   gives = "a comparison: same, rows, csv, json",
   example = 'print(sw.compare("before.json", run:check {}))',
-  { "tolerance", "number", "-", "change of a value that counts as none, as a share of it", min = 0, max = 1,
+  { "tolerance", "number", "-", "changes of a value up to this share of it do not count", min = 0, max = 1,
     default = ROUNDING },
 })
 
@@ -37,7 +37,7 @@ end
 -- Returns a row of a file, or raises an error that says what is wrong with it.
 local function read_row(row, i)
   local function wrong(text) error(("row %d %s"):format(i, text), 0) end
-  if type(row) ~= "table" then wrong "is no object" end
+  if type(row) ~= "table" then wrong "is not an object" end
   local copy = { verdict = row.verdict }
   if not VERDICTS[row.verdict or ""] then wrong "has no verdict PASS, FAIL or OPEN" end
   for _, key in ipairs(NUMBERS) do
@@ -46,7 +46,8 @@ local function read_row(row, i)
   end
   for _, key in ipairs(TEXTS) do
     copy[key] = row[key]
-    if row[key] ~= nil and type(row[key]) ~= "string" then wrong(("has a %s that is no text"):format(key)) end
+    if row[key] ~= nil and type(row[key]) ~= "string" then wrong(("has a %s that is not a text"):format(
+      key)) end
   end
   if not copy.name or not copy.unit then wrong "has no name or no unit" end
   return copy
@@ -59,7 +60,7 @@ local function read_document(path)
   local list = {}
   for i, row in ipairs(document.rows) do list[i] = read_row(row, i) end
   for key in pairs(document.rows) do
-    if not list[key] then error("its rows are no list", 0) end
+    if not list[key] then error("its rows are not a list", 0) end
   end
   return { label = path, verdict = document.verdict, reason = tostring(document.reason), rows = list }
 end

@@ -11,7 +11,7 @@ local comparison = {}
 local Comparison = { __name = "comparison" }
 
 rows.calls{
-  { "comparison.same", nil, "has no value, limit or verdict changed, and are all rows in both?",
+  { "comparison.same", nil, "true if no value, limit or verdict has changed and both have the same rows",
     "true or false" },
   { "comparison.reason", nil, "in one sentence", "a text" },
   { "comparison.rows", nil, "status ('same', 'changed', 'only in a', 'only in b'), name, object, what, unit, "

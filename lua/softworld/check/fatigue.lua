@@ -102,7 +102,7 @@ end
 
 local function of_frames(entry, context, strength, given)
   local list, places, count = histories(context, entry)
-  if not list then return { value = 0 / 0, note = "the wire has not the same nodes in all frames" } end
+  if not list then return { value = 0 / 0, note = "the wire's nodes are not the same in all frames" } end
   local best = { value = 0 }
   for k, history in ipairs(list) do
     local sum, range = repeated(rainflow.flat(history), history, given, given.curve, strength)
@@ -151,7 +151,7 @@ local function add_spread(best, entry, curves, given, strength)
     best.low = of_steps(entry, with(curves.low, given), places, strength).value
     best.high = of_steps(entry, with(curves.high, given), places, strength).value
     local bend = 100 * (best.bend or 0)
-    best.note = ("%s: strands strained by %.2g %% if they slip, %.2g %% if they stick"):format(best.note
+    best.note = ("%s: strain of strands %.2g %% if they slip, %.2g %% if they stick"):format(best.note
       or "no cycles", curves.strain[1] * bend, curves.strain[2] * bend)
   elseif (curves.spread or 1) > 1 and best.value == best.value then
     best.low, best.high = best.value / curves.spread, best.high or best.value * curves.spread
@@ -159,11 +159,12 @@ local function add_spread(best, entry, curves, given, strength)
     return
   end
   best.share = true
-  best.note = ("%s; by the curves' spread %.3g to %.3g"):format(best.note or "no cycles", best.low, best.high)
+  best.note = ("%s; %.3g to %.3g with the curves' spread"):format(best.note or "no cycles", best.low,
+    best.high)
 end
 
-local NONE = "its S-N curve is missing: nothing is known of the wire's strands; give fatigue = { curve = { { "
-  .. "range [N], cycles } } } or { bending = { { range [1/m], cycles } } }"
+local NONE = "its S-N curve is missing: the wire's strands are not known; give fatigue = { curve = { { range "
+  .. "[N], cycles } } } or { bending = { { range [1/m], cycles } } }"
 
 local function value(entry, context)
   local given = context.fatigue or { repeats = 1 }

@@ -32,7 +32,8 @@ return { name = "frequency_gap", unit = "-", side = "min", on = "wire", asked = 
   value = function(entry, context)
     local given = context.vibration
     if not (given and given.bands) then
-      return { value = 0 / 0, note = "the bands are missing: vibration = { bands = { { from, to } } } [Hz]" }
+      return { value = 0 / 0, note = "the bands are missing; give vibration = { bands = { { from, to } } } "
+        .. "[Hz]" }
     end
     local highest = 0
     for _, band in ipairs(given.bands) do highest = math.max(highest, band[2]) end

@@ -48,7 +48,8 @@ local function times(x) return ("%.3g"):format(x >= 1 and x or 1 / x) end
 function judge.suspicion(value, limit, side, unit, known, reference)
   local usual = known and known.value or reference
   if usual and usual > 0 and side == "min" and limit.value <= 0 then
-    return ("a limit of %s is none; sure = true keeps it"):format(number.text(limit.value, unit)), true
+    return ("a limit of %s excludes nothing; sure = true keeps it"):format(number.text(limit.value, unit)),
+      true
   end
   local far = laxer(limit.value, usual or value, side)
   if not far then return nil end
@@ -56,11 +57,12 @@ function judge.suspicion(value, limit, side, unit, known, reference)
   local strict = far <= 1 / least and not kept(value, limit.value, side)
   if far >= least or strict then
     local what = known and ("the %s's"):format(known.from) or usual and "what is usual" or "the value"
-    return ("limit of %s: %s times %s, %s; is its unit right (%s)? sure = true keeps it"):format(
+    return ("the limit of %s differs by a factor of %s from %s, %s; is its unit right (%s)? sure = true "
+      .. "keeps it"):format(
       number.text(limit.value, unit), times(far), what, number.text(usual or value, unit), unit), far > 1
   end
   if known and far > 1 and known.from ~= "definition" then
-    return ("laxer than the %s's %s"):format(known.from, number.text(known.value, unit)), false
+    return ("less strict than the %s's %s"):format(known.from, number.text(known.value, unit)), false
   end
 end
 

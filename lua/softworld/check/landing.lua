@@ -28,7 +28,7 @@ return { name = "landing_error", unit = "m", side = "max", on = "wire", asked = 
   value = function(entry, context)
     local wanted = context.landing
     if not wanted then
-      return { value = 0 / 0, note = "the wanted path is missing: landing = { path = points }" }
+      return { value = 0 / 0, note = "the wanted path is missing; give landing = { path = points }" }
     end
     if wanted.wire and wanted.wire ~= entry.name then return nil end
     local x, best, s = entry.object:positions(), { value = 0, time = context.run.time }, 0

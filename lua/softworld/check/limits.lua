@@ -12,8 +12,8 @@ local limits = {}
 limits.rows = rows.list{
   { "max", "number", "its own", "the value must not be above it" },
   { "min", "number", "its own", "the value must not be below it" },
-  { "source", "text", "-", "where it is from", usual = "the script" },
-  { "sure", "boolean", "-", "true: it is meant, however far from what is usual", usual = "false" },
+  { "source", "text", "-", "source of the limit", usual = "the script" },
+  { "sure", "boolean", "-", "true: accept the limit, however unusual it is", usual = "false" },
 }
 
 -- Returns every name that a limit may have, those without an object first.
@@ -41,7 +41,7 @@ function limits.consistent(what, given)
     if given[side] then finite(("%s: %s"):format(what, side), given[side]) end
   end
   if given.min and given.max and given.min > given.max then
-    error(("%s: min = %g is above max = %g: no value is between"):format(what, given.min, given.max), 0)
+    error(("%s: min = %g is above max = %g, so no value can pass"):format(what, given.min, given.max), 0)
   end
 end
 
@@ -53,7 +53,8 @@ local function read(name, given)
     return { value = given }
   end
   if type(given) ~= "table" then
-    error(("%s must be a number, false (it is left out) or { max =, min =, source =, sure = }, got %s")
+    error(("%s must be a number, false (to leave the check out) or { max =, min =, source =, sure = }, got "
+      .. "%s")
       :format(what, checks.got(given)), 0)
   end
   local own = limits.rows:read(given, what)

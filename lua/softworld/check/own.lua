@@ -10,12 +10,12 @@ local own = {}
 own.rows = rows.list{
   { "name", "text", "-", "of its row", required = true },
   { "unit", "text", "-", "of its value, '-' for none", required = true },
-  { "of", "function", "-", "of the run: gives the value, and if it likes place [m] and time [s]",
+  { "of", "function", "-", "function(run) that returns the value, and optionally place [m] and time [s]",
     required = true },
   { "max", "number", "its own", "the value must not be above it" },
   { "min", "number", "its own", "the value must not be below it" },
-  { "source", "text", "-", "where the limit is from", usual = "the script" },
-  { "sure", "boolean", "-", "true: the limit is meant, however far from the value", usual = "false" },
+  { "source", "text", "-", "source of the limit", usual = "the script" },
+  { "sure", "boolean", "-", "true: accept the limit, however far it is from the value", usual = "false" },
 }
 
 local function check_list(given)
@@ -25,7 +25,7 @@ local function check_list(given)
   end
   for key in pairs(given) do
     if math.type(key) ~= "integer" or key < 1 or key > #given then
-      error(("run:check: checks is a list of tables, and has the key '%s'"):format(checks.shown(key)), 0)
+      error(("run:check: checks must be a list of tables, without the key '%s'"):format(checks.shown(key)), 0)
     end
   end
 end

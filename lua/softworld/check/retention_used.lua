@@ -3,7 +3,8 @@
 -- run.
 -- @module softworld.check.retention_used
 return { name = "retention_used", unit = "-", side = "max", on = "clip",
-  label = "largest pull out of the clip, of what it holds", missing = "allowed share of the retention",
+  label = "largest pull out of the clip, as a share of its retention",
+    missing = "allowed share of the retention",
   value = function(entry, context)
     local clip, out = entry.object, entry.object.pulled_out
     local value = { value = clip:ratio() }

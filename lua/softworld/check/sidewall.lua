@@ -42,13 +42,13 @@ local function value(entry, context)
   if best.value == 0 and #data.obstacles + #data.fixings == 0 then return nil end
   if not stored.whole(context, count) then
     best.low, best.high = best.value, math.max(best.value, bound(entry, context.run.start))
-    best.note = ("of %d frames; at no step above %.4g N/m"):format(count or 0, best.high)
+    best.note = ("of %d frames; at every step at most %.4g N/m"):format(count or 0, best.high)
   end
   return best
 end
 
 return { name = "max_sidewall", unit = "N/m", side = "max", on = "wire",
-  label = "largest sidewall pressure T/R where it touches", missing = "allowed sidewall pressure",
+  label = "largest sidewall pressure T/R at contacts", missing = "allowed sidewall pressure",
   value = value,
   reference = function(entry)
     return tension.reference(entry) / (bendrule.table.fixed[1] * 2 * entry.object.radius)

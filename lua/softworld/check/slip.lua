@@ -5,7 +5,7 @@
 local SLIPS = 1 - 1e-9 -- a sliding wire has 1 within rounding [-]
 
 return { name = "peak_margin", unit = "-", side = "max", on = "gripper",
-  label = "friction used, of what the pads allow", missing = "allowed share of the friction",
+  label = "share of the pads' friction that is used", missing = "allowed share of the friction",
   value = function(entry, context)
     local m = entry.object:over(context.run.start, context.run.time)
     if not m.peak_margin then return nil end

@@ -35,4 +35,5 @@ end
 
 return { name = "events", unit = "-", side = "max", on = "run", label = "crashes, overloads, slips, losses",
   missing = "allowed events", value = value,
-  limit = function() return { value = 0, from = "definition", source = "forces are wrong after one" } end }
+  limit = function() return { value = 0, from = "definition", source = "forces are wrong after such an "
+    .. "event" } end }

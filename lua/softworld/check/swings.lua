@@ -4,7 +4,7 @@
 local MOST = 200 -- most modes asked for [-]
 local FIRST = 12
 -- A check must come before scene:settle, which starts new peaks.
-local ADVICE = "let the run go on until the wire rests, or give vibration = { tolerance = }"
+local ADVICE = "let the run last until the wire is at rest, or give vibration = { tolerance = }"
 
 local swings = {}
 

@@ -21,7 +21,7 @@ local function exposed(entry, side)
     if perhaps and (not best or worse[side](zone.temperature, best.value)) then
       best = best or { value = zone.temperature, low = -math.huge, high = math.huge }
       best[side == "max" and "high" or "low"] = zone.temperature
-      best.note = ("%swithin steps perhaps in zone '%s'"):format(best.note and best.note .. "; " or "",
+      best.note = ("%sperhaps in zone '%s' between steps"):format(best.note and best.note .. "; " or "",
         zone.name)
     end
   end

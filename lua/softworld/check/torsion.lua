@@ -14,7 +14,7 @@ local function of_frames(entry, context, GJ)
     if now > best.value then best = { value = now, s = s, time = time } end
   end)
   if stored.whole(context, count) then return best end
-  return worn.at_least(best, ("of %d frames, the steps between are not known: scene:run{ frame = } as short "
+  return worn.at_least(best, ("of %d frames, without the steps between them: scene:run{ frame = } as short "
     .. "as a step"):format(count or 0))
 end
 

@@ -11,22 +11,22 @@ local wanted = {}
 
 wanted.landing = rows.list{
   { "path", "list", "m", "points {x, y, z} of the wanted path", required = true },
-  { "wire", "text", "-", "name of the wire that is to lie there", usual = "every wire" },
-  { "from", "number", "m", "arc length from which it is to lie there", min = 0, usual = 0 },
-  { "to", "number", "m", "arc length up to which", min = 0, usual = "its end" },
+  { "wire", "text", "-", "name of the wire that must lie there", usual = "every wire" },
+  { "from", "number", "m", "arc length from which it must lie there", min = 0, usual = 0 },
+  { "to", "number", "m", "arc length up to which it must lie there", min = 0, usual = "its end" },
 }
 
 wanted.fatigue = rows.list{
   { "curve", "list", "N", "points { range of tension, cycles endured }, ranges rising",
     usual = "of the cable, else of its copper strands; not where the other curve is given" },
   { "bending", "list", "1/m", "points { range of curvature, cycles endured }, ranges rising",
-    usual = "as that of tension" },
+    usual = "the same default as for the curve of tension" },
   { "repeats", "number", "-", "how often the run is gone through", min = 0, above = true, default = 1 },
   { "mean", "choice", "-", "goodman: a range of tension counts as range / (1 - mean / strength)",
     choices = { "none", "goodman" }, default = "none" },
   { "strength", "number", "N", "of Goodman's rule", min = 0, above = true,
     usual = "the least breaking load" },
-  { "spread", "number", "-", "by this factor the curves' lives may be shorter or longer", min = 1,
+  { "spread", "number", "-", "factor by which lives may be shorter or longer than the curves", min = 1,
     usual = "1" },
   { "source", "text", "-", "where the curves are from" },
   { "flag", "choice", "-", "how well they are known", choices = cable.flags },
@@ -47,7 +47,7 @@ wanted.vibration = rows.list{
   { "spectrum", "list", "(m/s2)2/Hz", "of the holds' acceleration, points { f [Hz], W }, f rising" },
   { "damping", "number", "-", "ratio of each mode, for the spectrum", min = 0, above = true, max = 1 },
   { "direction", "vector", "-", "of the acceleration", usual = "the worst of each mode" },
-  { "modes", "integer", "-", "so many of the lowest are looked at", min = 1, max = 200,
+  { "modes", "integer", "-", "number of the lowest modes that are judged", min = 1, max = 200,
     usual = "all up to the highest frequency" },
   { "tolerance", "number", "-", "how far from rest the wire may be, as a share of its length", min = 0,
     above = true, usual = 1e-4 },
@@ -96,7 +96,7 @@ local function read_spectrum(given)
     local what = ("run:check: vibration.spectrum[%d]"):format(i)
     copy[i] = pair(what, point, { " Hz", " (m/s2)2/Hz" })
     if copy[i][1] <= (i > 1 and copy[i - 1][1] or 0) then
-      error(what .. ": a higher frequency than before is wanted, above 0 Hz", 0)
+      error(what .. ": each frequency must be above 0 Hz and higher than the one before", 0)
     end
   end
   if #copy < 2 then error("run:check: vibration.spectrum has fewer than 2 points { f [Hz], W }", 0) end

@@ -9,7 +9,7 @@ return { name = "wear_depth", unit = "m", side = "max", on = "wire", asked = tru
   value = function(entry, context)
     local given = context.abrasion
     if not given then
-      return { value = 0 / 0, note = "its coefficient is missing: abrasion = { coefficient = [1/Pa] }" }
+      return { value = 0 / 0, note = "the coefficient is missing; give abrasion = { coefficient = [1/Pa] }" }
     end
     local v = abrasion.largest(entry, context, function(place) return given.coefficient * place.slid end)
     local from = "coefficient " .. abrasion.source(given)

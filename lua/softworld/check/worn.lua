@@ -3,7 +3,7 @@
 -- @module softworld.check.worn
 local core = require "softworld.core"
 
-local worn = { HOW = "scene:run{ wear = true } keeps it of every step" }
+local worn = { HOW = "scene:run{ wear = true } records every step" }
 
 --- Returns the places of a wire { { s =, rubbed =, slid =, side = }, ... }; nil if nothing was recorded.
 function worn.places(entry) return core.worn(entry.object) end

@@ -53,7 +53,8 @@ function Check:__tostring()
   for i, row in ipairs(own.rows) do list[i] = line_of(row) end
   cells.add_table(lines, list)
   if not own.no_numbers and #own.rows > 0 and not has_bars(own.rows) then
-    lines[#lines + 1] = "  edges and steps have no error bars: scene:run{ check = {...} } gives them"
+    lines[#lines + 1] = "  values have no error bars for edges and steps; scene:run{ check = {...} } "
+      .. "computes them"
   end
   if #own.skipped > 0 then
     lines[#lines + 1] = "  left out by the script: " .. cells.plain(table.concat(own.skipped, ", "))

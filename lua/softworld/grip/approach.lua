@@ -28,7 +28,7 @@ function approach.of(self, wires, args)
   local open = args.approach == "auto" or args.approach == nil and auto and args.force
   if not open then return args.approach or "imposed" end
   if not auto then
-    error(("gripper '%s': approach = 'auto' is for runs that choose: scene:run{ model = 'auto' }"):format(
+    error(("gripper '%s': approach = 'auto' needs a run that chooses: scene:run{ model = 'auto' }"):format(
       self.name), 0)
   end
   auto.asked[#auto.asked + 1] = { gripper = self, wire = wires[1], force = args.force, s = args.s }

@@ -21,7 +21,8 @@ local Methods = grasp.methods
 -- Raises an error while the gripper moves: another wire could not join the move.
 local function check_rest(self, what)
   if (self.busy_until or -math.huge) > self.scene.time * (1 + 1e-12) + 1e-12 then
-    error(("gripper '%s' moves until t = %g s; %s after that"):format(self.name, self.busy_until, what), 0)
+    error(("gripper '%s' is moving until t = %g s; %s after that"):format(self.name, self.busy_until, what),
+      0)
   end
 end
 
@@ -146,21 +147,23 @@ local take = rows.call("gripper:grasp", "wire, {...}", "takes hold of a wire, or
   example = 'hand:grasp(wire, { s = 0.1, approach = "plates", force = 5 })',
   { "s", "arc length", "m", "place along the wire, of several wires also a list",
     usual = "nearest to the tool" },
-  { "approach", "choice", "-", "one with the wire, by the pads' friction, or squeezed first and then carried",
+  { "approach", "choice", "-", "imposed: one with the wire; plates: by the pads' friction; mixed: squeezed, "
+    .. "then carried rigidly",
     choices = { "imposed", "plates", "mixed", "auto" }, usual = "imposed" },
   jaws.force_row, jaws.distance_row, jaws.speed_row,
   reactions.on_slip_row,
-  { "freeze", "boolean", "-", "of mixed: false stays with the pads until gripper:freeze()", usual = "true" },
-  { "margin", "number", "-", "of mixed: share of what the pads bear at which they take over again", min = 0,
+  { "freeze", "boolean", "-", "of mixed: false keeps the pads until gripper:freeze()", usual = "true" },
+  { "margin", "number", "-", "of mixed: load over what the pads bear, above which the pads take over again",
+    min = 0,
     max = 1, above = true, usual = "0.9" },
   { "region", "number", "m", "of mixed: length of the wire that becomes a mesh", min = 0, above = true,
     usual = "pads and 6 radii on both sides" },
-  { "model", "text", "-", "of mixed: of the mesh", usual = "radial" },
-  { "section", "mesh", "-", "of mixed, as of wire:remodel" },
-  { "spacing", "mesh", "m", "of mixed, as of wire:remodel" },
-  { "particles", "mesh", "-", "of mixed, as of wire:remodel" },
-  { "layers", "mesh", "-", "of mixed, as of wire:remodel" },
-  { "across", "mesh", "-", "of mixed, as of wire:remodel" },
+  { "model", "text", "-", "of mixed: model of the mesh", usual = "radial" },
+  { "section", "mesh", "-", "of mixed: parameter of the mesh, see wire:remodel" },
+  { "spacing", "mesh", "m", "of mixed: parameter of the mesh, see wire:remodel" },
+  { "particles", "mesh", "-", "of mixed: parameter of the mesh, see wire:remodel" },
+  { "layers", "mesh", "-", "of mixed: parameter of the mesh, see wire:remodel" },
+  { "across", "mesh", "-", "of mixed: parameter of the mesh, see wire:remodel" },
 })
 -- Returns the wire or list of wires as a list.
 local function wires_of(self, given)
@@ -221,7 +224,7 @@ function Methods:grasp(wire, args)
   remarks.on("grasp", ("gripper '%s': grasp"):format(self.name), args)
   approach_words.check(self, approach, args)
   if approach == "mixed" and not process.current() then
-    error(("gripper '%s': a mixed grasp takes its time; call it in a process"):format(self.name), 2)
+    error(("gripper '%s': a mixed grasp takes time; call it in a process"):format(self.name), 2)
   end
   if args.on_slip ~= nil then reactions.set_on_slip(self, args.on_slip, 3) end
   self.bereft = nil
@@ -246,7 +249,7 @@ end
 
 local let_go = rows.call("gripper:release", "{...}", "lets go", {
   gives = "the gripper; in a process once the jaws are open",
-  { "wire", "wire", "-", "of several that are held without pads", usual = "all" },
+  { "wire", "wire", "-", "the one to let go, of several held without pads", usual = "all" },
   { "distance", "number", "m", "between the faces", min = 0, max = jaws.MOST, usual = "pads' opening" },
   { "speed", "number", "m/s", "of the opening", min = 0, max = jaws.MOST, above = true, usual = jaws.SPEED },
 })
@@ -284,8 +287,9 @@ function grasp.release(self, args)
 end
 
 rows.calls{
-  { "gripper:freeze", "", "holds the wire rigidly as the pads of a mixed grasp hold it now", "the gripper" },
-  { "gripper:thaw", "", "goes back to the pads and the mesh between them", "the gripper" },
+  { "gripper:freeze", "", "in a mixed grasp: holds the wire rigidly, as the pads hold it now",
+    "the gripper" },
+  { "gripper:thaw", "", "in a mixed grasp: goes back to the pads and the mesh between them", "the gripper" },
 }
 
 Methods.freeze = mixed.freeze

@@ -32,9 +32,11 @@ function grasped.check(self)
   local list = {}
   for i, name in ipairs(others) do list[i] = ("'%s' (%.3g N)"):format(name, on[name]) end
   local text = missed
-    and ("gripper '%s' presses on wire %s, not on wire '%s', which it was to grasp"):format(self.name,
+    and ("gripper '%s' presses on wire %s, not on wire '%s', the one to grasp"):format(
+      self.name,
       table.concat(list, ", "), self.wire.name)
-    or ("gripper '%s' presses on wire %s besides wire '%s', which it was to grasp"):format(self.name,
+    or ("gripper '%s' presses on wire %s besides wire '%s', the one to grasp"):format(
+      self.name,
       table.concat(list, ", "), self.wire.name)
   self.scene:tell{ kind = "grasp", object = self.name, value = on[others[1]], text = text }
   return text, missed

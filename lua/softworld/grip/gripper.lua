@@ -48,16 +48,18 @@ local function has_pads(given)
   return false
 end
 
-local new = rows.call("scene:gripper", "{...}", "takes hold of wires, moves them, lets go", {
+local new = rows.call("scene:gripper", "{...}", "a gripper that grasps wires, moves them and lets go", {
   gives = "a gripper", example = 'scene:gripper { name = "left", pads = { friction = 0.6 } }',
   { "name", "text", "-", "name in messages and series", usual = "gripper1, ..." },
   { "pads", "table", "-", "its fingers", rows = pads.rows },
   { "at", "vector", "m", "the tool's centre while it holds nothing" },
-  { "rotation", "rotation", "-", "of the tool there: x along the wire, fingers close along y, z up" },
+  { "rotation", "rotation", "-", "orientation of the tool there: x along the wire, fingers close along y, z "
+    .. "up" },
   { "arm", "table", "-", "a capsule that goes up from the pads", rows = pads.arm_rows },
-  { "slip_tolerance", "number", "m", "slides below this are none", min = 0, above = true, default = 1e-4 },
+  { "slip_tolerance", "number", "m", "shorter slides do not count as slip", min = 0, above = true,
+    default = 1e-4 },
   { "on_crash", "reaction", "-",
-    "to pads or arm that run into an obstacle: one of these, or a function(gripper, event)",
+    "reaction when pads or arm run into an obstacle: one of these, or a function(gripper, event)",
     choices = reactions.words, usual = "record" },
 })
 
@@ -108,8 +110,8 @@ local function check_place(self, verb)
   process.guard("gripper:" .. verb)
   stand.check_scene(self, 4)
   if self.hold or self.tool or self.carrier or self.at or self.rotation then return end
-  error(("gripper '%s' holds nothing; grasp a wire before you %s, or give the place where it is when "
-    .. "you make it: at = {x, y, z} [m]"):format(self.name, verb), 3)
+  error(("gripper '%s' holds nothing; grasp a wire before you %s, or make the gripper with at = {x, y, z} "
+    .. "[m]"):format(self.name, verb), 3)
 end
 
 -- Returns the moving object: tool or hold; nil if there is none yet.
@@ -144,7 +146,7 @@ local function move_table(self, args)
   local points = args.points or args.path
   if type(points) == "string" then points = trajectory.read(points, args.scale) end
   if args.rotation ~= nil and args.to == nil then
-    error("gripper:move: rotation goes with to; way-points have their own", 3)
+    error("gripper:move: rotation goes with to; way-points have rotations of their own", 3)
   end
   if args.to then
     local to = args.to
@@ -175,15 +177,16 @@ local function motion_of(args)
   error((build.plain(result):gsub("^trajectory: ", "gripper:move: ", 1)), 0)
 end
 
-local move = rows.call("gripper:move", "{...}", "moves the tool; in a process it returns when that is done", {
+local move = rows.call("gripper:move", "{...}", "moves the tool; in a process it returns at the end of the "
+  .. "move", {
   gives = "the gripper", also = "trajectory", example = "hand:move { by = { 0, 0, 0.1 }, speed = 0.2 }",
-  { "by", "vector", "m", "way to go" },
-  { "to", "vector", "m", "place to go to" },
-  { "rotation", "rotation", "-", "of the tool at `to`" },
+  { "by", "vector", "m", "displacement of the move" },
+  { "to", "vector", "m", "target of the move" },
+  { "rotation", "rotation", "-", "rotation of the tool at `to`" },
   { "points", "list", "m", "way-points {x, y, z}, with times t or rotations where wanted" },
   { "path", "file or list", "-", "CSV file of way-points, or the way-points" },
-  { "scale", "number", "m", "unit of the file's lengths that name none", min = 0, above = true },
-  { "turn", "table", "-", "turn about the tool's centre, on the way or in place", rows = rows.list{
+  { "scale", "number", "m", "length unit of columns of the file that name no unit", min = 0, above = true },
+  { "turn", "table", "-", "turn about the tool's centre, during the move or in place", rows = rows.list{
     { "axis", "vector", "-", "of the turn" }, { "angle", "number", "rad", "of the turn" } } },
   reactions.on_slip_row,
 })
@@ -196,7 +199,7 @@ function Gripper:move(args)
     error(("gripper '%s': move where? give path, points, to, by, turn or func"):format(self.name), 2)
   end
   if args.func and not args.duration then
-    error(("gripper '%s': move: func has no end by itself; give duration [s]"):format(self.name), 2)
+    error(("gripper '%s': move: func has no end; give duration [s]"):format(self.name), 2)
   end
   local motion = build.call(3, motion_of, move_table(self, args))
   remarks.on("move", ("gripper '%s': move"):format(self.name), args)
@@ -215,13 +218,13 @@ local rotate = rows.call("gripper:rotate", "{...}", "turns the tool about its ce
   { "angle", "number", "rad", "of the turn", required = true },
   { "duration", "number", "s", "of the turn" },
   { "angular_speed", "number", "rad/s", "instead of a duration" },
-  { "angular_acceleration", "number", "rad/s2", "of law = 'trapezoidal'" },
-  { "speed", "number", "m/s", "as of gripper:move" },
-  { "acceleration", "number", "m/s2", "as of gripper:move" },
-  { "law", "text", "-", "as of gripper:move" },
-  { "blend", "number", "m", "as of gripper:move" },
-  { "stop", "boolean", "-", "as of gripper:move" },
-  { "on_slip", "reaction", "-", "as of gripper:move", choices = reactions.words },
+  { "angular_acceleration", "number", "rad/s2", "for law = 'trapezoidal'" },
+  { "speed", "number", "m/s", "see gripper:move" },
+  { "acceleration", "number", "m/s2", "see gripper:move" },
+  { "law", "text", "-", "see gripper:move" },
+  { "blend", "number", "m", "see gripper:move" },
+  { "stop", "boolean", "-", "see gripper:move" },
+  { "on_slip", "reaction", "-", "see gripper:move", choices = reactions.words },
 })
 
 --- Turns the tool, see help "gripper:rotate".
@@ -242,12 +245,13 @@ function Gripper:stop()
   return self
 end
 
-local press = rows.call("gripper:press", "{...}", "goes on until the wire pushes back; in a process only", {
-  gives = "force reached [N], way gone [m], whether it was the force wanted",
+local press = rows.call("gripper:press", "{...}", "moves until the wire pushes back with a force; in a "
+  .. "process only", {
+  gives = "force reached [N], distance moved [m], true if the wanted force was reached",
   { "force", "number", "N", "push of the wire at which it stops", min = 0, above = true, required = true },
-  { "direction", "vector", "-", "of the way", default = { 0, 0, -1 } },
-  { "speed", "number", "m/s", "on the way", min = 0, above = true, default = 0.02 },
-  { "distance", "number", "m", "longest way", min = 0, above = true, default = 0.1 },
+  { "direction", "vector", "-", "direction of the move", default = { 0, 0, -1 } },
+  { "speed", "number", "m/s", "speed of the move", min = 0, above = true, default = 0.02 },
+  { "distance", "number", "m", "longest move", min = 0, above = true, default = 0.1 },
 })
 
 --- Presses on the wire, see help "gripper:press".
@@ -274,7 +278,8 @@ function Gripper:press(args)
   return pushed() - start, gone, done
 end
 
-rows.calls{ { "gripper:position", "", "the tool's centre, or where it will be", "{x, y, z} [m], or nil" } }
+rows.calls{ { "gripper:position", "", "the tool's centre, or its place at the next grasp",
+  "{x, y, z} [m], or nil" } }
 
 --- Lets go, see help "gripper:release".
 function Gripper:release(args)
@@ -334,7 +339,7 @@ local settable = {
   on_crash = function(value) reactions.check("gripper.on_crash", value, 4) end,
   events = function(value)
     if type(value) == "table" then return end
-    error("gripper.events: a table is wanted, as {} to forget them, got " .. type(value), 4)
+    error("gripper.events: must be a table, such as {} to forget events, got " .. type(value), 4)
   end,
 }
 
@@ -344,7 +349,7 @@ function Gripper:__newindex(key, value)
     if not check then
       local near = core.nearest(checks.shown(key), { "slip_tolerance", "on_slip", "on_crash", "events" })
       error(("gripper has no '%s' to set%s"):format(checks.shown(key),
-        near and ("; did you mean '%s'?"):format(near) or "; what it is like is given to scene:gripper"), 2)
+        near and ("; did you mean '%s'?"):format(near) or "; other values are given to scene:gripper"), 2)
     end
     if value ~= nil then check(value) end
   end
@@ -352,10 +357,10 @@ function Gripper:__newindex(key, value)
 end
 
 rows.calls{
-  { "gripper:stop", "", "stays where it is now", "the gripper" },
+  { "gripper:stop", "", "stops where it is now", "the gripper" },
   { "gripper.name", nil, "name in messages and series" },
   { "gripper.width", nil, "of the pads along the wire", "m" },
-  { "gripper.wire", nil, "that it holds, the first of several", "a wire, or nil" },
+  { "gripper.wire", nil, "the wire that it holds, the first of several", "a wire, or nil" },
   { "gripper.wires", nil, "all that it holds", "a list" },
   { "gripper.events", nil, "what happened; may be set to {}",
     "{ kind = 'slip', 'lost', 'crash', ..., time [s] }, ..." },

@@ -20,12 +20,12 @@ local function note(self, kind, fields)
   self.events[#self.events + 1] = fields
 end
 
-jaws.force_row = { "force", "number", "N", "of each finger on the wire, kept from then on", min = 0,
+jaws.force_row = { "force", "number", "N", "force of each finger on the wire, kept from then on", min = 0,
   above = true }
-jaws.distance_row = { "distance", "number", "m", "opening to go to, unless force stops them before",
+jaws.distance_row = { "distance", "number", "m", "opening to go to, unless the force is reached before",
   min = 0, max = jaws.MOST }
-jaws.speed_row = { "speed", "number", "m/s", "of the opening; alone: until there is contact", min = 0,
-  max = jaws.MOST, above = true, usual = jaws.SPEED }
+jaws.speed_row = { "speed", "number", "m/s", "speed of the opening; given alone: close until contact",
+  min = 0, max = jaws.MOST, above = true, usual = jaws.SPEED }
 
 local close = rows.call("gripper:close_jaws", "{...}", "closes the jaws", {
   gives = "the gripper; in a process once that is done", jaws.force_row, jaws.distance_row,
@@ -58,8 +58,8 @@ local function give_up(self, order, wire, state, crushed, longest)
   local force = order.mode == "force" and ("%g N"):format(order.force) or "the force"
   if crushed then
     note(self, "crushed", { opening = state.opening, squeeze = state.squeeze })
-    error(("gripper '%s' crushes the wire: %.3g mm are left of its %.3g mm between the pads, at %.4g N "
-      .. "per finger; %s is not reached"):format(self.name, 1e3 * state.opening,
+    error(("gripper '%s' crushes the wire: %.3g mm of its %.3g mm are left between the pads, at %.4g N per "
+      .. "finger; %s is not reached"):format(self.name, 1e3 * state.opening,
       2e3 * wire.radius, state.squeeze, force), 0)
   end
   if state.jaws == "empty" then
@@ -72,7 +72,7 @@ local function give_up(self, order, wire, state, crushed, longest)
     error(("gripper '%s' closed on nothing%s"):format(self.name, far), 0)
   end
   note(self, "unreached", { opening = state.opening, squeeze = state.squeeze })
-  error(("gripper '%s': %s is not reached in %.3g s; it is %.4g N at an opening of %.4g mm"):format(
+  error(("gripper '%s': %s is not reached in %.3g s; the force is %.4g N at an opening of %.4g mm"):format(
     self.name, force, longest, state.squeeze, 1e3 * state.opening), 0)
 end
 
@@ -84,8 +84,8 @@ local function tell_overload(self, wire, state)
   local limit = rod and tension.limit{ object = wire }
   if not limit or state.squeeze <= limit.value then return end
   self.scene:tell{ kind = "overload", object = self.name, value = state.squeeze,
-    text = ("gripper '%s' presses on wire '%s' with %.3g N per finger, more than the %.3g N that break it: a "
-      .. "rod's section gives way as a solid one of its mean modulus; give force [N] too, or take a mesh")
+    text = ("gripper '%s' presses on wire '%s' with %.3g N per finger, more than the %.3g N that break it: "
+      .. "pads press on a rod as on a solid section of its mean modulus; give force [N] too, or use a mesh")
       :format(self.name, wire.name, state.squeeze, limit.value) }
 end
 
@@ -96,7 +96,7 @@ local function wait_for_jaws(self, p, order)
   local least = wire and CRUSHED * 2 * wire.radius or 0
   local function done()
     if not self.tool then -- a snapshot was restored
-      error(("gripper '%s': its pads went while it was waiting for them"):format(self.name), 0)
+      error(("gripper '%s': its pads were taken away while it waited for them"):format(self.name), 0)
     end
     stand.check_there(self, 0)
     state = self.tool:state()

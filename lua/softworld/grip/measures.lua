@@ -48,14 +48,15 @@ end
 local function carrier_of(self) return self.tool or self.hold and self.carrier or nil end
 
 local axes = { "axes", "choice", "-", "of the result", choices = { "world", "gripper" }, usual = "world" }
-local finger = { "finger", "integer", "-", "of this one alone", min = 1, max = 6, usual = "all" }
-local one_wire = { "wire", "wire", "-", "on this one of several", usual = "all" }
+local finger = { "finger", "integer", "-", "of this finger alone", min = 1, max = 6, usual = "all" }
+local one_wire = { "wire", "wire", "-", "on this wire of several", usual = "all" }
 
-local force = rows.call("gripper:force", "{...}", "of the gripper on its wires, or zero", {
+local force = rows.call("gripper:force", "{...}", "force of the gripper on its wires, or zero", {
   gives = "{x, y, z} [N]", axes, finger, one_wire })
-local moment = rows.call("gripper:moment", "{...}", "of the gripper on its wires now", {
+local moment = rows.call("gripper:moment", "{...}", "moment of the gripper on its wires now", {
   gives = "{x, y, z} [N m]",
-  { "at", "vector", "m", "point that it is about", usual = "the tool's centre" }, axes, finger, one_wire })
+  { "at", "vector", "m", "point about which it is taken", usual = "the tool's centre" }, axes, finger,
+    one_wire })
 
 --- Returns the present force on the wire; with several wires, on all of them.
 function Measures:force(args)
@@ -141,12 +142,13 @@ local function is_gap(self, t)
 end
 
 local over = rows.call("gripper:over", "t1, t2, {...}",
-  "its loads between two times [s], which may be left out", {
+  "its loads between two times [s]; without times, of the whole series", {
   gives = "peak_force, mean_force [N], peak_moment, mean_moment [N m], impulse, impulse_size [N s], "
     .. "duration, times of the peaks [s]; raw_peak_force, ... of single steps; of pads peak_squeeze [N], "
     .. "peak_margin, slip [m]; raw_peak_margin of a single step",
-  { "window", "number", "s", "of the mean whose peak is looked for", min = 0, usual = "that of the run" },
-  { "at", "vector", "m", "point that moments are about", usual = "the tool's centre" },
+  { "window", "number", "s", "time over which the mean is taken whose peak is given", min = 0,
+    usual = "that of the run" },
+  { "at", "vector", "m", "point about which moments are taken", usual = "the tool's centre" },
 })
 
 -- Reads the third argument of gripper:over: a point, or a table of options.
@@ -252,9 +254,9 @@ end
 rows.calls{
   { "gripper:series", "", "every recorded step",
     "t [s], force, moment; of pads opening, squeeze, margin, slip" },
-  { "gripper:state", "", "what the pads do", "jaws, opening [m], squeeze, normal [N], margin, sliding [-], "
+  { "gripper:state", "", "state of the pads", "jaws, opening [m], squeeze, normal [N], margin, sliding [-], "
     .. "slip [m], slip_time [s], slip_place, place [m]" },
-  { "gripper:squeeze", "", "how far the wire is squeezed", "height, width [m], share [-]" },
+  { "gripper:squeeze", "", "how flat the wire is squeezed", "height, width [m], share [-]" },
   { "gripper.peak_force", nil, "over all of its time, see gripper:over", "N" },
   { "gripper.mean_force", nil, "over all of its time", "N" },
   { "gripper.peak_moment", nil, "over all of its time", "N m" },

@@ -50,7 +50,7 @@ function mixed.settle(self, args)
   p:wait_until(function()
     if not self.tool or not self.wire then -- another process let go, or a snapshot was restored
       if wire then build.present(wire) end
-      error(("gripper '%s': it let go while its grasp was to come to rest"):format(self.name), 0)
+      error(("gripper '%s': it let go before its grasp came to rest"):format(self.name), 0)
     end
     local now, t = self.tool:state(), self.scene.time
     if t - since < TIME then return t >= late end

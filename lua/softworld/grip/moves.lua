@@ -21,7 +21,7 @@ local function this_process(self, verb)
   end
   stand.check_scene(self, 4)
   local p = process.current()
-  if not p then error(("gripper:%s takes its time; call it in a process"):format(verb), 3) end
+  if not p then error(("gripper:%s takes time; call it in a process"):format(verb), 3) end
   return p
 end
 
@@ -39,19 +39,20 @@ local function direction_of(what, value)
   return vec.unit(value) or error(what .. ": direction must not be zero", 0)
 end
 
-local come = rows.call("gripper:approach", "place, {...}", "goes to a wire or point, slowly at last", {
+local come = rows.call("gripper:approach", "place, {...}", "goes to a wire or point, slowly on the last part",
+  {
   gives = "the gripper",
   { "s", "number", "m", "place along the wire", min = 0, usual = "nearest to the tool" },
-  { "distance", "number", "m", "last way, along direction", min = 0, default = DISTANCE },
-  { "direction", "vector", "-", "of the last way", default = { 0, 0, -1 } },
-  { "speed", "number", "m/s", "before", min = 0, above = true, default = SPEED },
-  { "slow", "number", "m/s", "on the last way", min = 0, above = true, usual = SLOW },
+  { "distance", "number", "m", "length of the last part, along direction", min = 0, default = DISTANCE },
+  { "direction", "vector", "-", "direction of the last part", default = { 0, 0, -1 } },
+  { "speed", "number", "m/s", "speed before the last part", min = 0, above = true, default = SPEED },
+  { "slow", "number", "m/s", "speed on the last part", min = 0, above = true, usual = SLOW },
 })
 
 -- Returns the goal: the point itself, or the place of a wire.
 local function target(self, what, args, level)
   if core.type(what) ~= "wire" then
-    return checks.vector("gripper:approach: where, a wire or a point,", what, "m", level + 1)
+    return checks.vector("gripper:approach: its target, a wire or a point,", what, "m", level + 1)
   end
   local s = args.s
   if s == nil then
@@ -83,11 +84,11 @@ function Moves:approach(where, args)
   return self
 end
 
-local go = rows.call("gripper:retreat", "{...}", "goes away from where it is", {
+local go = rows.call("gripper:retreat", "{...}", "moves away from its present place", {
   gives = "the gripper",
-  { "distance", "number", "m", "of the way", min = 0, above = true, default = DISTANCE },
-  { "direction", "vector", "-", "of the way", default = { 0, 0, 1 } },
-  { "speed", "number", "m/s", "on the way", min = 0, above = true, default = SPEED },
+  { "distance", "number", "m", "distance of the move", min = 0, above = true, default = DISTANCE },
+  { "direction", "vector", "-", "direction of the move", default = { 0, 0, 1 } },
+  { "speed", "number", "m/s", "speed of the move", min = 0, above = true, default = SPEED },
 })
 
 --- Goes away, see help "gripper:retreat".
@@ -110,7 +111,8 @@ end
 
 rows.calls{
   { "gripper:move_to", "point, {...}", "moves to a point [m], as gripper:move", "the gripper" },
-  { "gripper:handover", "gripper, {...}", "the other one grasps, see gripper:grasp, then this lets go",
+  { "gripper:handover", "gripper, {...}", "the other gripper grasps (see gripper:grasp), then this one lets "
+    .. "go",
     "the other gripper" },
 }
 

@@ -66,13 +66,16 @@ pads.rows = rows.list{
   { "radius", "number", "m", "of round ones", min = 0, max = MOST, above = true, default = 0.004 },
   { "angle", "number", "rad", "of v, between its sides", min = 0, max = math.pi, above = true,
     default = 2 * math.pi / 3 },
-  { "file", "text", "-", "mesh file of a finger, in the tool's axes, for the one at +y" },
-  { "scale", "number", "-", "of the mesh file's lengths", min = 0, above = true, default = 1 },
-  { "friction", "numbers", "-", "on the wire; a list has one for each finger", min = 0, max = 100,
+  { "file", "text", "-", "mesh file of the finger at +y, in the tool's axes" },
+  { "scale", "number", "-", "metres per unit of the mesh file", min = 0, above = true, default = 1 },
+  { "friction", "numbers", "-", "friction coefficient on the wire; a list has one for each finger", min = 0,
+    max = 100,
     default = 0.5 },
-  { "kinetic_friction", "numbers", "-", "while it slides; a list has one for each finger", min = 0,
+  { "kinetic_friction", "numbers", "-", "friction coefficient while the wire slides; a list has one for each "
+    .. "finger", min = 0,
     max = 100, usual = "friction" },
-  { "restitution", "number", "-", "share of speed kept after a blow", min = 0, max = 1, default = 0 },
+  { "restitution", "number", "-", "share of the approach speed kept in an impact", min = 0, max = 1,
+    default = 0 },
 }
 
 --- Parameters of an arm.

@@ -10,7 +10,8 @@ local reactions = {}
 
 reactions.words = { "record", "warn", "stop" }
 reactions.on_slip_row = { "on_slip", "reaction", "-",
-  "to a wire that slips or is lost: one of these, or a function(gripper, event)", choices = reactions.words,
+  "reaction when the wire slips or is lost: one of these, or a function(gripper, event)",
+    choices = reactions.words,
   usual = "as before" }
 
 function reactions.check(what, value, level)

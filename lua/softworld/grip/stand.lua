@@ -11,7 +11,7 @@ local stand = {}
 --- Raises an error if the gripper was made after a snapshot that was restored.
 function stand.check_there(self, level)
   if self.gone then
-    error(("gripper '%s' was made after the snapshot that was restored; make it anew")
+    error(("gripper '%s' was made after the snapshot that was restored; make it again")
       :format(self.name), level)
   end
   if self.left then

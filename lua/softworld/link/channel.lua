@@ -25,14 +25,15 @@ local new = rows.call("scene:channel", "{...}", "a trough along points, with mit
   gives = "a channel",
   example = "scene:channel { points = { { 0, 0, 0 }, { 0.3, 0, 0 } }, width = 0.015, depth = 0.012 }",
   { "name", "text", "-", "name in messages", usual = "channel1, ..." },
-  { "points", "points", "m", "of the middle of its floor, two or more" },
+  { "points", "points", "m", "way-points of the middle of its floor, two or more" },
   { "width", "number", "m", "inside", min = 1e-6, max = 1000, required = true },
   { "depth", "number", "m", "inside", min = 1e-6, max = 1000, required = true },
   { "thickness", "number", "m", "of floor and walls", min = 1e-6, max = 1000, default = 0.002 },
   { "up", "vector", "-", "where it is open", default = { 0, 0, 1 } },
   { "friction", "number", "-", "on the wire", min = 0, max = 100, default = 0 },
-  { "restitution", "number", "-", "share of speed kept after a blow", min = 0, max = 1, default = 0 },
-  { "lid", "boolean", "-", "closed from the beginning", usual = "false" },
+  { "restitution", "number", "-", "share of the approach speed kept in an impact", min = 0, max = 1,
+    default = 0 },
+  { "lid", "boolean", "-", "closed from the start", usual = "false" },
 })
 
 rows.calls{
@@ -42,9 +43,9 @@ rows.calls{
   { "channel:force", "", "of all wires on it", "{x, y, z} [N]" },
   { "channel:release", "", "takes the channel away" },
   { "channel.name", nil, "name in messages" },
-  { "channel:exists", "", "is it still in the scene", "true or false" },
+  { "channel:exists", "", "whether it is still in the scene", "true or false" },
   { "channel.closed", nil, "is the lid on", "true or false" },
-  { "channel.parts", nil, "what it is made of", "a list of obstacles" },
+  { "channel.parts", nil, "its parts: floor, walls and lid", "a list of obstacles" },
 }
 
 -- --- geometry ----------------------------------------------------------------------
@@ -66,7 +67,8 @@ local function legs_of(what, points, up)
     if not along then error(("%s: points %d and %d are the same"):format(what, i, i + 1), 0) end
     local side = unit(cross(up, along))
     if not side or norm(cross(up, along)) < 0.2 then
-      error(("%s: leg %d goes along up; the open side must be across it"):format(what, i), 0)
+      error(("%s: leg %d is parallel to up; legs must be across the direction of the open side"):format(what,
+        i), 0)
     end
     legs[i] = { from = points[i], to = points[i + 1], along = along, side = side, up = cross(along, side) }
   end
@@ -79,7 +81,8 @@ local function mitres_of(what, legs)
   for i = 2, #legs do
     local normal = unit(add(legs[i - 1].along, legs[i].along))
     if not normal or dot(normal, legs[i].along) < SHARPEST then
-      error(("%s: legs %d and %d meet at %.0f degrees; the way may turn by up to %.0f there"):format(what,
+      error(("%s: legs %d and %d meet at %.0f degrees; a channel may turn by at most %.0f degrees"):format(
+        what,
         i - 1, i, math.deg(math.acos(math.max(-1, dot(legs[i - 1].along, legs[i].along)))),
         2 * math.deg(math.acos(SHARPEST))), 0)
     end
@@ -210,7 +213,8 @@ function Channel:force()
 end
 
 local moment = rows.call("channel:moment", "{...}", "of all wires on it", {
-  gives = "{x, y, z} [N m]", { "at", "vector", "m", "point that it is about", usual = "its first one" } })
+  gives = "{x, y, z} [N m]", { "at", "vector", "m", "point about which it is taken",
+    usual = "its first one" } })
 
 --- Returns the moment of all wires on the channel about a point.
 function Channel:moment(args)

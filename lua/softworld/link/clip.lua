@@ -27,7 +27,7 @@ local STRONGEST = 1e12 -- largest force [N]
 local STEEPEST = 1e6 -- largest ratio of insertion and retention: flanks of no length have no slope
 local THERE = 0.5 -- share of the clip's length that a wire must pass through to be in it
 
-local new = rows.call("scene:clip", "{...}", "a snap-in clip along the way of a wire", {
+local new = rows.call("scene:clip", "{...}", "a snap-in clip that holds a wire", {
   gives = "a clip",
   example = "scene:clip { at = { 0.2, 0, 0.03 }, width = 0.008, insertion = 12, retention = 40 }",
   { "name", "text", "-", "name in messages", usual = "clip1, ..." },
@@ -39,27 +39,33 @@ local new = rows.call("scene:clip", "{...}", "a snap-in clip along the way of a 
     required = true },
   { "retention", "number", "N", "largest force of the lips on the way out", min = 0, above = true,
     required = true },
-  { "friction", "number", "-", "against sliding along the axis", min = 0, max = 100, default = 0 },
+  { "friction", "number", "-", "friction coefficient against sliding along the axis", min = 0, max = 100,
+    default = 0 },
   { "radius", "number", "m", "of the seat", min = 0, above = true, max = 1000, usual = "that of each wire" },
-  { "way", "number", "m", "over the lips", min = 1e-6, max = 1000, usual = "1.5 of the radius" },
+  { "way", "number", "m", "travel of the wire over the lips", min = 1e-6,
+    max = 1000, usual = "1.5 of the radius" },
   { "stiffness", "number", "N/m", "of floor and side walls", min = 0, above = true, max = 1e12,
     usual = "50 times the larger force over the radius" },
-  { "strength", "number", "N", "of floor and walls; beyond it they break, from outside too", min = 0,
+  { "strength", "number", "N", "force at which floor and walls break, also when pressed from outside",
+    min = 0,
     above = true, max = 1e12, usual = "20 times the larger force" },
   { "snap", "number", "s", "time that the lips take to pull a wire in", min = 0, max = 1000,
     default = SNAP },
-  { "on", "wire", "-", "that it is for", usual = "all of the scene" },
+  { "on", "wire", "-", "wire of this clip", usual = "all of the scene" },
 })
 
 rows.calls{
-  { "clip:seated", "wire", "is there a wire, or this one, in the seat", "true or false" },
-  { "clip:state", "wire", "of this wire, or of all", "empty, inserting (under the lips), seated or broken" },
-  { "clip:force", "wire", "on the wire, with friction; without one on all", "{x, y, z} [N]" },
+  { "clip:seated", "wire", "whether a wire, or this one, is in the seat", "true or false" },
+  { "clip:state", "wire", "state of this wire, or of all wires",
+    "empty, inserting (under the lips), seated or broken" },
+  { "clip:force", "wire", "force on this wire, with friction; without argument on all wires",
+    "{x, y, z} [N]" },
   { "clip:ratio", "wire", "largest pull so far over retention; at 1 it came out", "-" },
-  { "clip:height", "wire", "over the seat, and the lips' height; nil when no wire passes", "m, m" },
+  { "clip:height", "wire", "height of the wire over the seat, and of the lips; nil when no wire passes",
+    "m, m" },
   { "clip:release", "", "takes the clip away" },
   { "clip.name", nil, "name in messages" },
-  { "clip:exists", "", "is it still in the scene", "true or false" },
+  { "clip:exists", "", "whether it is still in the scene", "true or false" },
   { "clip.wire", nil, "in the seat", "a wire, or nil" },
   { "clip.inserted", nil, "the last insertion", "nil, or time [s], s [m], peak_force [N], wire, count" },
   { "clip.pulled_out", nil, "the last time a wire came out",
@@ -75,8 +81,8 @@ local function check_axes(what, args)
   end
   local along = vec.dot(args.direction, args.axis)
   if math.abs(along) > 0.995 then
-    error(what .. ": axis, along the wire, and direction, towards the mouth, are the same; they "
-      .. "must be across each other", 0)
+    error(what .. ": axis (along the wire) and direction (towards the mouth) are parallel; they must be "
+      .. "perpendicular", 0)
   end
   args.axis = vec.unit(vec.add(args.axis, args.direction, -along))
 end
@@ -87,8 +93,8 @@ local function check_wires(scene, what, args)
   for _, entry in ipairs(build.data(scene).wires) do
     local thick = entry.object.radius
     if (args.on == nil or args.on == entry.object) and args.radius < thick * (1 - 1e-9) then
-      error(("%s: radius = %.6g m of the seat is below the %.6g m of wire '%s'; leave it out, or "
-        .. "say on = which wire the clip is for"):format(what, args.radius, thick, entry.name), 0)
+      error(("%s: radius = %.6g m of the seat is below the %.6g m of wire '%s'; leave radius out, or give on "
+        .. "= the wire of this clip"):format(what, args.radius, thick, entry.name), 0)
     end
   end
 end

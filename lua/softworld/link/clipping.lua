@@ -12,11 +12,11 @@ local Gripper = require "softworld.grip.gripper"
 local into = rows.call("gripper:clip", "{...}", "presses its wire into a clip; in a process only", {
   gives = "force of the gripper, peak_force of the lips [N], s [m], duration [s]",
   example = "hand:clip { into = clip, speed = 0.1, max_force = 40 }",
-  { "into", "clip", "-", "that the wire goes into", required = true },
+  { "into", "clip", "-", "clip to press the wire into", required = true },
   { "speed", "number", "m/s", "into the mouth", min = 0, above = true, default = 0.02 },
-  { "approach_speed", "number", "m/s", "before, over the mouth", min = 0, above = true, default = 0.1 },
-  { "align", "boolean", "-", "line up over the mouth before", usual = "true" },
-  { "max_force", "number", "N", "beyond it an error says what was reached", min = 0, above = true,
+  { "approach_speed", "number", "m/s", "speed before, over the mouth", min = 0, above = true, default = 0.1 },
+  { "align", "boolean", "-", "first line up over the mouth", usual = "true" },
+  { "max_force", "number", "N", "above this force it stops with an error", min = 0, above = true,
     usual = "5 times insertion" },
   { "overtravel", "number", "m", "beyond the seat", min = 0, usual = "the wire's radius" },
   { "fail", "boolean", "-", "false: returns nil and why where it does not go in", usual = "true" },
@@ -35,7 +35,7 @@ local function checked(self, args)
     error(what .. ": it holds nothing; grasp a wire before", 0)
   end
   if not process.current() then
-    error(what .. ": works inside a process only, as it watches the force on the way", 0)
+    error(what .. ": works inside a process only, because it watches the force during the move", 0)
   end
   args = into:read(args, what)
   args.max_force = args.max_force or USUAL_LIMIT * args.into.insertion
@@ -78,12 +78,12 @@ local function line_up(self, clip, args, what)
   local tool = place(self, clip)
   local u, _, radius, way = passing(clip)
   if not u then
-    error(("%s: no wire passes '%s'; move the one that it holds over its mouth before"):format(what,
+    error(("%s: no wire passes '%s'; first move the wire that it holds over the clip's mouth"):format(what,
       clip.name), 0)
   end
   if math.min(u, tool) < 0.5 * way then
     error(("%s: the wire is %.4g m over the seat of '%s' and the tool %.4g m, below the lips at %.4g m; "
-      .. "move it over the mouth before"):format(what, u, clip.name, tool, way), 0)
+      .. "first move it over the mouth"):format(what, u, clip.name, tool, way), 0)
   end
   if args.align == false then return way, radius end
   local function go(direction, by)
@@ -105,20 +105,20 @@ local function press(self, clip, args, way, radius)
   while not clip:seated() do
     local step = math.min(way / STEPS, u - goal)
     if step < 1e-9 then
-      return most, ("the tool went %.4g m beyond the seat with at most %.4g N, and the wire did not go in "
-        .. "beside it; hold it nearer to the clip, or give more overtravel"):format(-goal, most)
+      return most, ("the tool went %.4g m beyond the seat with at most %.4g N, and the wire beside it did "
+        .. "not go in; grasp the wire nearer to the clip, or give more overtravel"):format(-goal, most)
     end
     self:move{ by = vec.add({ 0, 0, 0 }, clip.direction, -step), speed = args.speed, law = "linear" }
     local before = u
     u = place(self, clip)
     if before - u <= 0.5 * step then -- the move was too short for a step
-      error(("gripper:clip: speed = %g m/s is too fast: the tool does not get on in the time that this takes")
+      error(("gripper:clip: speed = %g m/s is too fast: the move takes too little time for a step")
         :format(args.speed), 0)
     end
     most = math.max(most, -vec.dot(self:force(), clip.direction))
     if most > args.max_force and not clip:seated() then
-      return most, ("%.4g N was reached, above max_force = %.4g N, with the tool %.4g m over the seat; the "
-        .. "lips had given %.4g N"):format(most, args.max_force, u, clip.peak_insertion_force)
+      return most, ("the force reached %.4g N, above max_force = %.4g N, with the tool %.4g m over the seat; "
+        .. "the lips had resisted with %.4g N"):format(most, args.max_force, u, clip.peak_insertion_force)
     end
   end
   return most

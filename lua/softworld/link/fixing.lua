@@ -88,7 +88,7 @@ local function writer(kind, class)
       local near = core.nearest(checks.shown(key), class.__names())
       error(("%s has no '%s' to set%s"):format(kind, checks.shown(key),
         near and ("; '%s' can only be read"):format(near)
-          or "; what it is like is given when it is made"), 2)
+          or "; other values are given when it is made"), 2)
     end
     rawset(sealed.fields(self), key, value)
   end
@@ -121,7 +121,7 @@ local function method(class, name, f)
   return build.placed(function(self, add, ...)
     if not always[name] then fixing.check(self) end
     if name == "report" and type(add) ~= "function" then
-      error(("%s:report: a function that adds a row is wanted, got %s"):format(class.__name, type(add)), 0)
+      error(("%s:report: must get a function that adds a row, got %s"):format(class.__name, type(add)), 0)
     end
     return f(self, add, ...)
   end)

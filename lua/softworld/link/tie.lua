@@ -27,7 +27,7 @@ local new = rows.call("scene:tie", "wire, {...}", "keeps a place of a wire at a 
   { "s", "number", "m", "place along the wire", min = 0, required = true },
   { "to", "point or { wire, s = }", "m", "the other end: a point, or a place of another wire (rod or string)",
     usual = "where it is now" },
-  { "slack", "number", "m", "distance up to which it does not pull", min = 0, usual = "the present one" },
+  { "slack", "number", "m", "distance below which it does not pull", min = 0, usual = "the present one" },
   { "stiffness", "number", "N/m", "beyond the slack", min = 0, above = true, max = 1e12,
     default = STIFFNESS },
   { "strength", "number", "N", "pull at which it breaks", min = 0, above = true, usual = "never" },
@@ -43,19 +43,20 @@ rows.calls{
   { "tie:force", "", "on the wire that was tied", "{x, y, z} [N]" },
   { "tie:release", "", "cuts it" },
   { "tie.name", nil, "name in messages" },
-  { "tie:exists", "", "is it still in the scene", "true or false" },
+  { "tie:exists", "", "whether it is still in the scene", "true or false" },
   { "tie.peak_force", nil, "largest mean of its pull over the run's window, so far", "N" },
-  { "tie.raw_peak_force", nil, "largest pull of a single step so far: what its strength is compared with",
+  { "tie.raw_peak_force", nil, "largest pull of a single step so far; its strength is compared with this",
     "N" },
   { "tie.strength", nil, "pull at which it breaks", "N, or nil: never" },
   { "tie.broken", nil, "how it broke", "nil, or time [s], force [N]" },
 }
 
 local over = rows.call("tie:over", "t1, t2, {...}",
-  "its pull between two times [s], which may be left out", {
+  "its pull between two times [s]; without times, of the whole series", {
   gives = "peak_force, mean_force [N], impulse, impulse_size [N s], duration, times of the peaks [s]; "
     .. "raw_peak_force, ... of single steps; see help 'peaks'",
-  { "window", "number", "s", "of the mean whose peak is looked for", min = 0, usual = "that of the run" },
+  { "window", "number", "s", "time over which the mean is taken whose peak is given", min = 0,
+    usual = "that of the run" },
 })
 
 local function place(what, wire, s, whose)

@@ -21,13 +21,14 @@ local PERIODS = 10      -- least duration of slow motion, in first periods [-]
 local USUAL_DT = 0.01   -- largest step [s]
 local USUAL_TIME = 10   -- duration if none is given [s]
 
-local take = rows.call("scene:advise", "{...}", "which model and mesh it is likely to need; nothing is run", {
+local take = rows.call("scene:advise", "{...}", "the model and mesh that the scene probably needs; runs "
+  .. "nothing", {
   gives = "{ motion =, twist =, contact =, segments = { name = n }, dt =, time =, memory =, spare = }; "
     .. "print it",
   example = "print(scene:advise { tolerance = 0.02, duration = 5 })",
-  { "tolerance", "number", "-", "share of what is asked for", min = 0, max = 1, above = true,
+  { "tolerance", "number", "-", "allowed error, as a share of each quantity", min = 0, max = 1, above = true,
     default = 0.02 },
-  { "duration", "number", "s", "of the run, or of its processes", min = 0, above = true },
+  { "duration", "number", "s", "duration of the run, or of its processes", min = 0, above = true },
 })
 
 local Advice = { __name = "advice" }
@@ -66,7 +67,7 @@ local function motion_of(scene, duration, a)
   for _, w in ipairs(build.data(scene).wires) do
     local fine, list = pcall(w.object.frequencies, w.object, { modes = 1 })
     if not fine or not list[1] or list.unstable > 0 then
-      a.motion, a.motion_why = "dynamic", "its periods are known once it is at rest: scene:settle() first"
+      a.motion, a.motion_why = "dynamic", "its periods are known only at rest: call scene:settle() before"
       return
     end
     longest = math.max(longest or 0, 1 / list[1])
@@ -74,7 +75,8 @@ local function motion_of(scene, duration, a)
   a.period = longest
   if not longest then return end
   if not duration then
-    a.motion, a.motion_why = "dynamic", ("poses from %s on, %d first periods; give duration"):format(
+    a.motion, a.motion_why = "dynamic", ("poses suffice from a duration of %s on, %d first periods; give "
+      .. "duration"):format(
       number.text(PERIODS * longest, "s"), PERIODS)
     return
   end
@@ -103,7 +105,7 @@ local function mesh_of(scene, share, a)
     local round = name and math.ceil(ROUND * w.object.length / (radius + w.object.radius)) or 0
     a.segments[w.name] = math.max(bow, round)
     a.segments_why[w.name] = round > bow and ("edges of a third of the radius of '%s'"):format(name)
-      or ("of one bow, for %.3g %%"):format(100 * share)
+      or ("for one bow with an error of %.3g %%"):format(100 * share)
     nodes = nodes + a.segments[w.name] + 1
   end
   return nodes
@@ -139,15 +141,16 @@ local function advice_of(scene, args)
   if #data.wires == 0 then error(("scene:advise: scene '%s' has no wire"):format(scene.name), 0) end
   local share = args.tolerance
   local a = setmetatable({ tolerance = share, duration = args.duration or USUAL_TIME, spare = {},
-    motion = "dynamic", motion_why = "there is nothing to swing" }, Advice)
+    motion = "dynamic", motion_why = "nothing here can swing" }, Advice)
   motion_of(scene, args.duration, a)
   local names = rubs(data)
   a.twist = #names > 0 and "rolling" or "held"
-  a.twist_why = #names > 0 and ("'%s' has friction; a run with model = 'auto' tells by how much it counts")
+  a.twist_why = #names > 0 and ("'%s' has friction; a run with model = 'auto' tells how much it matters")
     :format(names[1]) or "nothing here has friction"
   a.contact = #data.wires > 1 and "wires" or "none"
-  a.contact_why = #data.wires > 1 and "there are several; a run with model = 'auto' tells whether they meet"
-    or "there is one wire; where it comes to lie on itself, scene:wire_contact{}"
+  a.contact_why = #data.wires > 1 and "there are several wires; a run with model = 'auto' tells whether they "
+    .. "meet"
+    or "there is one wire; if it may touch itself, add scene:wire_contact{}"
   local nodes = mesh_of(scene, share, a)
   local steps = (share / 0.01) ^ 0.5
   a.dt = math.min(USUAL_DT, a.period and a.period / SWING * steps or USUAL_DT)

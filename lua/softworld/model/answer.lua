@@ -33,10 +33,12 @@ function Model:__tostring()
   end
   for _, q in ipairs(self.quantities or {}) do lines[#lines + 1] = quantity_line(q) end
   for _, text in ipairs(self.short) do lines[#lines + 1] = "  NOT enough: " .. text end
-  if self.blind then lines[#lines + 1] = "  NOT known: whether this model suffices, for " .. self.blind end
+  if self.blind then lines[#lines + 1] = "  NOT known: whether this model suffices, "
+    .. "because " .. self.blind end
   if self.dear then lines[#lines + 1] = "  NOT finer: " .. self.dear end
   for _, text in ipairs(self.unchecked) do lines[#lines + 1] = "  not checked: " .. text end
-  lines[#lines + 1] = ("  %d coarse computations to choose, %.3g s; the run %.3g s"):format(self.probes,
+  lines[#lines + 1] = ("  %d coarse computations to choose took %.3g s; the run took %.3g s"):format(
+    self.probes,
     self.cost, self.run_cost)
   return table.concat(lines, "\n")
 end
@@ -49,16 +51,17 @@ local function choice_of(state)
       why = on.text .. "; before, " .. state.why, error = state.change }
   end
   return { name = state.choice.name, rung = rung.name, leaves = rung.leaves, by = state.by,
-    why = state.why or state.doubt or "there is no dearer one", error = state.change }
+    why = state.why or state.doubt or "there is no more expensive one", error = state.change }
 end
 
 -- Returns why bars are too long if nothing else explains it.
 local function together(model)
-  if model.spread then return "the tolerance is below what the cable's spread makes worth computing" end
+  if model.spread then return "the cable's spread changes more than the tolerance allows, so the error bars "
+    .. "were not made shorter" end
   for _, q in ipairs(model.quantities) do
     if not q.met then
-      return ("what the model may leave out of %s, %s, and edges and steps, %s, are together more than was "
-        .. "asked for, %s"):format(q.name, number.text(q.model_error, q.unit),
+      return ("%s: the error of the model, %s, and that of edges and steps, %s, are together above the "
+        .. "tolerance, %s"):format(q.name, number.text(q.model_error, q.unit),
         number.text(q.discretisation, q.unit), number.text(q.tolerance, q.unit))
     end
   end
@@ -121,7 +124,7 @@ end
 --- run:why(): see help "auto".
 function answer.why(run)
   if not run.model then
-    error("the model of this run was not chosen: run with model = 'auto' and tolerance = { quantity = "
+    error("the model of this run was given, not chosen: run with model = 'auto' and tolerance = { quantity = "
       .. "value }", 0)
   end
   return run.model

@@ -51,7 +51,8 @@ local function is_dear(context, k)
   local time = probe.expected(context, decide.rungs(context), k, context.job.levels)
   if not time or time <= LONGEST then return false end
   context.dear = time == math.huge and ("there is no finer mesh than that of level %d"):format(k - 1)
-    or ("edges and steps of level %d would take about %s: not computed"):format(k, number.duration(time))
+    or ("edges and steps of level %d were not computed: they would take about %s"):format(k,
+      number.duration(time))
   return true
 end
 
@@ -172,10 +173,10 @@ local function given_up(context, state, time)
   state.checked, state.by, state.known = true, nil, nil
   local rung = state.rung
   repeat until decide.look(context, state)
-  local text = ("in the fine run it does not hold any more that %s"):format(why)
+  local text = ("in the fine run this is no longer true: %s"):format(why)
   if state.no_way then
-    text = ("%s: by %s %s, and the run began again: %s"):format(text, number.text(time, "s"), state.broke,
-      state.no_way)
+    text = ("%s; by %s %s, and the run began again, because %s"):format(text, number.text(time, "s"),
+      state.broke, state.no_way)
   end
   state.why = state.why and text .. "; " .. state.why or text
   if state.rung == rung then return end
@@ -212,7 +213,7 @@ local function compared_finer(context, state, values)
     repeat until decide.look(context, state)
     if state.rung ~= rung then
       context.given_up[#context.given_up + 1] = { kind = "model", time = context.scene.time, count = 1,
-        text = ("%s: %s given up; on the coarsest edges the wire is somewhere else: %s"):format(
+        text = ("%s: %s given up; on the coarsest edges the wire is in another place: %s"):format(
           state.choice.name, as, state.why) }
       decide.settle(context)
       return true
@@ -262,7 +263,7 @@ local function shorter(context, result)
     local over = all - q.tolerance
     for _, state in ipairs(over > 0 and not hopeless and context.states or {}) do
       if state.rung < state.last and not state.choice.steady and may_mend(state, q, over) then
-        decide.raise(context, state, ("with %s the bar of %s stays at %s (asked for %s)"):format(
+        decide.raise(context, state, ("with %s the error bar of %s is still %s (asked for %s)"):format(
           state.choice.rungs[state.rung].as, q.name, number.text(all, q.unit),
           number.text(q.tolerance, q.unit)))
         decide.settle(context)
@@ -287,8 +288,8 @@ local function goes_on_above(context, result)
   if not result.refused then return false end
   local state = may_replace(context)
   if not state then return false end
-  decide.raise(context, state, ("%s cannot be computed finer: %s"):format(state.choice.rungs[state.rung].as,
-    result.reason))
+  decide.raise(context, state, ("%s cannot be computed on finer edges: %s"):format(
+    state.choice.rungs[state.rung].as, result.reason))
   decide.settle(context)
   return true
 end
@@ -345,16 +346,15 @@ function choose.wanted(scene, args)
   if type(args) ~= "table" then return false end
   local word = args.model
   if word ~= nil and word ~= "auto" then
-    error(("scene:run: model = %s is not allowed; it must be 'auto', or left out: each wire has its own "
-      .. "model")
+    error(("scene:run: model = %s is not allowed; it must be 'auto'; else each wire has its own model")
       :format(checks.shown(word)), 0)
   end
   local named
   for _, w in ipairs(build.data(scene).wires) do named = named or core.data(w.object).auto and w.name end
   if word == nil and not named then return false end
   if type(args.tolerance) ~= "table" and args.check == nil then
-    error(("scene:run: %s needs to know what for: give tolerance = { quantity = value } or check = {...}, "
-      .. "see help 'auto'")
+    error(("scene:run: %s needs a purpose: give tolerance = { quantity = value } or check = {...}, see help "
+      .. "'auto'")
       :format(word and "model = 'auto'" or ("wire '%s' has model = 'auto', which"):format(named)), 0)
   end
   return true

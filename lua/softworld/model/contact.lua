@@ -52,8 +52,8 @@ function contact.look(context)
 end
 
 local apart = { boxes = "the boxes that wires sweep stay %.3g m apart, and ",
-  axes = "they stay %.3g m apart, by what moves between frames, and ",
-  itself = "one stays %.3g m from itself where it turns by more than that, and " }
+  axes = "they stay %.3g m apart after the motion between frames is taken off, and ",
+  itself = "a wire that turns by more than the limit stays %.3g m from itself, and " }
 
 function contact.free(_, rung, f)
   if rung ~= 1 or not f.frames or f.room <= 0 then return nil end
@@ -64,7 +64,7 @@ end
 
 --- Returns why wires may meet from here on, by what the run showed so far.
 function contact.broken(f)
-  return f.frames and f.room <= 0 and "wires came as near to each other as they move between frames" or nil
+  return f.frames and f.room <= 0 and "wires came closer together than they move between two frames" or nil
 end
 
 --- Lets wires touch each other from here on.

@@ -249,7 +249,7 @@ local function in_vain(context, rungs, up)
     local asked = quantity.asked(q, now)
     local bar = estimate.hopeless(q, { one.values[q.name] or NONE, now }, two.contact, context.most, asked)
     if bar then
-      return ("the bar of %s is %s at least on the finest of %d levels, asked for is %s: no mesh mends that")
+      return ("the bar of %s is at least %s on the finest of %d levels, and %s is asked for: no mesh helps")
         :format(q.name, number.text(bar, q.unit), context.most, number.text(asked, q.unit))
     end
   end
@@ -262,8 +262,8 @@ local function climb(context, state, rungs, here)
   local up = with(rungs, name, rung + 1)
   local next_as = choice.rungs[rung + 1].as
   if choice.rungs[rung].own and probe.expected(context, up, 2) == math.huge then -- one level tells nothing
-    return unknown(context, state, f, here, ("%s cannot be computed finer: there is no such mesh"):format(
-      next_as))
+    return unknown(context, state, f, here,
+      ("%s cannot be computed on finer edges: there is no such mesh"):format(next_as))
   end
   local vain = choice.rungs[rung + 1].own and in_vain(context, rungs, up)
   if vain then
@@ -281,7 +281,7 @@ local function climb(context, state, rungs, here)
   end
   local c, blind = compare(context, state, rungs, up)
   if blind then
-    return unknown(context, state, f, here, ("%s cannot be computed finer: %s"):format(next_as, blind))
+    return unknown(context, state, f, here, ("%s: no computation on finer edges: %s"):format(next_as, blind))
   end
   if c.worst > 1 then
     decide.raise(context, state, ("with %s %s"):format(next_as, changed_by(c)))

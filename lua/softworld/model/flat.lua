@@ -37,7 +37,7 @@ function flat.body(wire)
   if nu >= 0 and nu < 0.5 then body.nu = nu end
   if inner > 0 then
     body.inner, body.wall = inner, r - inner
-    body.of = ("a tube with a wall of %.3g mm, as EA and EI tell"):format(1e3 * body.wall)
+    body.of = ("a tube with a wall of %.3g mm, computed from EA and EI"):format(1e3 * body.wall)
   end
   return body
 end

@@ -50,7 +50,7 @@ function grip.idle(f) return f.count == 0 end
 
 function grip.free(_, rung, f, share)
   if rung == 1 then
-    if f.blind then return nil, ("the grip force of '%s' is not told"):format(f.blind) end
+    if f.blind then return nil, ("the script does not give the grip force of '%s'"):format(f.blind) end
     if f.unknown or f.flat > share then return nil end
     if f.load > HELD then return nil end
     return ("the pads of '%s' bear %s of what their friction holds (limit %s), and flatten the wire by %s of "
@@ -59,10 +59,11 @@ function grip.free(_, rung, f, share)
   end
   if rung > 2 then return nil end
   if f.unknown then
-    return nil, ("how stiff the section of '%s' is, is not known: give E"):format(f.unknown)
+    return nil, ("the stiffness of the section of '%s' is not known: give E"):format(f.unknown)
   end
   if f.flat > share then return nil end
-  return ("%s flatten '%s' by %s of its width (limit %s)"):format(number.text(f.force or 0, "N"), f.wire
+  return ("a force of %s flattens '%s' by %s of its width (limit %s)"):format(number.text(f.force or 0, "N"),
+    f.wire
     or "?",
     facts.percent(f.flat), facts.percent(share))
 end

@@ -96,8 +96,9 @@ end
 
 -- Continues with the next rung from the snapshot. Returns why that is not possible, or nil.
 local function go_on(self, state, options, total)
-  if not state.choice.onward then return ("no run goes on with another %s"):format(state.choice.name) end
-  if not process.is_at(self.scene, self.mark) then return "a process has gone on since" end
+  if not state.choice.onward then return ("a run cannot change its %s on the way"):format(
+    state.choice.name) end
+  if not process.is_at(self.scene, self.mark) then return "a process has gone on since the snapshot" end
   back(self, total)
   local fine, why = pcall(state.choice.onward, self.context, options)
   if fine then return nil end
@@ -114,8 +115,8 @@ local function switch(self, i, why, options, total)
     error(setmetatable({ state = state, time = moment }, Broken), 0)
   end
   local rungs = state.choice.rungs
-  state.went_on = { time = self.scene.time, text = ("%s until %s, where the run went back to a snapshot: by "
-    .. "%s %s; %s from there"):format(rungs[state.rung].as, number.text(self.scene.time, "s"),
+  state.went_on = { time = self.scene.time, text = ("%s until %s, where the run went back to a snapshot, "
+    .. "because by %s %s; %s from there"):format(rungs[state.rung].as, number.text(self.scene.time, "s"),
     number.text(moment, "s"), why, rungs[state.rung + 1].as) }
   self.from = self.scene.time
 end

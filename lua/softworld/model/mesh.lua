@@ -90,15 +90,15 @@ local function too_thin(w)
   local r, inner = w.body.radius, w.body.inner
   local middle = inner and ((r ^ 2 + inner ^ 2) / 2) ^ 0.5 or 0
   if middle <= OUTERMOST * r then return nil end
-  return ("the wall of '%s', %s thick, has its middle at %s, outside of radius = %s up to which a mesh has "
-    .. "particles: it is too thin"):format(w.object.name, number.text(r - inner, "m"),
+  return ("the wall of '%s', %s thick, is too thin for a mesh: its middle is at a radius of %s, and a mesh "
+    .. "has particles up to radius = %s only"):format(w.object.name, number.text(r - inner, "m"),
     number.text(middle, "m"), number.text(OUTERMOST * r, "m"))
 end
 
 --- Makes the mesh; w = { object, body, share, region }. Returns why it cannot be made, or nil.
 function mesh.make(w, rung, k, whole)
   if rung == mesh.elements and w.body.cable then
-    return ("no two materials have EA and EI of '%s', whose strands slide"):format(w.object.name)
+    return ("no two materials have the EA and EI of '%s', because its strands slide"):format(w.object.name)
   end
   local thin = too_thin(w)
   if thin then return thin end

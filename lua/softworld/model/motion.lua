@@ -38,7 +38,7 @@ function motion.given(context)
   end
   if context.args.integrator then return "as the script says, integrator = " .. context.args.integrator, 2 end
   local v = speed(context.scene)
-  if v > 0 then return ("it begins in motion, at %s"):format(number.text(v, "m/s")), 2 end
+  if v > 0 then return ("the scene begins in motion, at %s"):format(number.text(v, "m/s")), 2 end
 end
 
 function motion.apply(context, rung, changes)
@@ -155,7 +155,7 @@ function motion.free(_, rung, f, share)
   if not f.acceleration or not f.period or f.weight == 0 then return nil end
   local inertia, long = growth(f) * f.acceleration / f.weight, f.lasts / f.period
   if long < PERIODS or inertia > INERTIA * share then return nil end
-  return ("it lasts %.3g of its first periods of %s (%d are slow), and inertia is up to %s of the weight "
+  return ("the run lasts %.3g first periods of %s (slow from %d on), and inertia is at most %s of the weight "
     .. "(limit %s)"):format(long, number.text(f.period, "s"), PERIODS, facts.percent(inertia),
     facts.percent(INERTIA * share))
 end

@@ -162,7 +162,7 @@ function section.free(context, rung, f, share)
   if rung > 2 or f.unknown then return nil end
   if f.q == 0 then return "nothing presses on a wire" end
   if f.share > share then return nil end
-  return ("'%s' is pressed by up to %s and flattened by %s of its width, by the modulus of %s (limit "
+  return ("'%s' is pressed by up to %s and flattened by %s of its width, with the modulus of %s (limit "
     .. "%s)"):format(
     f.wire, number.text(f.q, "N/m"), facts.percent(f.share), f.of, facts.percent(share))
 end
@@ -171,7 +171,7 @@ end
 function section.broken(f, share, rung)
   local left = section.left(rung, f)
   if rung == 1 and f.unknown then
-    return ("how stiff the section of '%s' is, which was pressed, is not known"):format(f.unknown)
+    return ("the stiffness of the section of '%s', which was pressed, is not known"):format(f.unknown)
   elseif rung == 1 and f.share > share then
     return ("'%s' was pressed by %s and flattened by %s of its width (limit %s)"):format(f.wire,
       number.text(f.q, "N/m"), facts.percent(f.share), facts.percent(share))
@@ -192,19 +192,20 @@ function section.mends(_, rung, result, tightest)
   local f = result.facts and result.facts.section
   if rung > 1 then return nil end
   if result.reason and result.reason:find("whose section does not change", 1, true) then
-    return "what is asked for is of a section that changes"
+    return "a quantity that was asked for needs a section that changes"
   end
   if not f or (f.squeeze or 0) <= SQUEEZED * tightest then return nil end
-  return ("'%s' is squeezed from both sides, as no line can be"):format(f.squeezed)
+  return ("'%s' is squeezed from both sides, which a line cannot compute"):format(f.squeezed)
 end
 
 function section.short(_, f, share, state)
   if state.rung == 1 and state.by ~= "compared" then
     if f.unknown or f.share <= share then return nil end
-    local advice = state.by == "failed" and "and no mesh of it can be computed"
+    local advice = state.by == "failed" and "no mesh of it can be computed"
       or "take a mesh, help 'models'"
     if (f.squeeze or 0) > share then
-      return ("'%s' is squeezed from both sides, where the force on a line may be any: %s"):format(f.squeezed,
+      return ("'%s' is squeezed from both sides, where the force on a line is arbitrary: %s"):format(
+        f.squeezed,
         advice)
     end
     return ("'%s' is pressed by up to %s and flattened by %s of its width (limit %s): %s")
@@ -212,11 +213,11 @@ function section.short(_, f, share, state)
   end
   if f.passed then return f.passed end
   if f.blind then
-    return ("how stiff the section of '%s' is against what presses on it, is not known: give E"):format(
+    return ("the stiffness of the section of '%s' against pressure is not known: give E"):format(
       f.blind)
   end
   if (f.beside or 0) <= share then return nil end
-  return ("'%s' is pressed by up to %s where it is no mesh, and flattened there by %s of its width (limit "
+  return ("'%s' is pressed by up to %s where it is not a mesh, and flattened there by %s of its width (limit "
     .. "%s)"):format(f.wire, number.text(f.load, "N/m"), facts.percent(f.beside), facts.percent(share))
 end
 

@@ -59,7 +59,7 @@ function spread:text()
     end
   end
   if #parts == 0 then return nil end
-  return ("%s, which moves %s: no model can repair that, measure the cable (help 'calibration')"):format(
+  return ("%s, which changes %s: no model can repair that; measure the cable (help 'calibration')"):format(
     table.concat(self.names, "; "), table.concat(parts, ", "))
 end
 

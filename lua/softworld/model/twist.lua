@@ -6,7 +6,7 @@ local facts = require "softworld.model.facts"
 local section = require "softworld.model.section"
 
 local twist = { name = "twist", rungs = {
-  { name = "held", as = "no rolling", leaves = "rolling, and twist by friction: it acts on the axis" },
+  { name = "held", as = "no rolling", leaves = "rolling, and twist by friction: friction acts on the axis" },
   { name = "rolling", as = "rolling", leaves = "nothing" } } }
 
 -- True if the wire can be made to roll.
@@ -47,7 +47,8 @@ function twist.free(_, rung, f)
     return "no friction torque: nothing with friction touches a wire"
   end
   if rung == 1 and f.flat then
-    return "no friction torque: each wire and the forces on it stay in a plane, and nothing turns out of it"
+    return "no friction torque: each wire and the forces on it stay in a plane, nothing turns out of that "
+      .. "plane"
   end
 end
 

@@ -107,7 +107,7 @@ local function panels_of(columns)
         bend and { name = column.name, unit = column.unit, values = tight(column.values) } or column)
     end
   end
-  if #panels == 0 then sink.fail("a chart: no series with a finite value to draw") end
+  if #panels == 0 then sink.fail("a chart: no series has a finite value to draw") end
   return panels
 end
 

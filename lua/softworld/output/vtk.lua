@@ -129,7 +129,8 @@ local function fields_at(run, t)
 end
 
 local function add_points(data, wire, i, points, frame, lengths)
-  if #points % 3 ~= 0 then sink.fail("vtk: wire %d has %d coordinates, not threes", i, #points) end
+  if #points % 3 ~= 0 then sink.fail("vtk: wire %d has %d coordinates, which is not a multiple of 3", i,
+    #points) end
   lengths[i] = lengths[i] or arc_lengths(wire, points)
   local first, values = #data.points // 3, (frame.values or {})[i]
   add_wire(data, i, points, lengths[i], wire.radius or 0.0)

@@ -164,8 +164,8 @@ local function check_stiffness(w)
     local modulus = not known_modulus and type(value) == "number" and value > 0 and value / of
     if modulus and (modulus < least_modulus or modulus > most_modulus) then
       local soft = modulus < least_modulus
-      tell(w.at, ("wire '%s': %s = %.4g %s with a radius of %.3g mm is a modulus of %.2g Pa (%s / (%s)), "
-        .. "%s %g Pa; soft rubber has 1e6 Pa, steel 2e11 Pa"):format(wire.name, name, value, unit, 1e3 * r,
+      tell(w.at, ("wire '%s': %s = %.4g %s with a radius of %.3g mm is a modulus of %.2g Pa (%s / (%s)), %s "
+        .. "%g Pa; soft rubber has 1e6 Pa, steel 2e11 Pa"):format(wire.name, name, value, unit, 1e3 * r,
         modulus, name, words, soft and "below" or "above", soft and least_modulus or most_modulus))
     end
   end

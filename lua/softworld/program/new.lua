@@ -59,7 +59,7 @@ return function(name, more)
   if more then return usage "new takes one name" end
   local path = name:find "%.lua$" and name or name .. ".lua"
   local base = sink.base(path):gsub("%.lua$", "")
-  if base == "" then return usage(("'%s' is no name of a file"):format(name)) end
+  if base == "" then return usage(("'%s' is not the name of a file"):format(name)) end
   if name:sub(1, 1) == "-" then return usage(("there is no option '%s'"):format(name)) end
   if base:find "%c" then return usage "the name has control characters" end
   if core.kind(path) then

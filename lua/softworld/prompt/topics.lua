@@ -17,22 +17,23 @@ local topics = {}
 local uses = {
   scene = "sw.scene{...}",
   wire = "scene:wire{...} (and a section, see help 'section', or a cable, see help 'cable')",
-  section = "scene:wire{...}: what the wire is made of", obstacle = "scene:obstacle{ shape =, ... }",
+  section = "scene:wire{...}: the section of the wire", obstacle = "scene:obstacle{ shape =, ... }",
   run = "scene:run{...}", settle = "scene:settle{...}",
   frequencies = "wire:frequencies{...}: natural frequencies [Hz] about the present equilibrium",
-  wire_mesh = "scene:wire{ model = 'tube' | 'radial' | 'cubic' | 'composite' }: what meshes take besides",
+  wire_mesh = "scene:wire{ model = 'tube' | 'radial' | 'cubic' | 'composite' }: further parameters of meshes",
   remodel = "wire:remodel{ model =, ... }: another model for a wire in mid-run",
   wire_contact = "scene:wire_contact{...}: wires and objects of particles that touch, see help 'touches'",
   particles = "scene:particles{...}: any object of particles: fabric, foam, nets, chains",
   repel = "repel = {...} of scene:particles",
   join = "scene:join{...}: wires fixed to each other at a point, as in a harness",
-  calibrate = "sw.calibrate{ mesh =, ... }: springs of a mesh of particles that is the given wire",
+  calibrate = "sw.calibrate{ mesh =, ... }: springs of a mesh of particles with the stiffnesses of the given "
+    .. "wire",
   calibrate_tube = "sw.calibrate{ mesh = 'tube', ... }: rings, with or without a central line",
   calibrate_radial = "sw.calibrate{ mesh = 'radial', ... }: layers and sectors around a line",
   calibrate_cubic = "sw.calibrate{ mesh = 'cubic', ... }: voxels of a section",
   calibrate_composite = "sw.calibrate{ mesh = 'composite', ... }: a shell around cores, bonded or not",
   trajectory = "sw.trajectory{...}; clamps, obstacles and grippers take the table itself",
-  minimise = "sw.tune.minimise{ f =, ... }: where is f smallest, see help 'tuning'",
+  minimise = "sw.tune.minimise{ f =, ... }: where f is smallest, see help 'tuning'",
 }
 
 local registry
@@ -113,7 +114,7 @@ local function how_it_steps(entry)
   local lines = { ("order %d, %s%s"):format(entry.order, entry.implicit and "implicit" or "explicit",
     entry.adaptive and ", steps by tolerance" or "") }
   if entry.implicit then
-    lines[2] = ("of what is too fast for its steps each leaves %g"):format(entry.at_infinity)
+    lines[2] = ("each step leaves %g of a motion that is too fast for the step"):format(entry.at_infinity)
   elseif entry.leapfrog_limit > 0 then
     lines[2] = ("stable up to %.3g times scene:stable_dt()"):format(entry.leapfrog_limit / 2)
   end
@@ -132,7 +133,7 @@ local function member(family, entry)
   elseif family[1] ~= "model" then
     part.rows = entry.params or {}
     part.after = entry.sample and not entry.listed and "such as " .. entry.sample
-      or family[1] == "hold" and entry.name ~= "clamp" and "what it has: help 'clamp'" or nil
+      or family[1] == "hold" and entry.name ~= "clamp" and "its methods: help 'clamp'" or nil
   end
   return part
 end
@@ -184,7 +185,8 @@ end
 
 -- Returns the part about a class: a line for each method and field.
 local function class_part(class)
-  local part = { title = ("what %s %s has"):format(class:find "^[aeiou]" and "an" or "a", class), lines = {} }
+  local part = { title = ("methods and fields of %s %s"):format(class:find "^[aeiou]" and "an" or "a", class),
+    lines = {} }
   local function short(call) return (signature(call):gsub("^%w+", "", 1)) end
   local shape = ("%%-%ds %%s%%s"):format(column(rows.classes[class], 20, 32, short))
   for i, call in ipairs(rows.classes[class]) do

@@ -12,11 +12,11 @@ local known = {
   { "feed slips", "a slower feed, or a smaller dt" },
   { "tolerance needs steps below", "a larger tolerance or dt, an obstacle with less friction, or fewer "
     .. "segments" },
-  { "is crushed", "less force or travel of what presses there, or a finer mesh" },
-  { "holds a wire turns", "slower turns, or a smaller dt" },
+  { "is crushed", "a smaller force or travel of whatever presses there, or a finer mesh" },
+  { "hold of a wire turns", "slower turns, or a smaller dt" },
   { "cuts too deep", "a smaller dt, slower moves, or rounder edges" },
   { "impacts do not come to an end", "a smaller dt, or restitution = 0" },
-  { "nothing holds a wire", "a clamp or something that the wire can lie on" },
+  { "nothing holds a wire", "a clamp, or an obstacle that the wire can lie on" },
 }
 
 local function is_explicit(integrator)

@@ -74,7 +74,8 @@ local function place_of(what, level)
   elseif checks.field(what, "position") then
     check_scene(what, "a place", level + 1)
     return function()
-      return what:position() or error(("gripper '%s' is nowhere yet; give it at = {x, y, z} [m], or grasp")
+      return what:position() or error(("gripper '%s' has no place yet; make it with at = {x, y, z} [m], or "
+        .. "grasp")
         :format(checks.shown(what.name)), 0)
     end
   elseif core.type(what) == "obstacle" or core.type(what) == "clamp" then
@@ -115,7 +116,7 @@ function conditions.of(t, level, scene)
       found = kind
     end
   end
-  if not found then error("p:wait_until: wait for what? give force, slip, contact or distance", level) end
+  if not found then error("p:wait_until: no condition; give force, slip, contact or distance", level) end
   local holds, impossible = kinds[found](t, level + 1)
   return holds, impossible -- no tail call, it would hide a level
 end

@@ -10,7 +10,7 @@ local Run = runfiles.methods
 
 local camera = rows.list{
   { "from", "vector", "m", "where it stands" },
-  { "to", "vector", "m", "what it looks at" },
+  { "to", "vector", "m", "point at which it looks" },
   { "direction", "vector", "-", "it looks in" },
   { "turn", "number", "deg", "about the vertical", min = -360, max = 360 },
   { "elevation", "number", "deg", "above the horizon", min = -360, max = 360 },
@@ -22,8 +22,8 @@ local chart = rows.call("run:chart", "{...}", "draws series over time; needs gnu
   example = 'run:chart { path = "run.svg", columns = { "hand.force" }, mean = 0.02 }',
   { "path", "text", "-", "a .svg, .png or .pdf file", usual = "drawn in characters" },
   { "columns", "names", "-", "of series, see help 'results'", usual = "all" },
-  { "energy", "boolean", "-", "energies of the run's frames instead", usual = "false" },
-  { "mean", "number", "s", "time of running means that are drawn instead of samples", min = 0, above = true },
+  { "energy", "boolean", "-", "draws the energies of the run's frames instead", usual = "false" },
+  { "mean", "number", "s", "draws running means over this time instead of samples", min = 0, above = true },
   { "title", "text", "-", "above the chart", empty = true, usual = "the scene's name" },
   { "size", "size", "px", "{ width, height }; of .pdf in inches, without path in characters",
     usual = "as the curves need" },
@@ -91,7 +91,7 @@ local function readable(self, what, even_failed)
     error(("run of '%s' failed %s; it has no %s"):format(self.name, self.reason, what), 3)
   end
   if build.data(self.scene).restores ~= self.restores then
-    error(("run of '%s': its %s went when a snapshot was restored; read them before that")
+    error(("run of '%s': its %s were lost when a snapshot was restored; read them before you restore it")
       :format(self.name, what), 3)
   end
 end
@@ -134,7 +134,7 @@ function Run:report(path)
 end
 
 local several = rows.call("sw.report", "{ run, ..., ... }",
-  "lays runs over one another in one page that shows them moving", {
+  "writes one page that shows several runs moving, one over the other", {
   gives = "the path", example = 'sw.report { before, after, path = "both.html" }',
   { "path", "text", "-", "an .html file", required = true },
   { "title", "text", "-", "of the page", usual = "the runs' names" },
@@ -156,7 +156,7 @@ function runfiles.report(args)
     end
     list[i] = runfiles.described(args[i])
   end
-  if #list == 0 then error("sw.report: a run is wanted, such as { run1, run2, path = 'both.html' }", 3) end
+  if #list == 0 then error("sw.report: give a run, such as { run1, run2, path = 'both.html' }", 3) end
   return build.call(4, require("softworld.output.report").write, list, o.path, { title = o.title })
 end
 

@@ -23,7 +23,8 @@ local progress_after = 1 -- computing time before the bar is shown [s]
 
 --- Fields of `frames`.
 go.frames = tables.list{
-  { "memory", "number", "B", "that all frames of the scene may take; when full every second one goes",
+  { "memory", "number", "B", "memory that all frames of the scene may take; when it is full, every second "
+    .. "frame is dropped",
     min = 1e4, max = 1e12, default = 256e6 },
 }
 

@@ -99,11 +99,12 @@ function loads.over(list, o)
 end
 
 local over = rows.call("clamp:over", "t1, t2, {...}",
-  "its loads between two times [s], which may be left out", {
+  "its loads between two times [s]; without times, of the whole series", {
   gives = "peak_force, mean_force [N], peak_moment, mean_moment [N m], impulse, impulse_size [N s], "
     .. "duration, times of the peaks [s]; raw_peak_force, ... of single steps; see help 'peaks'",
-  { "window", "number", "s", "of the mean whose peak is looked for", min = 0, usual = "that of the run" },
-  { "at", "vector", "m", "point that moments are about", usual = "where it holds, at that time" },
+  { "window", "number", "s", "time over which the mean is taken whose peak is given", min = 0,
+    usual = "that of the run" },
+  { "at", "vector", "m", "point about which moments are taken", usual = "where it holds, at that time" },
 })
 
 --- Same for a clamp, pin, grip, feed or slider; also after its release.

@@ -14,29 +14,29 @@ local observe = {}
 local Observer = { __name = "observer" }
 
 local new = rows.call("scene:observe", "{...}",
-  "calls a function while the scene runs, between two steps; without every and wall at each", {
+  "calls a function between two steps of a run; without every and wall after each step", {
     gives = "an observer",
     example = "scene:observe { every = 0.01, call = function() print(scene.time) end }",
     { "call", "function", "-", "function that is called, with the observer", required = true },
-    { "every", "number", "s", "between two calls, of simulated time", min = 0, above = true },
-    { "wall", "number", "s", "between two calls, on the clock on the wall", min = 0, above = true },
+    { "every", "number", "s", "simulated time between two calls", min = 0, above = true },
+    { "wall", "number", "s", "real time between two calls", min = 0, above = true },
   })
 
-local pause = rows.call("observer:pause", "{...}", "holds the run; Ctrl-C ends that", {
+local pause = rows.call("observer:pause", "{...}", "pauses the run; Ctrl-C ends the pause", {
   example = "observer:pause { wall = 0.5 }",
-  { "wall", "number", "s", "so long, on the clock on the wall", min = 0, required = true },
+  { "wall", "number", "s", "length of the pause in real time", min = 0, required = true },
 })
 
 rows.calls{
-  { "observer:stop", "reason", "ends the run with the step that was made; its numbers are good" },
+  { "observer:stop", "reason", "ends the run after the present step; its results are valid" },
   { "observer:change", "function() ... end",
-    "is called between this step and the next, and may change the scene",
+    "calls a function that may change the scene, before the next step",
     example = "observer:change(function() plane:set { friction = 0.5 } end)" },
-  { "observer:remove", "", "it is called no more" },
-  { "observer.scene", nil, "that it looks at", "a scene" },
-  { "observer.every", nil, "between two calls, of simulated time", "s, or nil" },
-  { "observer.wall", nil, "between two calls, on the clock on the wall", "s, or nil" },
-  { "observer.calls", nil, "of its function, so far", "a number" },
+  { "observer:remove", "", "ends its calls" },
+  { "observer.scene", nil, "the scene that it observes", "a scene" },
+  { "observer.every", nil, "simulated time between two calls", "s, or nil" },
+  { "observer.wall", nil, "real time between two calls", "s, or nil" },
+  { "observer.calls", nil, "calls of its function so far", "a number" },
 }
 
 -- scene's data -> { its observers, in the order made }

@@ -20,7 +20,7 @@ local most_pixels = 8192
 local function with_common(list)
   for _, row in ipairs{
     { "technique", "choice", "-", "how; raytraced needs POV-Ray", choices = techniques, usual = "shaded" },
-    { "colour", "choice", "-", "of wires, by this quantity", choices = scale.names,
+    { "colour", "choice", "-", "quantity that colours the wires", choices = scale.names,
       usual = "one for each wire" },
     { "range", "list", "-", "of the colours: { least, largest }", of = "number", usual = "of all frames" },
     { "camera", "camera", "-", "'auto' or where it stands", rows = runfiles.camera, usual = "auto" },
@@ -46,7 +46,7 @@ local of_run = rows.call("run:picture", "{...}", "a picture of a moment of the r
   { "path", "text", "-", "a .png or .svg file", required = true },
   { "t", "number", "s", "of the moment", usual = "the last one" },
   { "times", "list", "s", "of several moments, side by side", of = "number" },
-  { "count", "integer", "-", "so many moments from the first to the last", min = 1, max = 1000, usual = 1 },
+  { "count", "integer", "-", "number of moments from the first to the last", min = 1, max = 1000, usual = 1 },
   { "columns", "integer", "-", "pictures side by side", min = 1, max = 1000, usual = 3 },
   { "captions", "list", "-", "words after the times" },
   { "caption", "text", "-", "of a single picture", empty = true, usual = "its time" },
@@ -56,7 +56,8 @@ local of_film = rows.call("run:film", "path, {...}", "the run as a film, a .webm
   with_common{
     gives = "path, width, height [px], frames",
     example = 'run:film("run.webm", { colour = "tension" })',
-    { "speed", "number", "-", "seconds of the run in one of the film", min = 1e-9, max = 1e9, default = 1 },
+    { "speed", "number", "-", "seconds of the run in one second of the film", min = 1e-9, max = 1e9,
+      default = 1 },
     { "rate", "number", "1/s", "pictures a second", min = 1, max = 60, usual = "30, of .gif 15" },
     { "progress", "boolean", "-", "shown while it is made", usual = "on a terminal" },
   })
@@ -64,7 +65,7 @@ local of_film = rows.call("run:film", "path, {...}", "the run as a film, a .webm
 local of_gltf = rows.call("run:gltf", "path, {...}",
   "the run as a scene that moves, a .glb file for other programs", {
   gives = "the path", example = 'run:gltf "run.glb"',
-  { "frames", "integer", "-", "at most so many moments", min = 1, max = 2000, default = 120 },
+  { "frames", "integer", "-", "largest number of moments", min = 1, max = 2000, default = 120 },
   { "thickness", "number", "-", "times the wires' radius", min = 0, above = true, max = 1000, default = 1 },
 })
 
@@ -175,7 +176,7 @@ end
 
 local function traced(doc, o)
   if o.colour then
-    error("a ray-traced picture has no colours by quantity; technique = 'shaded' has", 0)
+    error("a ray-traced picture has no colours by quantity; use technique = 'shaded'", 0)
   end
   o.run = doc
   if not o.times then
@@ -243,7 +244,7 @@ end)
 local function exchanged(self, numbers)
   local doc = runfiles.moments(self, numbers)
   if #doc.frames == 0 then
-    error(("the run of '%s' has no frames; it was made with frames = false, or its scene has forgotten them")
+    error(("the run of '%s' has no frames; it was made with frames = false, or its scene has dropped them")
       :format(self.name), 0)
   end
   doc = solid.finite_run(doc)

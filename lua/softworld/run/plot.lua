@@ -120,7 +120,7 @@ end
 
 local function read(args)
   if type(args) ~= "table" or getmetatable(args) then
-    fail("a table is wanted, such as { run1, run2, path = 'both.svg' }, got %s", checks.got(args))
+    fail("must get a table, such as { run1, run2, path = 'both.svg' }, got %s", checks.got(args))
   end
   local named, list = {}, {}
   for key, value in next, args do
@@ -143,7 +143,7 @@ local function read(args)
     if is_run(given) then curves_of(given, o.columns, several, list)
     else list[#list + 1] = curve_of(("[%d]"):format(i), given) end
   end
-  if #list == 0 then fail("a run or a curve is wanted, such as { y = { 1, 4, 9 } }") end
+  if #list == 0 then fail("give a run or a curve, such as { y = { 1, 4, 9 } }") end
   o.curves = list
   return o
 end

@@ -59,8 +59,8 @@ function process.guard(what)
   if not self or self.inside then return end
   local data = build.data(self.scene)
   if not data.saving and self.steps >= #process.done(self) then return end
-  error(("%s: this is between two steps of %s, and what happens there would happen again when the "
-    .. "scene goes on from its file; put it into a step: p:step('name', function() ... end)")
+  error(("%s: this call is between two steps of %s, and a script that goes on from the file would repeat it; "
+    .. "put it into a step: p:step('name', function() ... end)")
     :format(what, tostring(self)), 0)
 end
 
@@ -83,19 +83,20 @@ function Process:wait(seconds)
 end
 
 local until_then = rows.call("p:wait_until", "condition, {...}",
-  "waits for a function that returns true, or a condition told as a table, see help 'waiting'", {
+  "waits until a function returns true, or until a condition given as a table holds, see help 'waiting'", {
     gives = "true, or false after the timeout",
     example = "p:wait_until({ force = 0.02, on = hand }, { timeout = 0.5 })",
     { "timeout", "number", "s", "longest wait", min = 0, usual = "no end" },
   })
 
 rows.calls{
-  { "scene:process", "function(p) ... end", "what happens, in order; several run at once", "a process" },
+  { "scene:process", "function(p) ... end", "adds a process: a function that runs beside the simulation; "
+    .. "several run at once", "a process" },
   { "p:wait", "seconds", "lets time pass [s]" },
   { "p:step", "name, function", "a step after which a saved run begins again, see help 'save'",
     "what the function returns",
     example = 'p:step("lift", function() hand:move { by = { 0, 0, 0.1 } } end)' },
-  { "p:finish", "", "ends the process where it waits" },
+  { "p:finish", "", "ends the process at the place where it waits" },
   { "p.time", nil, "of the scene", "s" },
   { "p.scene", nil, "of the process", "a scene" },
   { "p.number", nil, "of the process in its scene, from 1" },
@@ -136,12 +137,12 @@ function Process:wait_until(condition, options)
   return true
 end
 
-rows.call("p:feed", "feed, {...}", "pays wire out or draws it in, and waits until that is done", {
+rows.call("p:feed", "feed, {...}", "pays wire out or draws it in, and waits until the end", {
   example = "p:feed(feed, { length = 0.1, speed = 0.05 })",
   { "length", "number", "m", "to pay out; below zero it is drawn in", required = true },
   { "speed", "number", "m/s", "of the wire" },
   { "duration", "number", "s", "instead of a speed" },
-  { "law", "text", "-", "of the motion, as of a trajectory" },
+  { "law", "text", "-", "law of the motion, as in a trajectory" },
 })
 
 --- Pays out or draws in wire through a feed, see help "p:feed".
@@ -162,7 +163,7 @@ local function check_step(self, name, work)
   end
   check_inside(self, "p:step")
   if self.inside then
-    error(("p:step '%s' begins inside of step '%s'; steps follow one another"):format(name,
+    error(("p:step '%s' begins inside of step '%s'; end a step before the next one begins"):format(name,
       self.inside), 3)
   end
 end
@@ -170,8 +171,8 @@ end
 -- Returns the results of a step that was completed before the file was written.
 local function recall(self, name, old)
   if old.name == name then return table.unpack(old.results, 1, old.count) end
-  error(("p:step '%s': the file '%s' has '%s' as step %d of %s; a script that goes on must have the "
-    .. "same steps"):format(name, tostring(build.data(self.scene).from_file), tostring(old.name),
+  error(("p:step '%s': the file '%s' has '%s' as step %d of %s; a script that goes on from a file must have "
+    .. "the same steps"):format(name, tostring(build.data(self.scene).from_file), tostring(old.name),
     self.steps, tostring(self)), 3)
 end
 

@@ -95,7 +95,7 @@ function refine.job(scene, given, check)
   local job = trust.job(scene, "scene:run", args)
   check(scene, args)
   if args.max_steps then
-    error("scene:run: max_steps does not go with error bars: finer levels need more steps", 0)
+    error("scene:run: max_steps does not go with error bars, because finer levels need more steps", 0)
   end
   for _, q in ipairs(job.quantities) do
     if q.at and args.duration and q.at > args.duration then

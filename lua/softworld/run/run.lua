@@ -47,14 +47,14 @@ local function check_start(scene, args)
   core.check_run(args)
   local data = build.data(scene)
   if data.running then
-    error(("scene:run: a run of scene '%s' is under way; a process lets time pass by waiting")
+    error(("scene:run: a run of scene '%s' is under way; in a process, let time pass by waiting")
       :format(scene.name), 0)
   end
   if not args.duration and #data.processes == 0 and not data.going then
-    error("scene:run: there is no process that could end; give duration [s]", 0)
+    error("scene:run: there is no process to run to its end; give duration [s]", 0)
   end
   if args.save ~= nil and #data.processes == 0 and not data.going then
-    error("scene:run: save: the scene is written after the steps of processes, and there is none; "
+    error("scene:run: save writes the scene after each step of a process, and there is no process; "
       .. "scene:save(file) writes it at once", 0)
   end
   if #data.wires + #data.particles + #data.processes == 0 and not data.going then -- a process may make some
@@ -75,8 +75,8 @@ end
 -- Checks the files to write and to continue from.
 local function check_files(scene, args)
   if refine.wanted(args) and build.data(scene).from_file then
-    error(("scene:run: error bars need the whole computation, and scene '%s' goes on from the "
-      .. "file '%s'; give dt [s], or tolerance as a number [m]"):format(scene.name,
+    error(("scene:run: error bars need a computation from the start, and scene '%s' goes on from the file "
+      .. "'%s'; give dt [s], or tolerance as a number [m]"):format(scene.name,
       build.data(scene).from_file), 0)
   end
   for _, key in ipairs{ "save", "resume" } do
@@ -176,7 +176,7 @@ end
 
 function Run:__newindex(key, value)
   if not sealed.by_library() then
-    error(("run has no '%s' to set; what a run found can only be read"):format(checks.shown(key)), 2)
+    error(("run has no '%s' to set; results of a run can only be read"):format(checks.shown(key)), 2)
   end
   rawset(sealed.fields(self), key, value)
 end

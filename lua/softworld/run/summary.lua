@@ -80,7 +80,7 @@ function summary.of(self)
   ledger.report(self, add)
   local thinned = core.frames_thinned(self.scene)
   if thinned > 1 then
-    add("frames: one of so many is kept, for want of memory", thinned, "-", nil, nil,
+    add("frames: one of this many is kept, to save memory", thinned, "-", nil, nil,
       "see frames = { memory = }")
   end
   for _, q in ipairs(self.quantities and self:error_bars() or {}) do rows[#rows + 1] = bar_of(q) end

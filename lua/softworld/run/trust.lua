@@ -101,7 +101,7 @@ function trust.unmet(result)
     if not result.quantities[name].met then names[#names + 1] = name end
   end
   if #names == 0 then
-    return result.met == false and result.model and "its model may leave out too much, see run:why()" or nil
+    return result.met == false and result.model and "the model may leave out too much, see run:why()" or nil
   end
   return ("%d of %d tolerances NOT met: %s"):format(#names, #result.asked, table.concat(names, ", "))
 end
@@ -153,13 +153,13 @@ end
 function trust.job(scene, what, args)
   local data = build.data(scene)
   if data.running then
-    error(("%s: a run of scene '%s' is under way; error bars need computations from their start: ask "
-      .. "for them outside of processes"):format(what, scene.name), 0)
+    error(("%s: a run of scene '%s' is under way; error bars need computations from the start: ask for them "
+      .. "outside of processes"):format(what, scene.name), 0)
   end
   local bodies, under_way = process.bodies(scene)
   if not bodies then
-    error(("%s: %s is under way and cannot begin again, as error bars need; run the scene without them "
-      .. "until it has ended, or ask for them from the start"):format(what, tostring(under_way)), 0)
+    error(("%s: %s is under way and cannot begin again, which error bars need; run the scene without error "
+      .. "bars until it has ended, or ask for them from the start"):format(what, tostring(under_way)), 0)
   end
   if #data.wires + #data.particles == 0 then
     error(("%s: scene '%s': there is no wire"):format(what, scene.name), 0)
@@ -172,8 +172,8 @@ function trust.job(scene, what, args)
   end
   local asked, check = args.tolerance, what == "scene:run" and args.check or nil
   if check and asked ~= nil and type(asked) ~= "table" then
-    error(("%s: check is decided by error bars, with which tolerance is a table of quantities; leave it out, "
-      .. "got %s"):format(what, checks.got(asked)), 0)
+    error(("%s: with check, tolerance must be a table of quantities or be left out, got %s"):format(what,
+      checks.got(asked)), 0)
   end
   job.quantities = asked and quantity.list(scene, asked, what) or {}
   if #data.particles > 0 then
@@ -226,7 +226,8 @@ local function judge(job, result, hopeless)
   for _, q in ipairs(job.quantities) do
     local now, values = job.read[q.name], job.values[q.name]
     if #values > 0 and not quantity.alike(values[#values], now.value) then
-      error(("quantity '%s': its list is not as long on every mesh; compare at the same places"):format(
+      error(("quantity '%s': its list must have the same length on every mesh; evaluate it at the same "
+        .. "places"):format(
         q.name), 0)
     end
     values[#values + 1] = now.value
@@ -253,14 +254,14 @@ local function check_wires(job)
   local data = build.data(job.scene)
   local gone = #(data.gone or {}) > job.gone and data.gone[#data.gone]
   if gone then
-    error(("%s: '%s' was taken away on the way, so that the computation cannot be repeated for error bars")
+    error(("%s: '%s' was taken away during the run, so the computation cannot be repeated for error bars")
       :format(job.what, gone.label), 0)
   end
   local wires = data.wires
   local new = wires[#job.first + 1]
   if not new then return end
-  error(("%s: wire '%s' was made on the way, so that the computation cannot be repeated for error bars; "
-    .. "make it before"):format(job.what, new.name), 0)
+  error(("%s: wire '%s' was made during the run, so the computation cannot be repeated for error bars; make "
+    .. "it before the run"):format(job.what, new.name), 0)
 end
 
 -- Computes level after level until the bars are short enough. Returns the last result.
@@ -311,17 +312,17 @@ local function advice_of(job)
   if not slow then return nil end
   local now, more = job.read[slow.name], math.ceil(worst)
   local k = job.finest + more
-  local reached = ("%s has a bar of %s on %s; "):format(slow.name, number.text(now.error, slow.unit),
+  local reached = ("%s has an error bar of %s on %s; "):format(slow.name, number.text(now.error, slow.unit),
     describe(job, job.finest))
-  local less = slow.row and "leave more room up to its limit" or "ask for less"
+  local less = slow.row and "leave a larger margin to its limit" or "give a larger tolerance"
   if now.rate <= 1 then
-    return ("%sit does not converge: look at what jumps there, or %s"):format(reached, less)
+    return ("%sit does not converge: find what jumps in the run, or %s"):format(reached, less)
   end
   local asked = number.text(slow.tolerance, slow.unit)
   if k > finest_level then
-    return reached .. ("%s needs more than levels = %d: %s"):format(asked, finest_level, less)
+    return reached .. ("an error bar of %s needs more than levels = %d: %s"):format(asked, finest_level, less)
   end
-  return reached .. ("%s needs about levels = %d (%s)"):format(asked, k, describe(job, k))
+  return reached .. ("an error bar of %s needs about levels = %d (%s)"):format(asked, k, describe(job, k))
 end
 
 local function conclude(job, result)

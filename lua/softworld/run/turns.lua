@@ -29,8 +29,8 @@ end
 local function check_end(self)
   local done, data = process.done(self), build.data(self.scene)
   if self.steps < #done then
-    error(("%s has ended before step '%s', which the file '%s' has; a script that goes on must have "
-      .. "the same steps"):format(tostring(self), tostring(done[self.steps + 1].name),
+    error(("%s has ended without step '%s' of the file '%s'; a script that goes on from a file must have the "
+      .. "same steps"):format(tostring(self), tostring(done[self.steps + 1].name),
       tostring(data.from_file)), 0)
   end
   data.ended = data.ended or {}
@@ -112,8 +112,9 @@ function turns.check_steps(scene)
   turns.take_up(scene)
   for number, done in pairs(data.done or {}) do
     if #done > 0 and number > (data.process_count or 0) then
-      error(("scene:run: the file '%s' has process %d with step '%s', which this script has not made; "
-        .. "make all processes before the run that goes on"):format(tostring(data.from_file), number,
+      error(("scene:run: the file '%s' has process %d with step '%s', and this script has no such process; "
+        .. "make all processes before the run that goes on from the file"):format(tostring(data.from_file),
+        number,
         tostring(done[1].name)), 0)
     end
   end

@@ -30,8 +30,8 @@ function waiting.goes_on(p, impossible)
   local why = impossible and #alive(p.scene) == 1 and impossible()
   if why then
     waits[p] = nil
-    error(("p:wait_until: this never comes true: %s; give a timeout [s], or let another process see "
-      .. "to it"):format(why), 3)
+    error(("p:wait_until: this never comes true: %s; give a timeout [s], or let another process make it "
+      .. "true"):format(why), 3)
   end
 end
 

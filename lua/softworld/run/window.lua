@@ -152,7 +152,7 @@ end
 --- Returns how a peak was measured, and whether the steps are short enough for it.
 function window.note(p, unit)
   if not p.coarse then return note(p, unit) end
-  return ("%s; a blow of few steps: shorter ones may tell another"):format(note(p, unit))
+  return ("%s; the blow lasts few steps: a smaller dt may give another peak"):format(note(p, unit))
 end
 
 --- Same with the value in front: "12.3 N (10 ms mean; raw 41 N in 0.4 ms)".

@@ -141,8 +141,8 @@ local function take_cable(args)
   entry = cable.get(entry)
   for _, key in ipairs{ "E", "nu", "density" } do
     if args[key] ~= nil and not (key == "nu" and args.body == "solid") then
-      error(("wire: %s is of a solid round wire and does not go with cable = '%s'; give EA, EI, GJ or "
-        .. "mass_per_length to override"):format(key, entry.name), 0)
+      error(("wire: %s describes a solid round wire and does not go with cable = '%s'; to override values of "
+        .. "the cable give EA, EI, GJ or mass_per_length"):format(key, entry.name), 0)
     end
   end
   local _, _, use = cable.bend_limit(entry, args.use)

@@ -17,7 +17,7 @@ local of_scene = rows.call("scene:set", "{...}", "changes the scene from now on"
   example = "scene:set { gravity = { 0, 0, 0 } }",
   { "gravity", "vector", "m/s2", "on everything" },
 })
-rows.calls{ { "scene:get", "", "what a scene is made of, as it is now", "name, gravity [m/s2]" } }
+rows.calls{ { "scene:get", "", "present values of the scene's parameters", "name, gravity [m/s2]" } }
 
 --- scene:get() -> { name =, gravity = {x, y, z} [m/s2] }
 function core.class.scene.get(scene)
@@ -39,7 +39,7 @@ end
 -- --- wires ------------------------------------------------------------------------------------
 
 rows.calls{
-  { "wire:get", "", "what the wire is made of, as it is now; wire:remodel changes it",
+  { "wire:get", "", "present values of the wire's parameters; wire:remodel changes them",
     "name, model, cable (its name), length [m], segments, radius [m], EA [N], EI, GJ [N m2], "
       .. "mass_per_length [kg/m]" },
 }
@@ -61,14 +61,14 @@ end
 -- --- obstacles --------------------------------------------------------------------------------
 
 rows.calls{
-  { "obstacle:get", "", "values of its rows, as it is now",
+  { "obstacle:get", "", "present values of its parameters",
     "name, at [m], rotation, friction, kinetic_friction, restitution" },
-  { "obstacle:set", "{...}", "at, rotation, friction, kinetic_friction, restitution from now on",
+  { "obstacle:set", "{...}", "changes at, rotation, friction, kinetic_friction, restitution from now on",
     example = "plane:set { friction = 0.5 }" },
 }
 
 rows.calls{
-  { "force:get", "", "values of its rows, as they are now", "kind, and its parameters" },
+  { "force:get", "", "present values of its parameters", "kind, and its parameters" },
   { "force:set", "{...}", "new values of drag, wind, damping, viscous_bend, push, point, line, moment",
     example = "damping:set { stiffness = 2e-3 }" },
 }
@@ -77,13 +77,14 @@ rows.calls{
 
 local of_gripper = rows.call("gripper:set", "{...}", "changes the gripper from now on", {
   example = "hand:set { force = 12 }",
-  { "force", "number", "N", "that jaws closed by a force keep on the wire", min = 0, above = true },
-  { "slip_tolerance", "number", "m", "slides below this are none", min = 0, above = true },
+  { "force", "number", "N", "force that jaws closed by force keep on the wire", min = 0, above = true },
+  { "slip_tolerance", "number", "m", "shorter slides do not count as slip", min = 0, above = true },
   reactions.on_slip_row,
-  { "on_crash", "reaction", "-", "to pads or arm that run into an obstacle: one of these, or a function",
+  { "on_crash", "reaction", "-", "reaction when pads or arm run into an obstacle: one of these, or a "
+    .. "function",
     choices = reactions.words },
 })
-rows.calls{ { "gripper:get", "", "what it was made of, as it is now",
+rows.calls{ { "gripper:get", "", "present values of its parameters",
   "name, pads, at [m], rotation, arm, slip_tolerance [m], on_slip, on_crash, force [N]" } }
 
 local function copied(t)

@@ -13,7 +13,7 @@ local describe = {}
 rows.calls{
   { "scene:describe", "", "the parts of the scene, as a plain table without objects and functions",
     "name, time [s], gravity [m/s2], and lists: wires, particles, obstacles, holds, forces, joins, fixings, "
-      .. "grippers; each item has name or kind, given (as the script gave it), now (as it is)",
+      .. "grippers; each item has name or kind, given (values of the script) and now (present values)",
     example = "for _, w in ipairs(scene:describe().wires) do print(w.name, w.now.length) end" },
 }
 

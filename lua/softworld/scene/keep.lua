@@ -64,7 +64,7 @@ local function write_table(out, value, path, depth)
     out[#out + 1] = string.pack("<c1I4", "R", number)
     return
   end
-  if depth > DEEPEST then fail(path, "too deep in other tables") end
+  if depth > DEEPEST then fail(path, "in too many tables, one inside the other") end
   out.count = out.count + 1
   out.numbers[value] = out.count
   local metatable = getmetatable(value)
@@ -125,7 +125,7 @@ end
 
 local read -- function(from, depth) -> value
 
-local function damaged() error("its note makes no sense", 0) end
+local function damaged() error("its note is damaged", 0) end
 
 local function unpack(from, format)
   local ok, a, b, c, at = pcall(string.unpack, format, from.text, from.at)

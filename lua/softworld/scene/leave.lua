@@ -13,8 +13,8 @@ local rows = require "softworld.rows"
 
 rows.calls{
   { "scene:remove", "object or name", "takes it out of the scene, with what belongs to it" },
-  { "scene:forces", "", "all that were made, in that order; force.held tells which act", "a list" },
-  { "wire.present", nil, "whether it is in its scene still", "true or false" },
+  { "scene:forces", "", "all forces in the order made; force.held is true for those that act", "a list" },
+  { "wire.present", nil, "whether it is still in its scene", "true or false" },
 }
 
 local lists = { wire = "wires", particles = "particles" }
@@ -45,7 +45,7 @@ local function told(scene, kind, name)
   data.bereft = data.bereft or not process.current() or nil
   local none = lists[kind == "object" and "particles" or kind] and #data.wires + #data.particles == 0
   scene:tell{ kind = "removed", object = name, text = ("%s '%s' is taken away%s"):format(kind, name,
-    none and "; no wire is left, and the run goes on without" or "") }
+    none and "; no wire is left, and the run goes on without wires" or "") }
 end
 
 local function remove_body(scene, kind, body)
@@ -78,13 +78,14 @@ local function check_own(scene, object)
   for _, g in ipairs(build.data(scene).grippers) do
     for _, part in ipairs(g.left and {} or g.obstacles or {}) do
       if part == object then
-        error(("scene:remove: '%s' is a part of gripper '%s'; remove that"):format(object.name, g.name), 0)
+        error(("scene:remove: '%s' is a part of gripper '%s'; remove the gripper"):format(object.name,
+          g.name), 0)
       end
     end
     for _, grip in ipairs(g.grips) do
       if grip.hold == object then
-        error(("scene:remove: this is the grip of gripper '%s'; let it go by gripper:release, or remove the "
-          .. "gripper"):format(g.name), 0)
+        error(("scene:remove: this is the grip of gripper '%s'; release it with gripper:release, or remove "
+          .. "the gripper"):format(g.name), 0)
       end
     end
   end
@@ -108,7 +109,7 @@ local function remove(scene, object)
   if type(object) == "string" then object = scene:find(object) end
   local class = class_of(object)
   if not (lists[class] or verbs[class] or class == "gripper") then
-    error(("scene:remove expects what is to go, or its name, got %s"):format(checks.got(object)), 0)
+    error(("scene:remove expects an object or its name, got %s"):format(checks.got(object)), 0)
   end
   if not rawequal(scene_of(object), scene) then
     error(("scene:remove: this %s is of another scene"):format(class), 0)

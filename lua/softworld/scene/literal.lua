@@ -80,7 +80,7 @@ function literal.of(value, object, path, indent, above)
   if kind ~= "table" or getmetatable(value) ~= nil then return object(value, path) end
   indent, above = indent or "", above or {}
   if above[value] then error(path .. " is a table that contains itself", 0) end
-  if #indent > 2 * DEEPEST then error(path .. " is too deep in other tables", 0) end
+  if #indent > 2 * DEEPEST then error(path .. " is in too many tables, one inside the other", 0) end
   above[value] = true
   local items = {}
   for i, item in ipairs(value) do

@@ -110,8 +110,8 @@ end
 local function check_processes(scene)
   for _, p in ipairs(build.data(scene).processes) do
     if p.begun and coroutine.status(p.thread) ~= "dead" then
-      error(("scene '%s' cannot be saved: %s is under way; run it to its end, or have the scene "
-        .. "written after every step: scene:run{ save = 'file' }"):format(scene.name, tostring(p)), 0)
+      error(("scene '%s' cannot be saved: %s is under way; run it to its end, or let the run write the scene "
+        .. "after every step: scene:run{ save = 'file' }"):format(scene.name, tostring(p)), 0)
     end
   end
 end
@@ -157,7 +157,7 @@ end
 local lists = { "wires", "particles", "obstacles", "holds", "grippers", "joins" }
 
 local function expect(good, what)
-  if not good then error(("its content makes no sense (%s)"):format(what), 0) end
+  if not good then error(("its content is damaged (%s)"):format(what), 0) end
 end
 
 local function is_list(t) return type(t) == "table" and getmetatable(t) == nil end
@@ -259,12 +259,12 @@ local function compare(scene, note, file)
   for i = 1, math.max(#now, #then_), 2 do
     local a, b = now[i], then_[i]
     if a ~= b or now[i + 1] ~= then_[i + 1] then
-      local what = a == b and ("%s is not as it was"):format(a)
-        or not a and ("%s of the file is missing"):format(b)
+      local what = a == b and ("%s differs from the file"):format(a)
+        or not a and ("%s of the file is missing in the script"):format(b)
         or not b and ("%s is not in the file"):format(a)
         or ("%s is there instead of %s"):format(a, b)
-      error(("scene:resume: '%s' is of another scene: %s. A script must build the same scene again "
-        .. "before it goes on; take the file away to start anew, or read it by sw.load")
+      error(("scene:resume: '%s' is of another scene: %s. A script must build the same scene before it goes "
+        .. "on; remove the file to start from the beginning, or read it with sw.load")
         :format(file, what), 0)
     end
   end

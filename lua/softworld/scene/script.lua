@@ -119,7 +119,7 @@ local function namer(scene, words)
     if value == record.a_function then
       error(path .. " is a Lua function, which cannot be written as Lua", 0)
     end
-    error(("%s is a %s that the script did not make in this scene"):format(path,
+    error(("%s is a %s that was not made in this scene"):format(path,
       core.type(value) or (getmetatable(value) or {}).__name or type(value)), 0)
   end
   return object
@@ -169,7 +169,7 @@ end
 local function head(scene)
   local made = record.made_as(scene)
   if not made then
-    error(("scene:script: scene '%s' was read from a file; the script that saved it builds it"):format(
+    error(("scene:script: scene '%s' was read from a file; use the script that saved it"):format(
       scene.name), 0)
   end
   local lines = { "-- Builds the scene '" .. scene.name:gsub("[\r\n]", " ")
@@ -183,7 +183,8 @@ end
 local function text_of(scene)
   local log = record.of(scene)
   if log.missed > 0 and not log[#log].late then
-    error(("scene:script: scene '%s' was changed %d times; the first %d are known"):format(scene.name,
+    error(("scene:script: scene '%s' was changed %d times, and only the first %d changes are "
+      .. "recorded"):format(scene.name,
       #log + log.missed, #log), 0)
   end
   local lines, list = head(scene), needed(log, makers(log))

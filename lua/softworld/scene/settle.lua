@@ -65,10 +65,11 @@ local function with_bars(scene, given)
   args.progress = nil
   for _, q in ipairs(job.quantities) do
     if q.at then
-      error(("scene:settle: tolerance: quantity '%s': at is a time in a run"):format(q.name), 0)
+      error(("scene:settle: tolerance: quantity '%s': at is a time of a run, and settling has none; leave it "
+        .. "out"):format(q.name), 0)
     end
   end
-  job.advice = "hold what moves freely, come nearer in smaller moves, or allow more max_iterations"
+  job.advice = "hold wires that can move freely, use smaller moves, or give a larger max_iterations"
   core.check_settle(args)
   local iterations = 0
   local result = trust.once(job, function(_, level)

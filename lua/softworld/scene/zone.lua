@@ -9,8 +9,8 @@ local rows = require "softworld.rows"
 local solid = require "softworld.output.solid"
 
 rows.calls{
-  { "scene:zone", "{ shape =, at =, temperature =, on = }", "a part of space that nothing touches: wires are "
-    .. "to keep out of it, or have its temperature [degC]; see help 'check'", "its name",
+  { "scene:zone", "{ shape =, at =, temperature =, on = }", "a part of space that does not touch wires: they "
+    .. "must keep out of it, or it has a temperature [degC]; see help 'check'", "its name",
     example = 'scene:zone { name = "oven", shape = "box", size = { 1, 1, 1 }, temperature = 90 }' },
 }
 

@@ -127,7 +127,7 @@ function Advice.__tostring(a) return table.concat(a.lines, "\n") end
 local function remarks(own, result, seen, lines)
   if seen.failed > 0 then say(lines, "  %d of %d evaluations failed so far", seen.failed, seen.count) end
   if seen.noise then
-    say(lines, "  the same place gave different values: noise = true, and trust the mean")
+    say(lines, "  the same place gave different values: give noise = true, and use the mean")
   end
   if seen.step and #own.parameters > 1 then
     say(lines, "  '%s' has steps: a result that tells how near it is, such as a margin, is found faster",
@@ -151,7 +151,7 @@ function advise.run(own, result)
   end
   if #output.records(own) == 0 then
     local n = #own.parameters
-    error(("study:advise: nothing has been evaluated; study:sweep { count = %d } shows enough"):format(
+    error(("study:advise: there are no evaluations; study:sweep { count = %d } gives enough"):format(
       2 * (n + 1) * (n + 2)), 0)
   end
   local seen = look(own, result)
@@ -163,7 +163,8 @@ function advise.run(own, result)
     evaluations, seen.noise and ", noise = true" or ""), "  " .. why }
   if not seen.left then
     local n = #own.parameters
-    say(lines, "  too few evaluations to see whether it is smooth; study:sweep { count = %d } shows it",
+    say(lines, "  there are too few evaluations to see whether the result is smooth; run study:sweep { count "
+      .. "= %d }",
       2 * (n + 1) * (n + 2))
   end
   remarks(own, result, seen, lines)

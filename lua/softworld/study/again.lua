@@ -14,8 +14,8 @@ local sealed = require "softworld.sealed"
 local again = {}
 
 rows.calls{
-  { "study:again", "number, part", "computes an evaluation again in this process, with the same bits; a row "
-    .. "of the table does for both, and the part is needed where several have the number",
+  { "study:again", "number, part", "computes an evaluation again in this process, with the same bits; give a "
+    .. "row of the table, or number and part (part only if several have the number)",
     "results of evaluate, and the last run of a scene in it",
     example = 'local _, run = study:again(12)' },
 }
@@ -46,7 +46,7 @@ function again.find(own, number, part)
     fail("study '%s': there is no evaluation %s%d", own.name, part and part .. "." or "", number)
   end
   if #where > 1 then
-    fail("study '%s': evaluation %d is in the parts %s; say which, study:again(%d, %s)", own.name, number,
+    fail("study '%s': evaluation %d is in the parts %s; give the part: study:again(%d, %s)", own.name, number,
       table.concat(where, " "), number, where[1])
   end
   return found
@@ -70,7 +70,7 @@ end
 local function stream_of(own, part)
   if own.asked[part] then return own.asked[part].stream end
   local name = own.journal:name(part)
-  if not name then fail("study '%s': its journal does not tell what part %d is", own.name, part) end
+  if not name then fail("study '%s': its journal does not say what part %d is", own.name, part) end
   return parts.stream(name)
 end
 
@@ -80,7 +80,7 @@ local function compare(own, record, status, text)
   if not before or record.machine then return end -- it had failed
   for name, value in pairs(before) do
     if not after or after[name] ~= value then
-      fail("study '%s': evaluation %d.%d comes out otherwise: %s is %s and was %.17g; evaluate depends on "
+      fail("study '%s': evaluation %d.%d gives another result: %s is %s and was %.17g; evaluate depends on "
         .. "more than its parameters and the seed", own.name, record.part, record.number, name,
         after and ("%.17g"):format(after[name] or 0 / 0) or "not there, since " .. text, value)
     end
@@ -90,7 +90,7 @@ end
 --- Same as study:again, without the place of the call in errors.
 function again.compute(self, number, part)
   local own = sealed.fields(self)
-  if own.busy then fail("study '%s': its evaluations cannot ask for more of them", own.name) end
+  if own.busy then fail("study '%s': evaluate cannot start other evaluations", own.name) end
   if own.task then return nil end
   local record = again.find(own, number, part)
   campaign.build(own)

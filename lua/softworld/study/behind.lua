@@ -33,7 +33,7 @@ end
 local function row_of(what, of)
   local group, name = (type(of) == "string" and of or ""):match "^([%w_]+)%.([%w_]+)$"
   if not group then
-    fail("%s: of = %s; the row's name is wanted, such as 'obstacle.friction'", what, checks.got(of))
+    fail("%s: of = %s; it must be the name of a row, such as 'obstacle.friction'", what, checks.got(of))
   end
   local list, names, found = groups(), {}, nil
   if not list[group] then
@@ -80,7 +80,8 @@ function behind.read(what, given)
   end
   if copy[1] == nil and copy[2] == nil then
     if not has_ends(row) then
-      fail("%s: %s may be in %s, which is no range to search in; give { lowest, highest, of = '%s' }", what,
+      fail("%s: %s may be in %s, which is not a range to search in; give { lowest, highest, of = '%s' }",
+        what,
         given.of, range(row), given.of)
     end
     copy[1], copy[2] = row.min, row.max

@@ -156,7 +156,7 @@ end
 --- Evaluates everything that source.next() gives: number, values; nil if there is none at the moment.
 -- source.done(record) gets each result. Returns the part's records by number.
 function campaign.run(own, method, options, source)
-  if own.busy then error(("study '%s': its evaluations cannot ask for more of them"):format(own.name), 0) end
+  if own.busy then error(("study '%s': evaluate cannot start other evaluations"):format(own.name), 0) end
   local name, part, records = parts.name(own, method, options), nil, {}
   own.bar = bar_of(own, method, options, source)
   local function done(record, known)

@@ -18,15 +18,15 @@ local unread = require "softworld.unread"
 
 local change = {}
 
-local call = rows.call("study:change", "row or {...}", "what to change so that rows of a check pass; "
-  .. "evaluate returns the check, see help 'change'", {
-  gives = "what was found: ok, parameters, rows",
+local call = rows.call("study:change", "row or {...}", "finds what to change so that rows of a check pass; "
+  .. "evaluate must return the check, see help 'change'", {
+  gives = "the result: ok, parameters, rows",
   example = 'print(study:change "cable.min_bend_radius")',
-  { "rows", "list", "-", "names of the rows that are to pass", usual = "those that do not, or hardly" },
+  { "rows", "list", "-", "names of the rows that must pass", usual = "those that fail or pass narrowly" },
   { "at", "table", "-", "the parameters as they are now, by name", usual = "the parameters' start" },
-  { "reserve", "number", "-", "share of its limit that a row is to have left", min = 0, max = 10,
+  { "reserve", "number", "-", "margin that a row must have, as a share of its limit", min = 0, max = 10,
     default = 0.05 },
-  { "values", "integer", "-", "looked at over each range", min = 2, max = 10000, default = 9 },
+  { "values", "integer", "-", "number of values tried over each range", min = 2, max = 10000, default = 9 },
   { "workers", "integer", "-", "processes; 0 computes in this one", min = 0, max = 256,
     usual = "those of the study" },
 })
@@ -51,7 +51,7 @@ local function value_of(p, given)
   if p.kind == "choice" then return choice_of(p, given) end
   checks.number("study:change: at: " .. p.name, given, p.low, p.unit and " " .. p.unit or "", 0, p.high)
   if p.kind == "number" then return given + 0.0 end
-  return math.tointeger(given) or fail("at: %s = %.9g is no integer", p.name, given)
+  return math.tointeger(given) or fail("at: %s = %.9g is not an integer", p.name, given)
 end
 
 -- Returns the present values by the parameters' numbers. at may be a row of the table, with results.
@@ -174,7 +174,7 @@ local function do_change(self, args)
   local own = sealed.fields(self)
   if type(args) == "string" then args = { rows = { args } } end
   local o = call:read(args == nil and {} or args)
-  if own.busy then error(("study '%s': its evaluations cannot ask for more of them"):format(own.name), 0) end
+  if own.busy then error(("study '%s': evaluate cannot start other evaluations"):format(own.name), 0) end
   local values = present(own, o.at)
   local check = present_check(own, values)
   local targets, hopeless, names = targets_of(check_results.keys(check, own.by_name), o)

@@ -51,7 +51,8 @@ local function mends_text(found, row)
     text = ("%s: %s, margin %s"):format(text, cells.number(found.value, row.unit),
       cells.number(found.margin, row.unit))
   end
-  if #found.breaks > 0 then return ("%s; but not %s then"):format(text, table.concat(found.breaks, ", ")) end
+  if #found.breaks > 0 then return ("%s; but then %s would not pass"):format(text, table.concat(found.breaks,
+    ", ")) end
   return text .. (found.all_pass and "; all rows pass" or "; other rows do not pass yet")
 end
 
@@ -59,14 +60,14 @@ local function line_of(found, row)
   local p = found.parameter
   if found.status == "mends" then return mends_text(found, row) .. slope_text(found, row and row.unit) end
   if found.status == "noise" then
-    return p.name .. ": what passed once did not when it was run again; values are noisy"
+    return p.name .. ": a value that passed did not pass when it was run again; values are noisy"
   end
   if found.status == "helps" or found.status == "passes" then
     return ("%s %s: %s at best, with %s%s"):format(p.name, found.status == "helps" and "helps, but not enough"
-      or "makes it pass, with less in reserve than wanted", cells.number(found.value, row.unit),
+      or "makes it pass, with a smaller reserve than wanted", cells.number(found.value, row.unit),
       shown(p, found.to), slope_text(found, row.unit))
   end
-  if found.status == "does not mend" then return p.name .. " alone does not" end
+  if found.status == "does not mend" then return p.name .. " alone does not repair all rows" end
   if found.status == "no need" then return (p.name .. slope_text(found, row.unit)):gsub(";", ":", 1) end
   return p.name .. " does not help"
 end
@@ -87,20 +88,21 @@ end
 local function text_of(c, list, together)
   local lines = { ("what to change in '%s': %s (%d evaluations, %d failed)"):format(cells.plain(c.name),
     c.reason, c.evaluations, c.failed) }
-  if c.noisy then lines[#lines + 1] = "  values are noisy: what is said was run three times" end
+  if c.noisy then lines[#lines + 1] = "  values are noisy: each result below was run three times" end
   for _, one in ipairs(list) do
     lines[#lines + 1] = head_of(one)
     for _, found in ipairs(one.parameters) do
       lines[#lines + 1] = "        " .. line_of(found, not one.all and one)
     end
     if not one.mended and not one.passes then
-      lines[#lines + 1] = ("        no parameter mends %s alone with that reserve, of %d values over each "
+      lines[#lines + 1] = ("        no single parameter repairs %s with that reserve, of %d values over each "
         .. "range"):format(one.all and "all" or "it", c.values)
     end
   end
   if c.several then lines[#lines + 1] = ("  together: %s; all rows pass"):format(c.several)
   elseif together == false then
-    lines[#lines + 1] = "  together, what mends one row each does not mend all, nor up to twice as far"
+    lines[#lines + 1] = "  the changes that repair one row each do not repair all rows together, not even "
+      .. "changes twice as large"
   end
   return table.concat(lines, "\n")
 end
@@ -153,10 +155,10 @@ local function reason_of(list, best)
   if best then return move_text(best) end
   for _, row in ipairs(list) do
     if not row.mended and not row.passes and not row.all then
-      return "no parameter alone mends " .. cells.plain(row.name)
+      return "no single parameter repairs " .. cells.plain(row.name)
     end
   end
-  return "no parameter alone mends all rows"
+  return "no single parameter repairs all rows"
 end
 
 -- Returns the parameters by name, as evaluate takes them.
@@ -202,9 +204,9 @@ function changed.new(work, check, o)
   local best, needed, reason = least(list), false
   for _, row in ipairs(list) do needed = needed or not row.passes end
   local hopeless = #list == 0 and next(work.hopeless) ~= nil
-  if hopeless then reason = "nothing that a parameter can help: rows are open for want of a limit"
+  if hopeless then reason = "no parameter can help: rows are open because a limit is missing"
   elseif #list == 0 then reason = "nothing, all rows pass with that reserve"
-  elseif not needed then reason = "nothing, what is asked for passes with that reserve"
+  elseif not needed then reason = "nothing, the named rows pass with that reserve"
   else reason = several_of(work) or reason_of(list, best) end
   local ok = best ~= nil or (work.together or nil) ~= nil or not needed and not hopeless
   local c = setmetatable({ ok = ok, reason = reason, parameters = ok and by_name(work, best) or nil,

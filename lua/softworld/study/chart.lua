@@ -87,7 +87,7 @@ function chart.draw(own, o)
   for _, record in ipairs(list) do
     if record.results then good[#good + 1] = record end
   end
-  if #good == 0 then error("study:chart: there is no evaluation to be drawn", 0) end
+  if #good == 0 then error("study:chart: there is no evaluation to draw", 0) end
   return chart.of(o.kind).draw(own, o, good, list)
 end
 

@@ -219,7 +219,7 @@ end
 function cluster.run(own, about)
   slurm.need(own.name)
   if not arg or not arg[-1] or not arg[0] or core.kind(arg[0]) ~= "file" then
-    fail("study '%s': on = 'slurm' is for scripts in a file, which the nodes run too", own.name)
+    fail("study '%s': on = 'slurm' needs a script in a file, because the nodes run it too", own.name)
   end
   local run = { own = own, name = about.name, next = about.next, whole = about.whole, keep = about.keep,
     here = about.here, workers = about.workers, hold = own.hold, sends = {}, waiting = {}, last = 0, left = 0,

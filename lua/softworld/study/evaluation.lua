@@ -12,11 +12,12 @@ local rows = require "softworld.rows"
 local evaluation = {}
 
 rows.calls{
-  { "evaluation:random", "low, high", "a random number, as math.random gives it: of this evaluation alone",
+  { "evaluation:random", "low, high", "a random number like math.random, from a sequence of this evaluation "
+    .. "alone",
     "a number", example = "local mu = 0.3 + 0.05 * (2 * p.random() - 1)" },
   { "evaluation:give_up", "reason", "ends the evaluation, which then counts as failed for this reason" },
-  { "evaluation:broken", "results", "the first constraint that these results break, such as a peak so far "
-    .. "that can only grow", "its name, or nil",
+  { "evaluation:broken", "results", "the first constraint that these results break; for results that only "
+    .. "grow, such as the peak so far", "its name, or nil",
     example = 'if p.broken { peak = hand.peak_force } then observer:stop "too hard" end' },
   { "evaluation.number", nil, "of the evaluation within its sweep, search or spread", "a number" },
 }
@@ -79,8 +80,8 @@ local function add_list(own, flat, name, list)
   local count = 0
   for _ in pairs(list) do count = count + 1 end
   if count == 0 or count ~= #list then
-    return wrong(own, "returned %s = %s; a number, a list of numbers, true or false is wanted", name,
-      count == 0 and "an empty table" or "a table that is no list")
+    return wrong(own, "returned %s = %s; it must be a number, a list of numbers, true or false", name,
+      count == 0 and "an empty table" or "a table that is not a list")
   end
   for i = 1, count do flat[#flat + 1] = { name .. "_" .. i, list[i] } end
 end
@@ -105,14 +106,14 @@ end
 
 -- Returns "ok" and the results as text, or what is wrong with them.
 local function read(own, results, ...)
-  if select("#", ...) > 0 then return wrong(own, "returned more than one value; one table is wanted") end
+  if select("#", ...) > 0 then return wrong(own, "returned more than one value; it must return one table") end
   if checks.kind(results) == "check" then
     local numbers, reason = check_results.of(results, own.by_name)
     if not numbers then return "failed", reason:match "^[^\n]*":sub(1, LONGEST) end
     results = numbers
   end
   if type(results) ~= "table" then
-    return wrong(own, "returned %s; a table of results is wanted, such as { time = 1.5 }, or a check",
+    return wrong(own, "returned %s; it must return a table of results, such as { time = 1.5 }, or a check",
       results == nil and "nothing" or checks.got(results))
   end
   local flat, status, why = flatten(own, results)
@@ -122,7 +123,7 @@ local function read(own, results, ...)
   for i, result in ipairs(flat) do
     local name, value = result[1], number_of(result[2])
     if not value then
-      return wrong(own, "returned %s = %s; a number, true or false is wanted", name, checks.got(result[2]))
+      return wrong(own, "returned %s = %s; it must be a number, true or false", name, checks.got(result[2]))
     end
     if i > 1 and name == flat[i - 1][1] then return wrong(own, "returned '%s' twice", name) end
     if value - value ~= 0 then

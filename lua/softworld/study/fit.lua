@@ -18,7 +18,7 @@ local fit = {}
 
 local STEP, STEP_LOG = 1e-3, 2e-3 -- of differences: over a range, of a logarithm
 
-local call = rows.call("study:fit", "{...}", "looks for the parameters with which the model gives what was "
+local call = rows.call("study:fit", "{...}", "finds the parameters with which the model gives what was "
   .. "measured", {
   gives = "a fit: parameters with 95 % intervals, correlations, remarks",
   example = "study:fit { data = { droop = { 0.12, sigma = 0.002, unit = 'm' } } }",
@@ -28,11 +28,13 @@ local call = rows.call("study:fit", "{...}", "looks for the parameters with whic
     max = 1000, default = 1 },
   { "evaluations", "integer", "-", "at most, of all starts", min = 1, max = 1000000,
     usual = "100 for each start and parameter" },
-  { "tolerance", "number", "-", "last step as a share of the ranges", min = 1e-12, max = 0.1,
+  { "tolerance", "number", "-", "size of the last step, as a share of the ranges", min = 1e-12, max = 0.1,
     default = 1e-6 },
-  { "step", "number", "-", "of differences, as a share of the ranges; larger where results jitter",
+  { "step", "number", "-", "step of the numerical differences, as a share of the ranges; give more if "
+    .. "results are noisy",
     min = 1e-9, max = 0.25, usual = "0.001, of log ranges 0.2 % of the value at most" },
-  { "loss", "choice", "-", "soft: data that are far off count for little", choices = { "squares", "soft" },
+  { "loss", "choice", "-", "soft: data far from the model have little weight", choices = { "squares",
+    "soft" },
     default = "squares" },
   { "workers", "integer", "-", "processes; 0 computes in this one", min = 0, max = 256,
     usual = "those of the study" },
@@ -58,11 +60,12 @@ local function check(own, data, o)
     end
   end
   if data.count < #own.parameters then
-    error(("study:fit: %d data cannot tell %d parameters; measure more, or fix some"):format(data.count,
+    error(("study:fit: %d data cannot determine %d parameters; measure more, or fix some parameters"):format(
+      data.count,
       #own.parameters), 0)
   end
   if o.loss == "soft" and not data.known then
-    error("study:fit: loss = 'soft' needs the sigma of the data: it says what is far off", 0)
+    error("study:fit: loss = 'soft' needs the sigma of the data, which says what is far from the model", 0)
   end
 end
 
@@ -159,7 +162,7 @@ function fit.run(own, args)
   judge.some(own, records)
   local best = best_of(searches)
   if not best then
-    error(("study '%s': a fit begins with an evaluation that succeeds; %s"):format(own.name,
+    error(("study '%s': the first evaluation of a fit must succeed; %s"):format(own.name,
       judge.sorted(records)[1].failed), 0)
   end
   local found = fitted.new(own, best, data)

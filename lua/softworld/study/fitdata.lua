@@ -80,8 +80,8 @@ local function check_sigma(list)
     fail("study:fit: data.%s has a sigma and data.%s has none; give it for all, or for none", with, without)
   end
   if not with and not weighed and #list > 1 then
-    fail("study:fit: data.%s and data.%s need a sigma each (or a weight, 1 / sigma^2 but for a common "
-      .. "factor): nothing else says how much a deviation of the one counts beside the other", list[1].name,
+    fail("study:fit: data.%s and data.%s need a sigma each (or a weight, 1 / sigma^2 times a common factor): "
+      .. "without it their deviations cannot be compared", list[1].name,
       list[2].name)
   end
   return with ~= nil

@@ -49,8 +49,8 @@ function fitnoise.signs(name, residuals)
   local a, b, runs = runs_of(residuals)
   local chance = fitnoise.runs_chance(a, b, runs)
   if chance >= RARE then return nil end
-  return ("the residuals of %s are no noise: they change sign %d times in %d (chance %.1g); the model "
-    .. "lacks something, and intervals are too narrow"):format(name, runs - 1, #residuals, chance)
+  return ("the residuals of %s are not random: they change sign %d times in %d (chance %.1g); the model "
+    .. "lacks an effect, and intervals are too narrow"):format(name, runs - 1, #residuals, chance)
 end
 
 --- Returns the chance of a sum of squares as large, and a remark or nil.
@@ -59,11 +59,11 @@ function fitnoise.sum(chi2, freedom)
   local chance = core.chi2_above(chi2, freedom)
   local times = math.sqrt(chi2 / freedom)
   if chance < RARE then
-    return chance, ("residuals are %.3g times what sigma says (chance %.1g): the model or sigma is wrong, "
+    return chance, ("residuals are %.3g times as large as sigma (chance %.1g): the model or sigma is wrong, "
       .. "and intervals are too narrow"):format(times, chance)
   elseif 1 - chance < RARE then
-    return chance, ("residuals are only %.2g times what sigma says (chance %.1g): sigma is too large, and "
-      .. "so are intervals"):format(times, 1 - chance)
+    return chance, ("residuals are only %.2g times sigma (chance %.1g): sigma is too large, and so are "
+      .. "intervals"):format(times, 1 - chance)
   end
   return chance
 end

@@ -140,7 +140,7 @@ local function derivatives(self)
   end
   for i = 1, #best.u do
     if not columns[i] then
-      self.reason = "all evaluations beside the best place failed: " .. tostring(self.failure)
+      self.reason = "all evaluations near the best place failed: " .. tostring(self.failure)
       error(ENDED, 0)
     end
   end
@@ -225,7 +225,7 @@ local function round(self, set, free)
   return same(held(self), set)
 end
 
-local REASONS = { near = "as near as wanted", stuck = "nothing better was found beside it",
+local REASONS = { near = "the wanted accuracy was reached", stuck = "nothing better was found near it",
   used = "evaluations used up" }
 
 local function all(self)
@@ -247,7 +247,7 @@ local function all(self)
       return
     end
   end
-  self.reason = "it goes to and fro between the ends of ranges"
+  self.reason = "it moves to and fro between the ends of ranges"
 end
 
 --- Returns the places to evaluate next, or nil when the search has ended. Then best has { u, r (over scale),

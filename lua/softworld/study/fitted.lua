@@ -24,26 +24,27 @@ rows.calls{
   { "fit.parameters", nil, "by name { value =, error =, low =, high =, unit = }: standard error, 95 % "
     .. "interval", "a table", example = "print(fit.parameters.EI.low, fit.parameters.EI.high)" },
   { "fit.correlation", nil, "of two parameters: fit.correlation.EI.GJ", "a table" },
-  { "fit.unresolved", nil, "what the data cannot tell apart: { parameters =, text =, name =, value =, "
-    .. "low =, high = }", "a list" },
-  { "fit.remarks", nil, "what is to be known before the numbers are used", "a list of texts" },
+  { "fit.unresolved", nil, "combinations that the data do not determine: { parameters =, text =, name =, "
+    .. "value =, low =, high = }", "a list" },
+  { "fit.remarks", nil, "read these before you use the numbers", "a list of texts" },
   { "fit.at_bound", nil, "parameters at an end of their range", "a list of names" },
-  { "fit.ok", nil, "has it found the smallest sum of squares", "true or false" },
+  { "fit.ok", nil, "true if the smallest sum of squares was found", "true or false" },
   { "fit.reason", nil, "why it ended", "a text" },
   { "fit.chi2", nil, "sum of squares of residuals over their sigma", "a number" },
   { "fit.freedom", nil, "degrees of freedom: data less parameters", "a number" },
-  { "fit.chance", nil, "that chi2 is so large by chance; where sigma is given", "a number, or nil" },
-  { "fit.scatter", nil, "standard deviation of the residuals, of their sigma or weight", "a number" },
+  { "fit.chance", nil, "probability that chi2 is this large by chance; only if sigma is given",
+    "a number, or nil" },
+  { "fit.scatter", nil, "standard deviation of the residuals, over their sigma or weight", "a number" },
   { "fit.sigma", nil, "'given', 'estimated' from the residuals, or 'unknown'", "a text" },
-  { "fit.data", nil, "by name what was measured", "a table of lists" },
-  { "fit.computed", nil, "by name what the model gives", "a table of lists" },
-  { "fit.residuals", nil, "by name what was measured less what is computed", "a table of lists" },
+  { "fit.data", nil, "measured values by name", "a table of lists" },
+  { "fit.computed", nil, "computed values by name", "a table of lists" },
+  { "fit.residuals", nil, "measured minus computed values by name", "a table of lists" },
   { "fit.best", nil, "the evaluation", "a row" },
   { "fit.evaluations", nil, "how many there were", "a number" },
   { "fit.failed", nil, "how many of them failed", "a number" },
   { "fit.starts", nil, "of each start { chi2 =, reason =, evaluations = }", "a list" },
 }
-rows.call("fit:chart", "{...}", "draws what was measured over what is computed; needs gnuplot", {
+rows.call("fit:chart", "{...}", "draws measured and computed values; needs gnuplot", {
   gives = "the path, or without one the drawing in characters", example = 'fit:chart { path = "fit.svg" }',
   { "path", "text", "-", "a .svg, .png or .pdf file", usual = "drawn in characters" },
 })
@@ -177,7 +178,8 @@ local function correlations(own, f, said)
       local c = told and (i == j and 1 or size > 0 and f.C[i][j] / size) or nil
       all[p.name][q.name] = c
       if i < j and c and math.abs(c) > ALIKE then
-        said[#said + 1] = ("%s and %s can hardly be told apart: correlation %.4f"):format(p.name, q.name, c)
+        said[#said + 1] = ("the data hardly distinguish %s and %s: correlation %.4f"):format(p.name, q.name,
+          c)
       end
     end
   end
@@ -210,13 +212,14 @@ local function sums(fit, f, data, scale, loss, said)
     fit.chance, said[#said + 1] = chance, text
   end
   if fit.sigma == "unknown" and f.C then
-    said[#said + 1] = ("%d data and %d parameters leave nothing to tell sigma from: no intervals; give "
-      .. "sigma or more data"):format(data.count, #f.list)
+    said[#said + 1] = ("%d data and %d parameters leave no residuals to estimate sigma from, so there are no "
+      .. "intervals; give sigma or more data"):format(data.count, #f.list)
   end
   local far = 0
   for _, z in ipairs(f.r) do far = far + (math.abs(z) > 3 and 1 or 0) end
   if loss and far > 0 then
-    said[#said + 1] = ("%d of %d data are further off than 3 sigma, and count for little"):format(far, #f.r)
+    said[#said + 1] = ("%d of %d data are more than 3 sigma from the model and have little weight"):format(
+      far, #f.r)
   end
 end
 
@@ -236,10 +239,11 @@ local function judge_end(fit, f, search, said)
     local left = math.abs(f.step[k])
     if fit.ok and left > math.max(10 * search.o.tolerance, NEGLIGIBLE * error_u) then
       fit.ok = false
-      fit.reason = ("%s, though its slopes would go on by %.2g of the range"):format(search.reason, left)
+      fit.reason = ("%s, though the slopes there ask for a further step of %.2g of the range"):format(
+        search.reason, left)
     end
   end
-  if not f.C and fit.ok then said[#said + 1] = "no parameter is free: there are no intervals" end
+  if not f.C and fit.ok then said[#said + 1] = "no parameter is free, so there are no intervals" end
 end
 
 --- Returns the fit of the best search.
@@ -260,7 +264,7 @@ function fitted.new(own, search, data)
     fit.parameters[p.name] = parameter(own, f, i, u, said)
     if u <= 0 or u >= 1 then
       fit.at_bound[#fit.at_bound + 1] = p.name
-      said[#said + 1] = ("%s is at the end of its range; intervals of the others take it for given")
+      said[#said + 1] = ("%s is at the end of its range; intervals of the others treat it as known")
         :format(p.name)
     end
   end
@@ -275,7 +279,7 @@ end
 local function line_of(name, q)
   local unit = q.unit and q.unit ~= "-" and " " .. q.unit or ""
   if q.told == false then
-    return ("  %s: not told by the data (%.5g%s is as good as any)"):format(name, q.value, unit)
+    return ("  %s: not determined by the data (%.5g%s is one of many values)"):format(name, q.value, unit)
   end
   if not q.low then return ("  %s = %.6g%s"):format(name, q.value, unit) end
   return ("  %s = %.6g%s, 95 %% interval %.6g to %.6g"):format(name, q.value, unit, q.low, q.high)
@@ -288,7 +292,7 @@ function Fit.__tostring(fit)
   table.sort(names)
   local lines = { ("fit of %d data by %d parameter%s (%s, %d evaluations, %d failed)"):format(count, #names,
     #names == 1 and "" or "s", fit.reason, fit.evaluations, fit.failed) }
-  if not fit.ok then lines[#lines + 1] = "  not found: these are the best values so far" end
+  if not fit.ok then lines[#lines + 1] = "  the search did not converge: these are the best values so far" end
   for _, name in ipairs(names) do lines[#lines + 1] = line_of(name, fit.parameters[name]) end
   for _, found in ipairs(fit.unresolved) do
     if found.low then

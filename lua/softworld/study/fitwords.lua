@@ -60,12 +60,13 @@ function fitwords.direction(own, values, direction)
     return { parameters = names, text = ("the data do not depend on %s"):format(a.name) }
   end
   if #parts > 2 or a.share ~= b.share then
-    return { parameters = names, text = ("the data cannot tell %s apart: nothing changes with %s together")
+    return { parameters = names, text = ("the data do not distinguish %s: changing %s together changes no "
+      .. "result")
       :format(table.concat(names, ", "), several(parts)) }
   end
   local found = a.share and product(a, b) or difference(a, b)
   found.parameters, found.share = names, a.share
-  found.text = ("%s and %s enter as %s only"):format(a.name, b.name, found.name)
+  found.text = ("the data depend on %s and %s only through %s"):format(a.name, b.name, found.name)
   return found
 end
 

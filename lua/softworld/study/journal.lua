@@ -52,7 +52,8 @@ end
 
 local function read_definition(self, body, at)
   local name, key, text = body:match '^s "([^"]*)" (%x+) "([^"]*)"$'
-  if not name then fail("study '%s': %s:%d is no line of a journal", self.definition.name, self.path, at) end
+  if not name then fail("study '%s': %s:%d is not a line of a journal", self.definition.name, self.path,
+    at) end
   name, self.current = unquoted(name), key
   if name ~= self.definition.name then
     fail("study '%s': file = '%s' is the journal of another study, '%s'; give this one a file of its own",
@@ -126,7 +127,7 @@ end
 local function check_kind(self)
   local kind = core.kind(self.path)
   if kind and kind ~= "file" then
-    fail("study '%s': file = '%s' is a %s, no file", self.definition.name, self.path, kind)
+    fail("study '%s': file = '%s' is a %s, not a file", self.definition.name, self.path, kind)
   end
   return kind
 end
@@ -154,7 +155,7 @@ function journal:read()
   local first = text:match "^([^\n]*)\n"
   if first ~= summed(FIRST):sub(1, -2) then
     if not first and summed(FIRST):sub(1, #text) == text then self.torn = true return end
-    fail("study '%s': file = '%s' is no journal of a study; it is left as it is, give another name",
+    fail("study '%s': file = '%s' is not a journal of a study; the file is left as it is, give another name",
       self.definition.name, self.path)
   end
   self.text = text
@@ -187,14 +188,15 @@ end
 function journal:remarks()
   local list = {}
   if self.others > 0 then
-    list[1] = ("%s has %d evaluation%s of another definition, kept apart; this one is new in:"):format(
+    list[1] = ("%s has %d evaluation%s of another definition, which are kept apart; new in this "
+      .. "definition:"):format(
       self.path, self.others, self.others == 1 and "" or "s")
     for _, difference in ipairs(journal.differences(self.other or "", self.definition.text)) do
       list[#list + 1] = "  " .. difference
     end
   end
   if self.bad > 0 then
-    list[#list + 1] = ("%s: %d damaged line%s (the first is line %d) count%s for nothing"):format(
+    list[#list + 1] = ("%s: %d damaged line%s (the first is line %d) contribute%s nothing"):format(
       self.path, self.bad, self.bad == 1 and "" or "s", self.first_bad, self.bad == 1 and "s" or "")
   end
   return list
@@ -237,7 +239,8 @@ local function write(self, text)
     return
   end
   self.size = -1 -- read it again
-  fail("study '%s': cannot write to %s: %s; what is in it so far stays, the same script goes on from there",
+  fail("study '%s': cannot write to %s: %s; its content so far is kept, and the same script goes on from "
+    .. "there",
     self.definition.name, self.path, (tostring(why):gsub("^.*: ", "")))
 end
 

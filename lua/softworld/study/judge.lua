@@ -17,7 +17,7 @@ function judge.read(given, by_name)
     local what, c = ("sw.study: constraint '%s'"):format(name), given[name]
     checks.keys(what, c, { min = true, max = true, unit = true }, 0)
     if by_name[name] then
-      fail("%s is of a parameter, whose range is its limit; constraints are of results", what)
+      fail("%s is a limit of a parameter; use its range for that, constraints are for results", what)
     end
     parameters.check_unit(what, c.unit)
     for _, key in ipairs { "min", "max" } do
@@ -77,7 +77,7 @@ end
 --- Returns the name of the first constraint that some results break, or nil; results: those known so far.
 function judge.broken(own, results)
   if type(results) ~= "table" then
-    fail("p.broken: results are wanted, such as p.broken { peak = 12 }, got %s", checks.got(results))
+    fail("p.broken: must get results, such as p.broken { peak = 12 }, got %s", checks.got(results))
   end
   local known = {}
   for _, c in ipairs(own.constraints) do known[c.name] = true end

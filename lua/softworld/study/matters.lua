@@ -199,7 +199,7 @@ function matters.all(own, list)
   return all
 end
 
---- Returns one line: "time goes with speed (76 +- 3 %, rising), force (19 +- 3 %)"; shares that may be
+--- Returns one line: "time depends on speed (76 +- 3 %, rising), force (19 +- 3 %)"; shares that may be
 -- chance are left out.
 function matters.text(name, list)
   local parts = {}
@@ -210,7 +210,7 @@ function matters.text(name, list)
         math.max(1, 100 * m.error), way)
     end
   end
-  return ("%s goes with %s"):format(name, #parts > 0 and table.concat(parts, ", ")
+  return ("%s depends on %s"):format(name, #parts > 0 and table.concat(parts, ", ")
     or "no parameter alone")
 end
 

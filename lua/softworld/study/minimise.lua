@@ -82,7 +82,7 @@ local function check(own, name, method, o)
     fail("method = '%s' is for 1 to %d parameters, not %d", name, method.most, #own.parameters)
   end
   if o.starts and not method.starts and not method.restarts then
-    fail("starts does not go with method = '%s', which looks over all of the ranges", name)
+    fail("starts does not go with method = '%s', which searches all of the ranges", name)
   end
   if o.noise and not method.noise then
     fail("noise = true does not go with method = '%s'; take 'cma-es'", name)

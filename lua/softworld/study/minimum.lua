@@ -46,7 +46,7 @@ function minimum.never_met(own, list)
         c.max and value > c.max and "at most" or "at least", c.max and value > c.max and c.max or c.min)
     end
   end
-  if #texts == 0 then texts[1] = "each is met by some, but never all together" end
+  if #texts == 0 then texts[1] = "each constraint is met by some evaluation, but never all together" end
   error(("study '%s': no evaluation meets the constraints (%s); the nearest is evaluation %d with %s"):format(
     own.name, table.concat(texts, "; "), nearest.number, output.values(own, nearest)), 0)
 end
@@ -132,8 +132,8 @@ end
 local function add_flat(lines, f)
   for _, direction in ipairs(f.flat or {}) do
     local only = next(direction)
-    lines[#lines + 1] = next(direction, only) == nil and ("  %s does not matter near it"):format(only)
-      or ("  flat along %s (shares of the ranges): these are hardly told apart"):format(
+    lines[#lines + 1] = next(direction, only) == nil and ("  %s has no influence near it"):format(only)
+      or ("  flat along %s (shares of the ranges): the result hardly changes in this direction"):format(
         direction_text(f, direction))
   end
 end

@@ -80,7 +80,7 @@ function owner.claim(name, folder)
     local text = sends.text(self.path)
     if text and text ~= "" then
       if not is_gone(text, host) and (text:match "^(.*)%.%d+ " == host or not is_silent(self, text)) then
-        fail("study '%s': process %s works with its journal already; let it end first, or cancel", name,
+        fail("study '%s': process %s already works with its journal; let it end first, or cancel", name,
           text:match "^%S*")
       end
       put_away(self, text)
@@ -88,7 +88,7 @@ function owner.claim(name, folder)
       core.ready({}, 0.2) -- the file is being made, or has gone
     end
   end
-  fail("study '%s': cannot get hold of %s; remove it if no other process works on this study", name,
+  fail("study '%s': cannot lock %s; remove the file if no other process works on this study", name,
     self.path)
 end
 

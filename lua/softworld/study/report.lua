@@ -28,8 +28,8 @@ local MOST_PLAYED = 200
 local call = rows.call("study:report", "path, {...}", "writes a page with table and plots, for any browser", {
   gives = "the path",
   example = 'study:report("grip.html", { play = { study:best "time" } })',
-  { "play", "table or 'all'", "-", "evaluations whose run a click plays, in files beside the page: rows of "
-    .. "the table or numbers; each is computed again", usual = "none" },
+  { "play", "table or 'all'", "-", "evaluations whose runs can be played by a click, in files beside the "
+    .. "page: rows of the table or numbers; each is computed again", usual = "none" },
 })
 
 local function columns_of(own, list)
@@ -113,7 +113,7 @@ end
 
 local function data_of(own, files)
   local list = output.records(own)
-  if #list == 0 then error("study:report: there is no evaluation to be shown", 0) end
+  if #list == 0 then error("study:report: there is no evaluation to show", 0) end
   local parameters, results = columns_of(own, list)
   local some, note = few(list)
   local shown, passed, failed = {}, 0, 0

@@ -29,11 +29,11 @@ function slurm.options(what, given)
   local words = {}
   for key, value in pairs(given or {}) do
     if type(key) ~= "string" or not key:find "^%a[%w_-]*$" then
-      fail("%s: options: %s is no name of an option of sbatch, such as partition = 'short'", what,
+      fail("%s: options: %s is not the name of an option of sbatch, such as partition = 'short'", what,
         checks.got(key))
     end
     local name = key:gsub("_", "-")
-    if OWN[name] then fail("%s: options: %s is set by the study itself; leave it away", what, key) end
+    if OWN[name] then fail("%s: options: %s is set by the study itself; leave it out", what, key) end
     local kind = type(value)
     if value == true then words[#words + 1] = "--" .. name
     elseif kind == "number" and value == value or kind == "string" and not value:find "%c" then

@@ -45,55 +45,60 @@ local new = rows.call("sw.study", "{...}", "a study: a model to be evaluated man
   { "name", "text", "-", "of the study", required = true },
   { "parameters", "table", "-", "by name { lowest, highest, unit =, log =, integer =, start =, sigma =, "
     .. "of = }, { choices = {...} }, or a value of the catalogue with its bounds", required = true },
-  { "evaluate", "function", "-", "of the parameters and what setup gave; returns a table of numbers "
-    .. "or a check", required = true },
-  { "setup", "function", "-", "builds what all evaluations use, once; its scenes are restored before each" },
+  { "evaluate", "function", "-", "function of the parameters and of what setup returned; returns a table of "
+    .. "numbers or a check", required = true },
+  { "setup", "function", "-", "builds once what all evaluations use; its scenes are restored before each "
+    .. "evaluation" },
   { "constraints", "table", "-", "of results by name { min =, max =, unit = }" },
-  { "file", "text", "-", "the journal, from which the same script goes on", usual = "nothing is kept" },
+  { "file", "text", "-", "name of the journal; the same script goes on from it", usual = "nothing is kept" },
   { "seed", "integer", "-", "of the random numbers", min = 0, max = 1 << 53, default = 1 },
   { "workers", "integer", "-", "processes; 0 computes in this one", min = 0, max = 256,
     usual = "one per processor" },
-  { "cpu", "number", "s", "most computing time of an evaluation", min = 0, above = true, usual = "any" },
-  { "steps", "integer", "-", "most steps of its runs that an evaluation tries, the rejected ones too",
+  { "cpu", "number", "s", "largest computing time of an evaluation", min = 0, above = true, usual = "any" },
+  { "steps", "integer", "-", "largest number of steps of an evaluation, rejected steps included",
     min = 1, max = 1 << 53, usual = "any" },
-  { "on", "choice", "-", "where it is computed, see study:run", choices = { "here", "slurm" },
+  { "on", "choice", "-", "where evaluations are computed, see study:run", choices = { "here", "slurm" },
     usual = "SOFTWORLD_ON of the environment, else here" },
-  { "memory", "number", "-", "most memory that a worker takes besides [B]", min = 1e6, usual = "any" },
+  { "memory", "number", "-", "largest memory that a worker may take in addition [B]", min = 1e6,
+    usual = "any" },
 })
 
-local sweep = rows.call("study:sweep", "{...}", "evaluates on a grid, or at points that fill the ranges", {
+local sweep = rows.call("study:sweep", "{...}", "evaluates on a grid, or at points spread over the ranges", {
   gives = "the rows of the table",
   example = "study:sweep { grid = { force = 9, speed = 5 } }",
   { "kind", "choice", "-", "how", choices = { "grid", "latin", "halton", "sobol" },
     usual = "grid with grid, else sobol" },
-  { "grid", "numbers of values", "-", "on each range, or by the parameter's name" },
+  { "grid", "numbers of values", "-", "number of values on each range, or a table by the parameter's name" },
   { "count", "integer", "-", "evaluations, of a grid at most", min = 1, max = 10000000 },
   WORKERS,
 })
 
 local search = rows.call("study:minimise", "result, {...}", "looks for the smallest value of a result that "
   .. "meets the constraints", {
-  gives = "what was found: best, value, ok, reason",
+  gives = "the result: best, value, ok, reason",
   example = 'study:minimise "time"',
   { "method", "choice", "-", "how to search, see help 'search'", choices = { "auto",
     table.unpack(search_methods.names) }, default = "auto", about = search_methods.about },
-  { "starts", "integer", "-", "places from which it begins, the first at the parameters' start; of cma-es "
-    .. "one after the other, each with twice the population", min = 1, max = 1000, usual = "4, of cma-es 1" },
-  { "evaluations", "integer", "-", "at most, of all starts", min = 1, max = 1000000,
+  { "starts", "integer", "-", "number of places from which it starts, the first at the parameters' start; "
+    .. "cma-es starts one after the other, each with twice the population", min = 1, max = 1000,
+    usual = "4, of cma-es 1" },
+  { "evaluations", "integer", "-", "largest number of evaluations, all starts together", min = 1,
+    max = 1000000,
     usual = "100 to 500 for each start and parameter" },
-  { "tolerance", "number", "-", "wanted accuracy as a share of the ranges", min = 0, above = true, max = 0.5,
+  { "tolerance", "number", "-", "wanted accuracy, as a share of the ranges", min = 0, above = true, max = 0.5,
     default = 1e-4 },
   { "step", "number", "-", "the first, as a share of the ranges", min = 0, above = true, max = 0.5,
     usual = "0.2, of cma-es 0.3" },
-  { "noise", "boolean", "-", "values are noisy: cma-es then evaluates places often enough",
+  { "noise", "boolean", "-", "values are noisy: cma-es then repeats evaluations often enough",
     default = false, usual = "false" },
-  { "around", "boolean", "-", "also evaluates around what was found: noise, flat directions",
+  { "around", "boolean", "-", "also evaluates near the result, to find noise and flat directions",
     default = true, usual = "true" },
   WORKERS,
 })
 
-local shake = rows.call("study:spread", "{...}", "how often the constraints are met as the parameters vary", {
-  gives = "what was found: probability, low, high, worst",
+local shake = rows.call("study:spread", "{...}", "how often the constraints are met while the parameters "
+  .. "vary", {
+  gives = "the result: probability, low, high, worst",
   example = "study:spread { count = 1000 }",
   { "count", "integer", "-", "evaluations", min = 1, max = 10000000, default = 1000 },
   { "kind", "choice", "-", "random numbers, or Sobol's sequence, which fills the ranges more evenly",
@@ -101,8 +106,8 @@ local shake = rows.call("study:spread", "{...}", "how often the constraints are 
   WORKERS,
 })
 
-local trade = rows.call("study:pareto", "{ results, ... }", "looks for the front of two or three results: of "
-  .. "evaluations that meet the constraints, those of which none is better in all of them", {
+local trade = rows.call("study:pareto", "{ results, ... }", "finds the Pareto front of two or three results: "
+  .. "evaluations that meet the constraints and that no other evaluation beats in all results", {
   gives = "the front: rows, knee, evaluations, failed",
   example = 'study:pareto { "time", "peak" }',
   { "evaluations", "integer", "-", "at most", min = 1, max = 1000000, usual = "40 generations" },
@@ -112,24 +117,25 @@ local trade = rows.call("study:pareto", "{ results, ... }", "looks for the front
 })
 
 rows.calls{
-  { "study:front", "{ results }", "the rows of the whole table that no other one beats in these results",
+  { "study:front", "{ results }", "the rows of the whole table that no other row beats in all these results",
     "the front: rows, knee, evaluations, failed", example = 'study:front { "time", "peak" }' },
-  { "study:advise", "result", "which method a search had better take, how many evaluations, and why",
+  { "study:advise", "result", "the best method for a search, the number of evaluations, and why",
     "advice: method, evaluations, why, lines", example = 'print(study:advise "time")' },
   { "study:table", "", "all evaluations: number, parameters, results, pass, failed", "a list of tables" },
   { "study:best", "result", "the evaluation with the smallest value that meets the constraints",
     "a row, or nil" },
   { "study:csv", "path", "writes the table", "the path", example = 'study:csv "grip.csv"' },
-  { "study:json", "path", "writes the table with what the study is", "the path" },
+  { "study:json", "path", "writes the table and the description of the study", "the path" },
   { "study.name", nil, "of the study", "a text" },
   { "study.file", nil, "its journal", "a path, or nil" },
-  { "study.computed", nil, "evaluations that this process has computed, not read", "a number" },
+  { "study.computed", nil, "evaluations that this process has computed, without those read from the journal",
+    "a number" },
 }
 
-local draw = rows.call("study:chart", "{...}", "draws what has been evaluated; needs gnuplot", {
+local draw = rows.call("study:chart", "{...}", "draws the evaluations; needs gnuplot", {
   gives = "the path, or without one the drawing in characters",
   example = 'study:chart { x = "force", y = "time", path = "grip.svg" }',
-  { "kind", "choice", "-", "what, see help 'study'", choices = chart.names, default = "points",
+  { "kind", "choice", "-", "kind of chart, see help 'study'", choices = chart.names, default = "points",
     about = function(name) return chart.of(name).doc end },
   { "x", "text", "-", "a parameter or a result", usual = "required by points, histogram, front" },
   { "y", "text", "-", "a parameter or a result", usual = "required by all but histogram" },

@@ -12,21 +12,23 @@ local where = {}
 
 local KNOWN = checks.set "here slurm"
 
-local run = rows.call("study:run", "{...}", "says where and how what follows is computed", {
+local run = rows.call("study:run", "{...}", "sets where and how the next evaluations are computed", {
   gives = "the study",
   example = 'study:run { on = "slurm", tasks = 40, options = { partition = "short" } }',
   { "on", "choice", "-", "in processes of this machine, or as tasks of a cluster",
     choices = { "here", "slurm" }, usual = "SOFTWORLD_ON of the environment, else here" },
-  { "tasks", "integer", "-", "of the cluster, for all evaluations of a method", min = 1, max = 10000000,
-    usual = "so many that each computes for seconds" },
+  { "tasks", "integer", "-", "number of tasks on the cluster, for all evaluations of a method", min = 1,
+    max = 10000000,
+    usual = "such that each computes for seconds" },
   { "seconds", "number", "s", "computing time of a task", min = 0, above = true, default = 30 },
   { "options", "table", "-", "of sbatch: { partition = 'short', time = '1:00:00', cpus_per_task = 4 }" },
-  { "detach", "boolean", "-", "end the script as soon as its tasks are sent; run again, it collects",
+  { "detach", "boolean", "-", "end the script after its tasks are sent; run it again to collect results",
     default = false },
 })
 
 rows.calls{
-  { "study:cancel", "", "ends its tasks on the cluster, whoever has sent them; what they found stays",
+  { "study:cancel", "", "ends its tasks on the cluster, also those of other processes; results so far are "
+    .. "kept",
     "how many there were" },
 }
 

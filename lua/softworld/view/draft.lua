@@ -114,7 +114,7 @@ local function place_of(now, id)
   for i, item in ipairs(now.items) do
     if item.id == id then return i, item end
   end
-  fail "this is not there any more"
+  fail "this item no longer exists"
 end
 
 local function is_taken(now, but)
@@ -224,7 +224,8 @@ function change.remove(_, now, m)
   end
   local also = {}
   for i = 2, #gone do also[i - 1] = gone[i].name or gone[i].kind.kind end
-  return #also > 0 and ("%s went too: %s"):format(gone[1].name or gone[1].kind.kind, table.concat(also, ", "))
+  return #also > 0 and ("with %s these were removed too: %s"):format(gone[1].name or gone[1].kind.kind,
+    table.concat(also, ", "))
     or nil
 end
 

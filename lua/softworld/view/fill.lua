@@ -50,7 +50,7 @@ function read.integer(what, field, value)
   local whole = math.tointeger(number(what, value))
   if not whole then fail("%s = %s is not allowed; it must be an integer", what, checks.got(value)) end
   if field.name == "segments" and whole > MOST_SEGMENTS then
-    fail("%s = %d is too much for a form; at most %d", what, whole, MOST_SEGMENTS)
+    fail("%s = %d is too large for a form; at most %d", what, whole, MOST_SEGMENTS)
   end
   return whole
 end
@@ -69,7 +69,7 @@ end
 function read.file(what, field, value)
   value = read.text(what, field, value)
   if not value:find "^[%w_][%w_ .-]*$" then
-    fail("%s: the name of a file without a folder is wanted, got %s", what, checks.got(value))
+    fail("%s must be the name of a file without a folder, got %s", what, checks.got(value))
   end
   return value
 end
@@ -104,7 +104,7 @@ end
 read["function"] = functions.read
 
 local function read_all(what, known, values)
-  if type(values) ~= "table" or getmetatable(values) ~= nil then fail("%s: values is no table", what) end
+  if type(values) ~= "table" or getmetatable(values) ~= nil then fail("%s: values is not a table", what) end
   checks.keys(what, values, known, 0)
   local copy = {}
   for key, value in next, values do

@@ -11,7 +11,7 @@ local LONGEST = 20000 -- longest body [B]
 
 local function fail(text, ...) error(text:format(...), 0) end
 
-functions.REFUSED = "this view takes no Lua functions from pages: begin it with softworld --view "
+functions.REFUSED = "this view accepts no Lua functions from pages; start it with softworld --view "
   .. "--functions, or scene:view { functions = true }"
 
 -- --- bodies ------------------------------------------------------------------------------------------
@@ -68,12 +68,12 @@ local function a_function(name, args, doc)
   return { name = name, type = "function", unit = "-", args = args, doc = doc, required = true }
 end
 
-local force = a_function("func", "t, x, v, f", "adds forces to f [N], three numbers a node, flat, as the "
-  .. "places x [m] and velocities v [m/s] are; t is the time [s]; returns nothing")
-local condition = a_function("condition", "", "asked once a step; returns true when the process is to go on")
-local way = a_function("func", "t", "returns how far it has gone, { x, y, z } [m], at t [s] after the "
-  .. "move begins; { 0, 0, 0 } at t = 0")
-local look = a_function("call", "observer", "is called between two steps; observer:stop(why) ends the run, "
+local force = a_function("func", "t, x, v, f", "adds forces to f [N]; f, the positions x [m] and the "
+  .. "velocities v [m/s] are flat lists with three numbers for each node; t is the time [s]; returns nothing")
+local condition = a_function("condition", "", "called once per step; returns true when the process goes on")
+local way = a_function("func", "t", "returns the displacement { x, y, z } [m] at t [s] after the start of "
+  .. "the move; { 0, 0, 0 } at t = 0")
+local look = a_function("call", "observer", "called between two steps; observer:stop(why) ends the run, "
   .. "observer:change(function() ... end) changes the scene")
 
 local function row(name, kind, unit, doc, more)
@@ -104,8 +104,8 @@ local function write_observe(values, _, source)
   return "scene:observe " .. source{ every = values.every, call = call }
 end
 
-local value = a_function("of", "run", "returns a number of the run that was done, in the unit told; the "
-  .. "scene is as at its end")
+local value = a_function("of", "run", "returns a number for the finished run, in the given unit; the scene "
+  .. "is in its state at the end")
 
 local function write_check(values, _, source)
   return (source{ name = values.name, unit = need(values, "check", "unit"), max = values.max,
@@ -122,15 +122,15 @@ functions.kinds = {
     rows = { row("on", "wire", "-", "the wire or object of particles", { required = true }), force } },
   { class = "step", kind = "wait_until", method = "wait_until", self = "p", write = write_wait,
     lua = true, first = "condition timeout", doc = "waits until a Lua function returns true." .. ending,
-    rows = { condition, row("timeout", "number", "s", "goes on after this time all the same",
+    rows = { condition, row("timeout", "number", "s", "goes on after this time in any case",
       { min = 0, above = true, usual = "none" }) } },
   { class = "step", kind = "move_by_function", method = "move", self = "gripper", lua = true,
     write = write_move, first = "func duration",
-    doc = "moves a gripper along a way that a Lua function gives.",
+    doc = "moves a gripper along a path given by a Lua function.",
     rows = { way, row("duration", "number", "s", "of the move",
       { required = true, min = 0, above = true }) } },
   { class = "observer", kind = "observe", method = "observe", write = write_observe,
-    lua = true, first = "call every", doc = "looks at the run as it goes on." .. ending,
+    lua = true, first = "call every", doc = "calls a function during the run." .. ending,
     rows = { look, row("every", "number", "s", "between two calls",
       { min = 0, above = true, usual = "each step" }) } },
   { class = "check", kind = "check", method = "check", write = write_check, lua = true,

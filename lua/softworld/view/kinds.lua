@@ -124,11 +124,12 @@ end
 
 local function wires(r)
   local in_lua = {
-    { name = "cable", type = "choice", unit = "-", doc = "of the catalogue, instead of radius, E and density",
+    { name = "cable", type = "choice", unit = "-", doc = "cable of the catalogue, instead of radius, E and "
+      .. "density",
       choices = table.move(cable.list(), 1, #cable.list(), 1, {}) },
     { name = "stiffness", type = "choice", unit = "-", doc = "which of the cable's EI and GJ",
       choices = cable.stiffnesses },
-    { name = "use", type = "choice", unit = "-", doc = "of the cable, which its bend radius is judged by",
+    { name = "use", type = "choice", unit = "-", doc = "use of the cable, which sets the allowed bend radius",
       choices = bendrule.uses } }
   local models = table.move(r.models, 1, #r.models, 1, {})
   table.sort(models, function(a, b) return a.name == "rod" and b.name ~= "rod" end) -- the usual one first

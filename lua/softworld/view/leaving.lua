@@ -26,21 +26,21 @@ local function class_of(object)
 end
 
 local function text_of(value)
-  if type(value) ~= "string" or #value > 200 then fail "object is no name" end
+  if type(value) ~= "string" or #value > 200 then fail "object is not a name" end
   return value
 end
 
 -- Returns a force of the script by its number, or raises an error.
 local function force_of(scene, number)
   local force = math.type(number) == "integer" and scene:forces()[number]
-  if not force or not force.held then fail "there is no such force any more" end
+  if not force or not force.held then fail "there is no such force" end
   return force
 end
 
 --- Returns the line that removes { object = name }, { made = serial of a force } or { force = number }.
 function leaving.line(scene, m)
   if m.made ~= nil then
-    if math.type(m.made) ~= "integer" then fail "made is no number" end
+    if math.type(m.made) ~= "integer" then fail "made is not a number" end
     return ("made[%d]:release()"):format(m.made)
   end
   if m.force ~= nil then
@@ -54,7 +54,7 @@ function leaving.line(scene, m)
   if class == "obstacle" then
     for _, g in ipairs(data.grippers) do
       for _, part in ipairs(not g.left and g.obstacles or {}) do
-        if part == object then fail("'%s' is a part of gripper '%s'; remove that", name, g.name) end
+        if part == object then fail("'%s' is a part of gripper '%s'; remove the gripper", name, g.name) end
       end
     end
   end

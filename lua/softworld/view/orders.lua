@@ -84,12 +84,12 @@ end
 -- --- lines -----------------------------------------------------------------------------------------
 
 local function text_of(what, value)
-  if type(value) ~= "string" or #value > 200 then fail("%s is no name", what) end
+  if type(value) ~= "string" or #value > 200 then fail("%s is not a name", what) end
   return value
 end
 
 local function number_of(what, value)
-  if type(value) ~= "number" or value - value ~= 0 then fail("%s is no number", what) end
+  if type(value) ~= "number" or value - value ~= 0 then fail("%s is not a number", what) end
   return value
 end
 
@@ -98,7 +98,7 @@ local function positive(what, value)
 end
 
 local function vector_of(what, value)
-  if type(value) ~= "table" then fail("%s is no list of 3 numbers", what) end
+  if type(value) ~= "table" then fail("%s is not a list of 3 numbers", what) end
   for k = 1, 3 do number_of(what, value[k]) end
   return { value[1], value[2], value[3] }
 end
@@ -128,7 +128,7 @@ end
 
 local function plain_value(name, value)
   if type(value) ~= "table" then return value end
-  if #value < 1 or #value > MOST_NUMBERS then fail("%s is no list of numbers", name) end
+  if #value < 1 or #value > MOST_NUMBERS then fail("%s is not a list of numbers", name) end
   local copy = {}
   for k = 1, #value do copy[k] = number_of(name, value[k]) end
   return copy
@@ -159,7 +159,7 @@ end
 --- { object =, values = { row = value } }: object:set{...}.
 function make.set(scene, m)
   local name = text_of("object", m.object)
-  if type(m.values) ~= "table" then fail "values is no table" end
+  if type(m.values) ~= "table" then fail "values is not a table" end
   local object, given, known = object_of(scene, name), {}, {}
   for _, row in ipairs(rows_of(object) or fail("'%s' has nothing to set", name)) do
     known[row.name] = is_told(row) and row or nil
@@ -175,7 +175,7 @@ end
 --- { wire =, s =, to =, force =, stiffness = }: a hand takes hold of a place of a wire.
 function make.pull(scene, m)
   local wire = scene:find(text_of("wire", m.wire))
-  if core.type(wire) ~= "wire" then fail("'%s' is no wire", m.wire) end
+  if core.type(wire) ~= "wire" then fail("'%s' is not a wire", m.wire) end
   local s = math.max(0, math.min(number_of("s", m.s), wire.length))
   local line = 'hand = scene:force { kind = "pull", on = %s, s = %s, to = %s, force = %s, stiffness = %s }'
   return line:format(reference(m.wire), source(s), source(vector_of("to", m.to)),
@@ -236,7 +236,7 @@ function make.remove(scene, m) return leaving.line(scene, m) end
 local function gripper_of(scene, m)
   local gripper = scene:find(text_of("gripper", m.gripper))
   if type(gripper) ~= "table" or (getmetatable(gripper) or {}).__name ~= "gripper" then
-    fail("'%s' is no gripper", m.gripper)
+    fail("'%s' is not a gripper", m.gripper)
   end
   if gripper.left then fail("gripper '%s' was taken away", m.gripper) end
   return gripper
@@ -245,7 +245,7 @@ end
 --- { gripper =, to =, speed = }: moves it there on a straight line, at most at this speed.
 function make.lead(scene, m)
   local to, speed = vector_of("to", m.to), positive("speed", m.speed)
-  local here, way = gripper_of(scene, m):position() or fail("gripper '%s' is nowhere yet", m.gripper), 0
+  local here, way = gripper_of(scene, m):position() or fail("gripper '%s' has no place yet", m.gripper), 0
   for k = 1, 3 do way = way + (to[k] - here[k]) ^ 2 end
   if way < 1e-12 then return ("%s:stop()"):format(reference(m.gripper)) end
   return ('%s:move { to = %s, speed = %s, law = "linear" }'):format(reference(m.gripper), source(to),

@@ -57,14 +57,14 @@ function returning.how(own, state)
   if own.draft and not own.unsaved then return "again" end
   if state.snapshot and next(process.mark(own.scene)) == nil then return "ended" end
   return nil, state.snapshot and "a process has gone on since, and a Lua function has no way back"
-    or "too much was taken away since: this state is not kept any more"
+    or "too much was removed since; this state is no longer kept"
 end
 
 -- Restores the runs that a script must repeat; a run that was left early ends there.
 local function back_in_runs(own, state)
   local count = #own.runs
   if own.running and (count ~= #state.runs or own.runs[count] ~= state.runs[count]) then
-    own.unsaved = "another run was gone back to while one was under way"
+    own.unsaved = "the page went back to another run during a run"
   elseif not own.running then
     own.ended, own.runs = nil, copy_of(state.runs)
     if state.inside then own.lines[#own.lines + 1] = { time = state.time } end
@@ -92,7 +92,8 @@ local function restore(own, state, how)
   own.lines = copy_of(state.lines)
   back_in_runs(own, state)
   local words = words_of(state)
-  if how == "ended" and next(state.processes) then words = words .. "; processes have ended and stay so" end
+  if how == "ended" and next(state.processes) then words = words .. "; processes have ended and do not start "
+    .. "again" end
   tell(own, state, words)
   return words
 end

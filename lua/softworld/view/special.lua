@@ -149,7 +149,7 @@ local function count(name, doc)
   return row("integer", "-")(name, doc, nil, { min = 2, max = 100, default = 6 })
 end
 
-local timeout = positive("timeout", "s", "goes on after this time all the same", nil, "none")
+local timeout = positive("timeout", "s", "goes on after this time in any case", nil, "none")
 local name = word("name", "name used in messages and series")
 local radius = length("radius", "of the surface around particles and links")
 local solids = { of = "gripper clamp obstacle" }
@@ -166,9 +166,9 @@ end
 special.kinds = {
   { class = "fixing", kind = "join", method = "join", write = write_join, first = "one s other other_s",
     doc = "wires fixed to each other where they meet, as in a harness",
-    rows = { thing("one", "a wire", true), length("s", "where it meets the other", true),
+    rows = { thing("one", "a wire", true), length("s", "arc length where it meets the other wire", true),
       thing("other", "another wire", true), length("other_s", "where that meets it", true),
-      thing("third", "one more wire"), length("third_s", "where that meets them"), name,
+      thing("third", "one more wire"), length("third_s", "arc length of the third wire at the join"), name,
       row("boolean", "-")("rigid", "the angles between the wires are kept") } },
   { class = "particles", kind = "sheet", method = "particles", write = write_sheet,
     first = "name at along across columns rows masses k shear",
@@ -190,14 +190,15 @@ special.kinds = {
   { class = "hold", kind = "hold", method = "hold", on = "particles", first = "particles name",
     doc = "a clamp of some particles of an object",
     rows = { list("particles", "which ones, from 1 on", true), name } },
-  step("force", on "force", "until a gripper or clamp pulls its wire, or wires press on an obstacle, so hard",
+  step("force", on "force", "until a gripper or clamp pulls its wire, or wires press on an obstacle, with "
+    .. "this force",
     { thing("on", "gripper, clamp or obstacle", true),
       row("number", "N")("force", "its size at least", true, { min = 0 }) }, { on = solids }),
-  step("slip", on "slip", "until a wire has slid so far through a gripper's pads",
+  step("slip", on "slip", "until a wire has slid this far through a gripper's pads",
     { row("gripper", "-")("on", "with pads", true), length("slip", "way at least", true) }),
   step("contact", contact, "until something touches an obstacle", { thing("contact", "the obstacle", true) },
     { contact = { of = "obstacle" } }),
-  step("distance", distance, "until two things are so near to each other",
+  step("distance", distance, "until two objects are this close to each other",
     { thing("from", "gripper, clamp or obstacle", true), thing("to", "another one"),
       place("point", "instead of another one"), length("distance", "at most", true) },
     { from = solids, to = solids }),

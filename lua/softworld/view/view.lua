@@ -25,18 +25,19 @@ local View = { __name = "view" }
 local new = rows.call("scene:view", "{...}", "shows the scene in a browser of this machine while it runs", {
   gives = "a view",
   example = "scene:view()",
-  { "port", "integer", "-", "of this machine, where the page is", min = 0, max = 65535,
+  { "port", "integer", "-", "port of the page on this machine", min = 0, max = 65535,
     usual = "any that is free" },
-  { "open", "boolean", "-", "opens a browser; else the address is told only", usual = "true" },
-  { "paused", "boolean", "-", "runs begin when the page says so", usual = "false" },
+  { "open", "boolean", "-", "true: opens a browser; false: only prints the address", usual = "true" },
+  { "paused", "boolean", "-", "runs wait until they are started on the page", usual = "false" },
   { "functions", "boolean", "-", "pages may type Lua functions, which can do whatever you can",
     usual = "false" },
 })
 
 rows.calls{
-  { "view:wait", "seconds", "shows the scene and does what pages ask for, until Ctrl-C or so long [s]" },
-  { "view:close", "", "pages are told nothing more; the scene stays" },
-  { "view.address", nil, "of the page, with its secret; for this machine only", "a text" },
+  { "view:wait", "seconds", "shows the scene and executes orders of pages until Ctrl-C, or for this time "
+    .. "[s]" },
+  { "view:close", "", "ends the view; the scene remains" },
+  { "view.address", nil, "address of the page, with its secret; for this machine only", "a text" },
   { "view.pages", nil, "that are open", "a number" },
   { "view.scene", nil, "that it shows", "a scene" },
 }
@@ -216,7 +217,7 @@ local function run_again(own)
     if type(result) == "string" then return held.told_again(own, plain(result)) end
   end
   returning.lines(own)
-  held.told_again(own, r.state.inside and "the run ended before it was there" or nil)
+  held.told_again(own, r.state.inside and "the run ended before it reached that state" or nil)
 end
 
 -- Between runs: does what pages ask for at once.

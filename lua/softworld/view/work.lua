@@ -109,8 +109,8 @@ local function undo(own, m)
     return
   end
   local fine, message = do_line(own, line.undo)
-  local words = line.before and ("%s is made anew, as it was, and the run goes on: a process has gone on "
-    .. "since, which has no way back"):format(line.before.what) or "undone: " .. line.text
+  local words = line.before and ("%s is made again as it was, and the run goes on: a process has gone on "
+    .. "since and cannot go back"):format(line.before.what) or "undone: " .. line.text
   show.answer(own, m.ask, fine, fine and words or build.plain(message))
 end
 
@@ -193,7 +193,8 @@ local function replace(own, scene)
 end
 
 local function of_draft(own, m, f)
-  local fine, message = false, "this scene was made by a script: only what is done by hand can change it"
+  local fine, message = false, "this scene was made by a script; on the page it can only be changed by hand "
+    .. "during a run"
   if own.draft and own.running then message = "a run is under way: end it, or wait for its end" end
   if own.draft and not own.running then fine, message = pcall(f, own, m) end
   if not fine and draft.is_interrupt(message) then error(message, 0) end
@@ -272,10 +273,10 @@ local function is_good(own, m)
     m.serial = own.serial
   end
   if own.draft and not own.running and #own.runs == 0 then
-    return refuse(own, m, "nothing runs yet: change it where it was made")
+    return refuse(own, m, "nothing runs yet; change the item where it was made")
   end
   if word == "remove" and m.made ~= nil and not own.made_text[m.made] then
-    return refuse(own, m, "there is no such force any more")
+    return refuse(own, m, "there is no such force")
   end
   local fine, message = pcall(orders.line, own.scene, m, own.functions)
   if not fine then

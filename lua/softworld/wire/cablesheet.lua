@@ -74,7 +74,7 @@ end
 
 local function source_of(name, key, source)
   if type(source) ~= "string" or source == "" then
-    fail(name, "%s has no source: a text that says where the value is from", key)
+    fail(name, "%s has no source; give a text that says where the value is from", key)
   end
   return source
 end
@@ -186,8 +186,8 @@ local function check_consistency(name, e)
   local R = e.outer_diameter.value / 2
   local density = e.mass_per_length.value / (math.pi * R ^ 2)
   if density < densities[1] or density > densities[2] then
-    fail(name, "mass_per_length = %g kg/m in outer_diameter = %g m is %.3g kg/m3, and cables have %g to "
-      .. "%g kg/m3; are the units right?", e.mass_per_length.value, 2 * R, density,
+    fail(name, "mass_per_length = %g kg/m in outer_diameter = %g m is %.3g kg/m3; cables have %g to %g "
+      .. "kg/m3; are the units right?", e.mass_per_length.value, 2 * R, density,
       table.unpack(densities))
   end
   -- EI is largest for a given EA when all material is at the rim of the section
@@ -237,7 +237,7 @@ local function read_bend(name, given, entry)
   if bend.rule ~= nil and bend.rule ~= "IEC 62440" then
     fail(name, "bend: there is no rule '%s'; known is IEC 62440", checks.shown(bend.rule))
   end
-  if not bend.rule and count == 0 then fail(name, "bend says neither a rule nor a multiple") end
+  if not bend.rule and count == 0 then fail(name, "bend has neither a rule nor a multiple") end
   local wrong = bendrule.unknown(bend.use)
   if wrong then fail(name, "bend: %s", wrong) end
   if not bend.rule and not bend[bend.use] then
@@ -333,8 +333,8 @@ function sheet.whole(entry)
     local value = q
     if type(q) == "table" then value = q.value end
     if type(q) ~= "table" or not is_number(value) then
-      fail(tostring(rawget(entry, "name")), "the script has written %s into its %s; an entry of your own "
-        .. "is made by sw.cable.define", checks.shown(value), spec.key)
+      fail(tostring(rawget(entry, "name")), "the script has written %s into its %s; to make an entry of your "
+        .. "own use sw.cable.define", checks.shown(value), spec.key)
     end
   end
   return entry

@@ -59,7 +59,7 @@ function Calibration.__tostring(c)
   for _, t in ipairs(targets) do
     local off = c.residuals[t[1]]
     if off then
-      lines[#lines + 1] = ("  %-17s %12.6g %-5s %+.1e of it off"):format(t[1], c[t[1]], t[2], off)
+      lines[#lines + 1] = ("  %-17s %12.6g %-5s relative error %+.1e"):format(t[1], c[t[1]], t[2], off)
     end
   end
   if c.elements then
@@ -91,7 +91,7 @@ local function with_cable(args)
   local entry = cable.get(args.cable)
   for _, key in ipairs { "E", "nu", "density" } do
     if args[key] ~= nil and not (key == "nu" and args.body == "solid") then
-      error(("calibrate: %s is of a solid round wire and does not go with cable = '%s'"):format(key,
+      error(("calibrate: %s describes a solid round wire and does not go with cable = '%s'"):format(key,
         entry.name), 0)
     end
   end

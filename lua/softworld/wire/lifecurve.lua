@@ -47,7 +47,7 @@ function lifecurve.read(what, curve, unit)
       checks.number(here .. "[2]", point[2], 0, "", 0, nil, true) }
     local before = copy[i - 1]
     if before and not (copy[i][1] > before[1] and copy[i][2] < before[2]) then
-      error(("%s: a larger range is wanted than before, endured for fewer cycles"):format(here), 0)
+      error(("%s: each range must be larger than the one before, and have fewer cycles"):format(here), 0)
     end
   end
   if #copy < 2 then

@@ -51,7 +51,7 @@ local function add_limits(script, own, name)
   end
 end
 
-return { doc = "how often which values of x are, with the limits of its constraint", needs = "x",
+return { doc = "histogram of x, with the limits of its constraint", needs = "x",
   bins = bins_of, counts = counts_of,
   draw = function(own, o, list)
     local values, script = {}, gnuplot.script()

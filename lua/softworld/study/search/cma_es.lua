@@ -159,7 +159,7 @@ end
 local function ended(self)
   local n = self.problem.n
   if self.generation == 0 then return nil end
-  if is_small(self) then return "as near as wanted", true end
+  if is_small(self) then return "the wanted accuracy was reached", true end
   if is_flat(self) then return "the value no longer changes", true end
   if (self.lengths[n] / self.lengths[1]) ^ 2 > WIDEST then
     return "the distribution became a needle", false

@@ -35,7 +35,7 @@ function crs2.begin(problem)
   local size, ask = 10 * (problem.n + 1), run.ask
   function run.heard(place, outcome) keep(crowd, size, place, outcome) end
   function run:ask()
-    if is_near(crowd, size, problem.tolerance) then return nil, "as near as wanted", true end
+    if is_near(crowd, size, problem.tolerance) then return nil, "the wanted accuracy was reached", true end
     return ask(self)
   end
   return run
