@@ -48,8 +48,7 @@ typedef sw_status (*sw_contact_place)(void *user, int o, double time, sw_motion_
 /* Makes a contact over copies of these obstacles. Their ids must ascend. SW_ENOMEM. */
 sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_contact_place place,
                          void *user, sw_contact **out);
-/* Makes a copy over the same obstacles with the same memory, for a look ahead. The original does
- * not change. SW_ENOMEM. */
+/* Makes a copy over the same obstacles with the same memory, for a look ahead. SW_ENOMEM. */
 sw_status sw_contact_copy(const sw_contact *contact, sw_contact **out);
 void sw_contact_free(sw_contact *contact);
 /* Keeps only the obstacles with these owner's numbers (count); wires no longer touch the others. */
@@ -66,8 +65,7 @@ typedef enum sw_contact_regime {
  * [N/m], [1/s2]. */
 void sw_contact_stiffness(sw_contact_regime regime, double force, double nominal, double *base,
                           double *rate2);
-/* Least stiffness of touches between a particle and other objects, except in explicit steps
- * [N/m]. */
+/* Least stiffness of touches of a particle with other objects, not in explicit steps [N/m]. */
 double sw_contact_hardness(const sw_web *web, size_t particle);
 
 /* Begins a step of size h at time t and the system's state: finds candidates. nominal: the run's
@@ -105,12 +103,10 @@ void sw_contact_book(void *contact, const sw_booking *booking);
 void sw_contact_gained(const sw_contact *contact, int id, sw_vec about, sw_vec *force,
                        sw_vec *moment);
 
-/* The owner's number of obstacle number k; the load that it remembers from the last accepted
- * step. */
+/* The owner's number of obstacle k; its load in the last accepted step. */
 int sw_contact_id(const sw_contact *contact, size_t k);
 const sw_contact_past *sw_contact_past_of(const sw_contact *contact, size_t k);
-/* Numbers (count) of the obstacles that have a load or may get one in this step. All others have
- * none. */
+/* Numbers (count) of the only obstacles that have a load or may get one in this step. */
 const int *sw_contact_busy(const sw_contact *contact, size_t *count);
 /* Numbers (count) of the obstacles that may move. */
 const int *sw_contact_movers(const sw_contact *contact, size_t *count);
@@ -203,11 +199,9 @@ int sw_contact_shaken(const sw_contact *contact, const sw_system *system);
 #define SW_FACING (-0.7)
 /* A wire's weight; without gravity, its bending force EI/L^2 [N]. */
 double sw_contact_usual_force(const sw_system *system, const sw_plan *plan);
-/* From this force of a touch on, a wire is squeezed or taut and cannot come out. 0 for a mesh,
- * which can [N]. */
+/* From this force of a touch on, a wire is squeezed or taut and cannot come out; 0: a mesh [N]. */
 double sw_contact_squeezing_force(const sw_system *system, const sw_plan *plan);
-/* Axial stiffness of the edge that begins or ends at a node; 0 for a mesh or a loose particle
- * [N/m]. */
+/* Axial stiffness of the edge at a node; 0 for a mesh or a loose particle [N/m]. */
 double sw_contact_edge_stiffness(const sw_system *system, size_t body, size_t node);
 
 /* --- for the energy ledger, after a trial ------------------------------------- */
@@ -226,8 +220,7 @@ int sw_contact_emerges(const sw_contact *contact);
 size_t sw_contact_impacts(const sw_contact *contact); /* impacts dealt with in the step [-] */
 double sw_contact_struck(const sw_contact *contact);  /* work of moving obstacles in them [J] */
 
-/* Memory kept between steps (anchors and sides), for snapshots: a block to copy and to give
- * back. */
+/* Memory kept between steps (anchors and sides): a block to copy, for snapshots. */
 const void *sw_contact_memory(const sw_contact *contact, size_t *bytes);
 /* SW_CONTACT_FRESH: no step was accepted yet, and there is no memory. SW_CONTACT_EMERGING: wires
  * that began inside obstacles come out slowly, so that they are not thrown. Else 0. */
@@ -240,8 +233,7 @@ int sw_contact_memory_fits(const void *memory, size_t bytes, size_t nodes, size_
  * nodes (of this many) or obstacles that do not exist. */
 const void *sw_contact_seen(const sw_contact *contact, size_t *bytes);
 sw_status sw_contact_set_seen(sw_contact *contact, const void *seen, size_t bytes, size_t nodes);
-/* A number that changes with the layout of these blocks. Files of another version have another
- * one. */
+/* A number that changes with the layout of these blocks, from version to version. */
 size_t sw_contact_layout(void);
 /* 1: a node of a wire without particles, or a segment that begins or ends there, has a memory. */
 int sw_contact_memory_names(const void *memory, size_t bytes, size_t node);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Contact of wires with obstacles: internal types and functions. Candidate: a node or segment and
- * an obstacle that may touch in the step. Touch: a place of a candidate where an iterate lets them
- * press. */
+/* Contact of wires with obstacles, inside. Candidate: a node or segment and an obstacle that may
+ * touch in the step. Touch: a place of a candidate where an iterate lets them press. */
 #ifndef SW_CONTACT_TOUCH_H
 #define SW_CONTACT_TOUCH_H
 
@@ -102,8 +101,7 @@ void sw_contact_conclude(sw_contact *c);
 /* Notes that wires may press on the obstacle in this step. */
 void sw_contact_expect(sw_contact *c, int obstacle);
 
-/* Clears impacts and barriers at the start of a step of a system with this many nodes.
- * SW_ENOMEM. */
+/* Clears impacts and barriers at a step's start, for this many nodes. SW_ENOMEM. */
 sw_status sw_contact_calm(sw_contact *c, size_t nodes);
 
 sw_pressed sw_contact_pressed(const sw_touch *t);
@@ -114,8 +112,7 @@ int sw_contact_strike(sw_contact *c, sw_system *s, const sw_touch *t, double h);
  * obstacles. dull: 1 if the step does not bounce. */
 int sw_contact_strike_all(sw_contact *c, sw_system *s, double h, int dull);
 
-/* 1 if a touch from first to end will strike with its present force. Only looks at obstacles
- * without restitution. */
+/* 1 if a touch from first to end will strike by its force. Only obstacles without restitution. */
 int sw_contact_will_strike(const sw_contact *c, sw_system *s, size_t first, size_t end);
 
 /* Raises barriers where wires cross obstacles on their way to x1. h: the step; 0 in statics, where
@@ -140,8 +137,7 @@ typedef struct sw_glance {
 
 /* Begins an iterate: its touches become those of the previous iterate. SW_ENOMEM. */
 sw_status sw_contact_turn_over(sw_contact *c, sw_glance *at);
-/* Matches candidates up to at->next, and those of the segment beside, with their touches of the
- * previous iterate. */
+/* Matches candidates up to at->next, and of the segment beside, with their previous touches. */
 void sw_contact_match(const sw_contact *c, sw_glance *at);
 
 /* Returns the memory of the candidate's touch nearest to this place, or NULL. */
@@ -196,8 +192,7 @@ typedef struct sw_levers {
   sw_vec arm[2];      /* shift per turn [m] */
 } sw_levers;
 
-/* Levers of a touch at a node, or on a segment that begins there, with the last evaluation's
- * tangents. */
+/* Levers of a touch at a node or on a segment from it, with the last evaluation's tangents. */
 sw_levers sw_levers_at(const sw_system *s, size_t body, size_t node, int segment, sw_vec normal);
 static inline sw_levers sw_touch_levers(const sw_system *s, const sw_touch *t) {
   if (!s->bodies[t->body].roll_block) return (sw_levers){0};
@@ -207,8 +202,7 @@ static inline sw_levers sw_touch_levers(const sw_system *s, const sw_touch *t) {
 sw_vec sw_levers_shift(const sw_levers *l, const double *turn, size_t stride);
 /* Adds the touch's friction and stiffness (upper half of K) to the turns. */
 void sw_levers_push(sw_system *s, const sw_touch *t, const double K[6], unsigned want);
-/* Returns the change of the axis' velocity that stops the surface's sliding, of at most this size
- * [m/s]. */
+/* Change of the axis' velocity that stops the surface's sliding, of at most this size [m/s]. */
 sw_vec sw_levers_brake(const sw_beam *beam, const sw_levers *l, sw_vec slide, double most);
 /* Adds the change of the edges' rates (edges) by an impulse at the touch [N s]. */
 void sw_levers_kick(const sw_plan *p, const sw_levers *l, sw_vec impulse, double *rates);
