@@ -12,7 +12,7 @@
 enum { SW_NAME_SIZE = 64 }; /* longest user-given name, with its terminating zero [B] */
 
 /* Largest coordinate of a place that a script may give [m]: distances stay finite. */
-#define SW_PLACE_FARTHEST 1e9
+#define SW_PLACE_FARTHEST 1e100
 
 /* Type of the row's field in the argument struct. */
 typedef enum sw_param_type {

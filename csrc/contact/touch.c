@@ -119,6 +119,13 @@ static const sw_touch *last_for(const sw_contact *c, const sw_candidate *k, doub
   return best;
 }
 
+/* Position of a touch as a mean of nodes. A round obstacle also meets chords, at its rims and along
+ * itself; their touches are on the chord, the others of a smooth wire on its curve. */
+static sw_mean spot_of(const sw_system *s, const sw_candidate *k, const sw_touch *t, double at) {
+  const int on_chord = k->round && k->segment && !t->sharp && t->feature != SW_BEHIND_BARRIER;
+  return on_chord ? sw_mean_chord(k->node, k->other, at) : sw_contact_spot(s, k, at);
+}
+
 /* Displacement of the wire's material at the touch since the step's start, relative to the
  * obstacle's. For a wire that rolls, that of its surface. */
 static sw_vec relative_shift(const sw_contact *c, const sw_system *s, const sw_touch *t,
@@ -144,7 +151,7 @@ static sw_vec shift_since(const sw_contact *c, const sw_system *s, const sw_touc
   const sw_candidate *k = &c->candidates[t->candidate];
   const sw_memory *m = c->regime == SW_CONTACT_EXPLICIT ? sw_contact_remembered(c, k, t->at) : NULL;
   if (!m) return relative_shift(c, s, t, y);
-  const sw_mean spot = sw_contact_spot(s, k, m->at);
+  const sw_mean spot = spot_of(s, k, t, m->at);
   const sw_vec now = sw_mean_place(c, y, &spot);
   return sw_sub(now, sw_pose_point(c->now[t->obstacle].pose, m->seen));
 }
@@ -329,8 +336,8 @@ static void take_place(const sw_contact *c, const sw_system *s, const sw_candida
   t->node = k->node, t->other = k->other, t->body = k->body;
   t->feature = place->near.feature;
   t->at = at;
-  t->spot = sw_contact_spot(s, k, at);
   t->sharp = place->sharp, t->edge = place->edge;
+  t->spot = spot_of(s, k, t, at);
   t->local = place->near.point, t->point = sw_pose_point(*pose, t->local);
   t->seen = sw_pose_local(*pose, sw_mean_place(c, y, &t->spot));
   t->held = sw_contact_is_held(s, k);

@@ -134,9 +134,9 @@ function checks.field(t, key)
   return there and value or nil
 end
 
-local FARTHEST = 1e9 -- largest coordinate of a place, as in the core [m]
+local FARTHEST = 1e100 -- largest coordinate of a place, as in the core [m]
 
---- Returns a copy of the vector {x, y, z}, or raises an error. Coordinates of places [m] are within 1e9 m.
+--- Returns a copy of the vector {x, y, z}, or raises an error. Coordinates of places [m] are within 1e100 m.
 function checks.vector(what, value, unit, level)
   local copy = {}
   for k, axis in ipairs{ "x", "y", "z" } do

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Tells the library's own code from scripts, and finds the line of the user's script that called the library.
+--- Tells the library's own code from scripts, and finds the line of a script that called the library.
 -- @module softworld.place
 local place = {}
 

@@ -38,7 +38,9 @@ describe("a limp wire on the edges of a wall", function()
       assert.is_true(run.ok, run.reason)
       local play = run:ledger().play
       assert.is_true(rise < 1e-3 * play, ("%.3g %%"):format(100 * rise / play)) -- measured: 0.03 % at most
-      for _, e in ipairs(run.events) do assert.is_nil(e.text:find("more than 1 % of all", 1, true), e.text) end
+      for _, e in ipairs(run.events) do
+        assert.is_nil(e.text:find("more than 1 % of all", 1, true), e.text)
+      end
     end)
   end
 end)

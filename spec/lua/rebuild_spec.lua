@@ -215,7 +215,7 @@ describe("tables that contain themselves", function()
     local clamp = scene:clamp(wire, { s = 0 })
     local before = scene:script()
     local args = { s = 0.3, table.unpack(marks) }
-    assert.error_matches(function() scene:clamp(wire, args) end, "parameters have names; %[1%] is not one")
+    assert.error_matches(function() scene:clamp(wire, args) end, "parameters have names; %[1%] is not a name")
     assert.error_matches(function() clamp:follow{ points = marks, duration = 1 } end, "way%-point 1")
     assert.error_matches(function() scene:obstacle{ shape = "sphere", radius = 0.1, at = marks } end,
       "at must have 3 numbers, got 8")
