@@ -76,7 +76,9 @@ static void read_text(lua_State *L, const char *object, const sw_param *row, cha
 
 static void read_vector(lua_State *L, const char *object, const sw_param *row, char *place) {
   sw_error err;
-  const sw_vec a = lsw_vector(L, -2, lua_pushfstring(L, "%s: %s", object, row->name), row->unit);
+  const char *what = lua_pushfstring(L, "%s: %s", object, row->name);
+  const sw_vec a =
+      strcmp(row->unit, "m") == 0 ? lsw_place(L, -2, what) : lsw_vector(L, -2, what, row->unit);
   lua_pop(L, 1);
   const double parts[3] = {a.x, a.y, a.z};
   for (int i = 0; i < 3; i++)
@@ -307,7 +309,7 @@ double *lsw_read_points(lua_State *L, int table, const char *key, const char *ob
   for (size_t i = 0; i < n; i++) {
     lua_geti(L, -2, (lua_Integer)i + 1);
     const char *what = lua_pushfstring(L, "%s: %s, point %d", object, key, (int)i + 1);
-    sw_store(points + 3 * i, lsw_vector(L, -2, what, "m"));
+    sw_store(points + 3 * i, lsw_place(L, -2, what));
     lua_pop(L, 2);
   }
   *count = n;

@@ -30,7 +30,7 @@ static int run(lua_State *L) {
                       "trajectory: func(%f) must return a position {x, y, z} [m] and, if it turns, "
                       "a rotation; got %s",
                       j->t, luaL_typename(L, 2));
-  j->out->p = lsw_vector(L, 2, lua_pushfstring(L, "trajectory: position from func(%f)", j->t), "m");
+  j->out->p = lsw_place(L, 2, lua_pushfstring(L, "trajectory: position from func(%f)", j->t));
   j->out->q = lsw_rotation(L, 3, lua_pushfstring(L, "trajectory: rotation from func(%f)", j->t));
   return 0;
 }

@@ -100,7 +100,7 @@ static void read_point(lua_State *L, const char *what, sw_waypoint *out) {
   if (!lua_istable(L, index))
     luaL_error(L, "%s must be a table {x, y, z} [m], got %s", what, luaL_typename(L, index));
   check_keys(L, index, what);
-  out->p = lsw_vector(L, index, what, "m");
+  out->p = lsw_place(L, index, what);
   if (lua_getfield(L, index, "t") != LUA_TNIL)
     out->t = lsw_number(L, -2, lua_pushfstring(L, "%s: t", what), "s");
   if (lua_getfield(L, index, "rotation") != LUA_TNIL) {

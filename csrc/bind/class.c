@@ -340,14 +340,20 @@ sw_vec lsw_vector(lua_State *L, int index, const char *what, const char *unit) {
   static const char *const names[] = {"x", "y", "z"};
   double v[3] = {0, 0, 0};
   numbers(L, index, what, unit, 3, names, v);
-  for (int i = 0; i < 3 && strcmp(unit, "m") == 0; i++) {
+  return sw_v(v[0], v[1], v[2]);
+}
+
+sw_vec lsw_place(lua_State *L, int index, const char *what) {
+  const sw_vec p = lsw_vector(L, index, what, "m");
+  const double v[] = {p.x, p.y, p.z};
+  for (int i = 0; i < 3; i++) {
     if (fabs(v[i]) <= SW_PLACE_FARTHEST) continue;
     char range[96];
     snprintf(range, sizeof range, "%g m is not allowed; it must be in [%g, %g] m", v[i],
              -SW_PLACE_FARTHEST, SW_PLACE_FARTHEST);
-    luaL_error(L, "%s: %s = %s", what, names[i], range);
+    luaL_error(L, "%s: %c = %s", what, "xyz"[i], range);
   }
-  return sw_v(v[0], v[1], v[2]);
+  return p;
 }
 
 sw_quat lsw_rotation(lua_State *L, int index, const char *what) {

@@ -97,6 +97,8 @@ void lsw_push_values(lua_State *L, const sw_params *params, const void *args);
 /* Returns the three finite numbers {x, y, z} (or fields x, y, z) at index. what is
  * for messages: "scene:wire: from". */
 sw_vec lsw_vector(lua_State *L, int index, const char *what, const char *unit);
+/* The same for a place [m], whose coordinates are within SW_PLACE_FARTHEST. */
+sw_vec lsw_place(lua_State *L, int index, const char *what);
 
 /* Returns the rotation at index: nil = identity, {axis=, angle=} [rad] or {w, x, y, z}. */
 sw_quat lsw_rotation(lua_State *L, int index, const char *what);

@@ -44,7 +44,7 @@ int lsw_pose(lua_State *L, const lsw_class *cls) {
   const lsw_self c = lsw_check_self(L, cls);
   if (lua_gettop(L) > 1) {
     lua_settop(L, 3);
-    const sw_vec to = lsw_vector(L, 2, lua_pushfstring(L, "%s:pose: position", cls->name), "m");
+    const sw_vec to = lsw_place(L, 2, lua_pushfstring(L, "%s:pose: position", cls->name));
     LSW_DO(L, sw_scene_editable, c.scene);
     if (lua_isnil(L, 3))
       LSW_DO(L, sw_scene_object_pose, c.scene, cls->kind, c.id, &pose);
