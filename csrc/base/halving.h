@@ -7,6 +7,7 @@
 /* Binary search in a sorted list: sets the size_t i to the first index in [from, to) for which the
  * condition before (in terms of i) is false; to `to` if it is true for all. To find the last item
  * at or before a place, search for the first item after the place and take the one ahead of it. */
+/* NOLINTBEGIN(bugprone-macro-parentheses): a condition and an assignment need none */
 #define SW_FIRST_NOT(before, i, from, to)     \
   do {                                        \
     size_t sw_low_ = (from), sw_high_ = (to); \
@@ -19,5 +20,6 @@
     }                                         \
     i = sw_low_;                              \
   } while (0)
+/* NOLINTEND(bugprone-macro-parentheses) */
 
 #endif

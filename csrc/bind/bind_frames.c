@@ -10,6 +10,7 @@ static const char *const channels[SW_FRAME_FORCE + 1] = {"tension",      "curvat
 static void push_floats(lua_State *L, const float *x, size_t count, size_t stride) {
   lua_createtable(L, (int)count, 0);
   for (size_t i = 0; i < count; i++) {
+    /* NOLINTNEXTLINE(clang-analyzer-core.NullDereference): NULL comes with count = 0 */
     lua_pushnumber(L, (double)x[stride * i]);
     lua_rawseti(L, -2, (lua_Integer)i + 1);
   }

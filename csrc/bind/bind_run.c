@@ -26,9 +26,9 @@ static int mod_begin_run(lua_State *L) {
 
 /* core.window(scene, obstacle or clamp) -> window of the scene's last run [s]. */
 static int mod_window(lua_State *L) {
-  const lsw_class *const classes[] = {&lsw_class_obstacle, &lsw_class_clamp};
+  const lsw_class *const classes[2] = {&lsw_class_obstacle, &lsw_class_clamp};
   const sw_scene *scene = NULL;
-  for (size_t k = 0; !scene && k < sizeof classes / sizeof *classes; k++)
+  for (size_t k = 0; !scene && k < 2; k++)
     if (lsw_test(L, 1, classes[k])) scene = lsw_check_self(L, classes[k]).scene;
   lua_pushnumber(L, sw_scene_window(scene ? scene : lsw_check_scene(L)));
   return 1;

@@ -82,7 +82,7 @@ void sw_press_resume(sw_press *p, const sw_kept *kept, const sw_press *last, int
                      double guess) {
   p->lag = kept ? kept->normal_force : guess;
   if (last) take_lag(p, last);
-  if (goes_on)
+  if (goes_on && last)
     p->sliding = last->next_sliding;
   else if (kept)
     p->sliding = kept->sliding;

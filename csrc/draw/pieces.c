@@ -42,6 +42,7 @@ static sw_status add(sw_pieces *p, const double from[3], const double to[3], int
     last->to[0] = to[0], last->to[1] = to[1];
     return SW_OK;
   }
+  /* NOLINTNEXTLINE(clang-analyzer-core.NullDereference): sw_grow has made the list */
   p->list[p->count++] = (sw_stretch){{from[0], from[1]}, {to[0], to[1]}, hidden};
   return SW_OK;
 }

@@ -193,7 +193,10 @@ void sw_tape_gone(sw_tape *t, sw_gone *x) {
 void sw_tape_check_numbers(sw_tape *t, const sw_scene *s) {
   const size_t made = sw_scene_bodies_made(s);
   unsigned char *taken SW_LOCAL = sw_alloc(made, 1);
-  if (!taken) sw_tape_fail(t, SW_ENOMEM);
+  if (!taken) {
+    sw_tape_fail(t, SW_ENOMEM);
+    return;
+  }
   for (size_t k = 0; k < made && sw_tape_good(t); k++) {
     const size_t number =
         k < s->wire_count ? s->wires[k].number : s->gone[k - s->wire_count].number;

@@ -179,7 +179,7 @@ void sw_scene_watch_ties(sw_scene *s) {
   for (size_t b = 0; sw_scene_force_slots(s) && b < system->body_count; b++) tell_of_terms(s, b);
   for (size_t k = 0; k < sw_scene_join_slots(s); k++) {
     sw_joint *j = sw_scene_join_in(s, k);
-    double bears;
+    double bears = 0;
     const double pull = breakable(s, k) ? pull_now(s, k, system->x, &bears) : 0.0;
     if (j->alive) keep_borne(s, j);
     if (!breakable(s, k)) continue;
