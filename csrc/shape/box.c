@@ -117,7 +117,7 @@ static int nearest(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_c
   if (k == 3) return sw_convex_segment(shape, a, b, reach, out);
   if (!distance(shape, sw_madd(a, d, at), reach, out)) return 0;
   out->at = at;
-  /* NOLINTNEXTLINE(clang-analyzer-core.CallAndMessage): without a limit of reach, both ends are set */
+  /* NOLINTNEXTLINE(clang-analyzer-core.CallAndMessage): in unlimited reach both ends are set */
   return !sw_no_better(out->gap, ends[0].gap, ends[1].gap, at, sw_norm(d));
 }
 
