@@ -265,10 +265,9 @@ int sw_contact_is_held(const sw_system *s, const sw_candidate *k) {
 }
 
 double sw_contact_depth_before(const sw_contact *c, const sw_system *s, const sw_touch *t) {
-  const sw_vec plane = sw_pose_point(c->start[t->obstacle].pose, t->local);
-  const sw_vec from = sw_mean_place(c, s->x, &t->spot);
-  const double aslant = sw_contact_aslant(c, t->node, t->other, t->at, t->press.normal);
-  return c->candidates[t->candidate].skin - aslant - sw_dot(t->press.normal, sw_sub(from, plane));
+  const sw_vec from = sw_pose_local(c->start[t->obstacle].pose, sw_mean_place(c, s->x, &t->spot));
+  const sw_vec way = sw_rotate(c->now[t->obstacle].pose.q, sw_sub(t->seen, from));
+  return t->forgiven - t->press.gap + sw_dot(t->press.normal, way);
 }
 
 /* Stiffness of a new touch. A wire pushed on by its end bears far more than its weight, and
@@ -308,9 +307,9 @@ static void forgive(const sw_contact *c, const sw_system *s, const sw_candidate 
   const int slowly = (web && web->per_ring) || c->fresh;
   if (c->regime == SW_CONTACT_EXPLICIT || t->press.gap >= 0) return; /* force follows depth */
   const double always = sw_contact_imposed(c, s, k, t, y);
+  const double depth = sw_contact_depth_before(c, s, t) - always;
   t->forgiven = always;
   if (c->regime != SW_CONTACT_IMPLICIT) return;
-  const double depth = sw_contact_depth_before(c, s, t) - always;
   const double h = slowly ? c->stage_time - c->time : c->h;
   sw_kept kept = m ? m->kept : (sw_kept){0};
   if (!t->squeezed) kept.left = 0;
