@@ -230,15 +230,51 @@ static int make_place(const sw_piece *c, double u, sw_place *place) {
   return 1;
 }
 
+/* A place along the edge: the curve, the nearest place of the middle line and its direction. */
+typedef struct mark {
+  double u, rise;
+  sw_vec x, q, e;
+} mark;
+
+static mark mark_at(const sw_piece *c, double u) {
+  sw_vec along;
+  mark m = {.u = u, .rise = rise_at(c, u), .x = sw_contact_curve(c, u, &along)};
+  (void)sw_shape_middle(c->shape, m.x, &m.q, &m.e);
+  return m;
+}
+
+/* Inside a ring the nearest place of the middle line goes further than the wire, and jumps to the
+ * other side where the wire crosses the ring's axis. The function then rises, falls and rises
+ * again. Returns 1 if it may do so between two marks: the line there turns by more than 15 degrees
+ * [-]. */
+static int wavers(const mark *a, const mark *b) {
+  const double little = 0.966; /* cosine of that */
+  return sw_dot(a->e, b->e) < little && sw_dist(a->q, b->q) > 1.2 * sw_dist(a->x, b->x);
+}
+
+enum { MOST_HALVINGS = 12 }; /* of a part in which the function wavers [-] */
+
+/* Lists the places between two marks. */
+static void list_between(const sw_piece *c, double reach, const mark *a, const mark *b, int halvings,
+                         sw_places *list) {
+  sw_place place;
+  if (halvings < MOST_HALVINGS && wavers(a, b)) {
+    const mark mid = mark_at(c, 0.5 * (a->u + b->u));
+    list_between(c, reach, a, &mid, halvings + 1, list);
+    list_between(c, reach, &mid, b, halvings + 1, list);
+    return;
+  }
+  if (a->rise < 0 && b->rise >= 0 && list->count < SW_PLACES_MOST &&
+      make_place(c, find_place(c, a->u, b->u, a->rise, b->rise), &place) && place.near.gap < reach)
+    list->place[list->count++] = place;
+}
+
 /* A ring may give several places. */
 void sw_contact_round_places(const sw_piece *c, double reach, sw_places *list) {
-  double before = rise_at(c, 0.0);
-  for (int i = 0; i < PARTS; i++) {
-    const double from = (double)i / PARTS, to = (double)(i + 1) / PARTS, after = rise_at(c, to);
-    sw_place place;
-    if (before < 0 && after >= 0 && make_place(c, find_place(c, from, to, before, after), &place) &&
-        place.near.gap < reach)
-      list->place[list->count++] = place;
+  mark before = mark_at(c, 0.0);
+  for (int i = 1; i <= PARTS; i++) {
+    const mark after = mark_at(c, (double)i / PARTS);
+    list_between(c, reach, &before, &after, 0, list);
     before = after;
   }
 }

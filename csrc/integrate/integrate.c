@@ -30,6 +30,7 @@ static const sw_newton DYNAMIC_NEWTON = {
     .max_iterations = 16,
     .accept_rotation = 0.02, /* the linearised axial law's error stays below theta^2/2 */
     .limit_rotation = 0.5,
+    .keeps_energy = 1,
 };
 
 sw_status sw_stepper_new(sw_stepper *p, const sw_integrator *method, sw_system *system) {

@@ -107,6 +107,7 @@ struct sw_system {
 /* Newton controls, all [-] unless noted. */
 typedef struct sw_newton {
   int max_iterations;
+  int keeps_energy;       /* 1: updates may leave little energy in taut edges */
   double accept_rotation; /* largest edge rotation of the last update [rad] */
   double limit_rotation;  /* larger updates are shortened to this [rad] */
   int statics;            /* 1: no inertia */
