@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "base/halving.h"
 #include "contact/curve.h"
 #include "contact/tally.h"
@@ -241,6 +242,17 @@ static int emerges(const sw_contact *c) {
 }
 
 int sw_contact_emerges(const sw_contact *c) { return c->fresh && emerges(c); }
+
+/* A wire that two obstacles squeeze cannot come out of either. */
+double sw_contact_emerged(const sw_contact *c) {
+  double sum = 0;
+  if (!sw_contact_emerges(c)) return 0;
+  SW_ITEMS(const sw_touch, t, c->touches, c->touch_count) {
+    if (t->let_out > 0 && !(t->squeezed && sw_contact_is_pinched(c, t)))
+      sum += t->let_out * t->press.normal_force;
+  }
+  return sum;
+}
 
 int sw_contact_steady(const sw_contact *c) {
   size_t before = 0, now = 0;

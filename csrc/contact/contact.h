@@ -211,12 +211,12 @@ double sw_contact_edge_stiffness(const sw_system *system, size_t body, size_t no
 int sw_contact_poses(const sw_contact *contact, int id, sw_pose *from, sw_pose *to);
 /* 1 if the touches that press are those that pressed at the step's start, and nothing struck. */
 int sw_contact_steady(const sw_contact *contact);
-/* Largest energy that touches gain by a higher stiffness at the same depth or force, see
- * sw_kept_hardened [J]. */
+/* Largest energy that touches gain by a higher stiffness (sw_kept_hardened) [J]. */
 double sw_contact_hardened(const sw_contact *contact);
 double sw_contact_fastest(const sw_contact *contact); /* fastest obstacle at the step's end [m/s] */
 /* 1: in this step wires come out of obstacles that they began in */
 int sw_contact_emerges(const sw_contact *contact);
+double sw_contact_emerged(const sw_contact *contact); /* work of touches on wires that do so [J] */
 size_t sw_contact_impacts(const sw_contact *contact); /* impacts dealt with in the step [-] */
 double sw_contact_struck(const sw_contact *contact);  /* work of moving obstacles in them [J] */
 

@@ -36,14 +36,13 @@ enum { REVERSALS = 3 };
  * they are not thrown [m/s]. */
 static const double RECOVERY_SPEED = 0.2, SLOW_RECOVERY = 0.005;
 
-/* Allowed depth: a deeper touch is made stiffer until it is not deeper [m]. */
-static const double DEEPEST = 50e-6;
 static const double MOST_BOOST = 1e5;    /* largest stiffening, of a new touch's stiffness [-] */
 static const double LARGEST_STEP = 10.0; /* largest stiffening at once [-] */
-static const double DEEPER = 5e-6;       /* allowed increase of depth in short steps [m] */
+/* Shares of the allowed depth: */
+static const double DEEPER = 0.1; /* allowed increase of depth in short steps [-] */
 /* A squeezed touch is hardened above this share of the allowed depth. A slowly growing load leaves
- * 18 um for each factor of ten in force; half or twice this value leaves half or twice as much,
- * with as few refused steps (spec/contact/taut_spec). */
+ * 0.36 of the allowed depth for each factor of ten in force; half or twice this value leaves half
+ * or twice as much, with as few refused steps (spec/contact/taut_spec). */
 static const double EARLY = 0.4;    /* hardens above this share [-] */
 static const double AT_ONCE = 2.0;  /* the same at once, for a load that grows fast [-] */
 static const double NEEDLESS = 0.1; /* below this share, stiffness is needless [-] */
@@ -305,7 +304,9 @@ int sw_press_apart(const sw_press *p) {
 
 int sw_press_lies(const sw_press *p) { return p->gap_after <= PLACED; }
 
-int sw_press_was_put(double depth, int first) { return depth > (first ? PLACED : DEEPEST); }
+int sw_press_was_put(double depth, double deepest, int first) {
+  return depth > (first ? PLACED : deepest);
+}
 
 sw_left sw_press_leave(double depth, const sw_kept *kept, double h, int slowly) {
   const double speed = slowly ? SLOW_RECOVERY : RECOVERY_SPEED;
@@ -320,29 +321,29 @@ int sw_press_is_short(int statics, double h, double nominal) {
   return !statics && h > 0 && h < SHORT * nominal;
 }
 
-double sw_press_squeezed(double forgiven, double before) {
-  return fmax(before, forgiven + AT_ONCE * DEEPEST);
+double sw_press_squeezed(double forgiven, double before, double deepest) {
+  return fmax(before, forgiven + AT_ONCE * deepest);
 }
 
-double sw_press_stiffer(const sw_press *p, double usual, double axial, double forgiven,
-                        double before) {
-  const double over = p->gap_after / -DEEPEST;
+double sw_press_stiffer(const sw_press *p, double usual, double axial, double deepest,
+                        double forgiven, double before) {
+  const double over = p->gap_after / -deepest;
   if (over <= 1.0 || p->k >= fmax(MOST_BOOST * usual, axial)) return p->k;
   if (before < 0) return p->k * fmin(LARGEST_STEP, 2.0 * over);
   /* a strike in a short step gets deep fast */
-  return forgiven - p->gap_after < before + DEEPER ? p->k : p->k * LARGEST_STEP;
+  return forgiven - p->gap_after < before + DEEPER * deepest ? p->k : p->k * LARGEST_STEP;
 }
 
-static double eased(const sw_press *p, double usual, double k) {
+static double eased(const sw_press *p, double usual, double k, double deepest) {
   const double depth = p->normal_force / p->k;
-  if (!(k > usual) || !(depth < NEEDLESS * DEEPEST)) return k;
+  if (!(k > usual) || !(depth < NEEDLESS * deepest)) return k;
   return fmax(usual, EASING * k);
 }
 
-sw_kept sw_press_keep(const sw_press *p, double usual, double stiffer) {
+sw_kept sw_press_keep(const sw_press *p, double usual, double stiffer, double deepest) {
   sw_kept out = {.normal_force = p->normal_force,
                  .depth = p->normal_force / p->k,
-                 .k = eased(p, usual, stiffer),
+                 .k = eased(p, usual, stiffer, deepest),
                  .steady = p->normal_force,
                  .soft = p->soft,
                  .sliding = p->next_sliding};
@@ -350,8 +351,8 @@ sw_kept sw_press_keep(const sw_press *p, double usual, double stiffer) {
   return out;
 }
 
-void sw_kept_harden(sw_kept *kept, double axial) {
-  if (kept->depth <= EARLY * DEEPEST || kept->k >= axial) return;
+void sw_kept_harden(sw_kept *kept, double axial, double deepest) {
+  if (kept->depth <= EARLY * deepest || kept->k >= axial) return;
   const double times = fmin(LARGEST_STEP, axial / kept->k), depth = kept->depth / times;
   kept->left += kept->depth - depth;
   kept->k *= times, kept->depth = depth;

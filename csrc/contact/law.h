@@ -60,15 +60,23 @@ typedef struct sw_kept {
   int sliding;
 } sw_kept;
 
+/* Depth that a touch may have [m]. A deeper touch is made stiffer until it is not deeper. On
+ * obstacles in motion it is less, SHALLOW of the radius [-]: with SW_DEEPEST a stiff wire drawn
+ * through a narrow eyelet has a tension 10 % too low, with this 2 %; with half of it the laying S3
+ * costs 15 % more (spec/contact/eyelet_spec). In statics and between wires a fifth of SW_DEEPEST
+ * would keep taut strings from settling, and overlapping wires from coming out smoothly. */
+#define SW_DEEPEST 50e-6
+#define SW_SHALLOW 0.004
+
 /* Makes the memory of a touch at a step's end. usual: stiffness of a new touch, stiffer: stiffness
  * from the next iterate on [N/m]. A touch keeps its stiffness, because a change would be a kick. A
  * needlessly high stiffness falls slowly. */
-sw_kept sw_press_keep(const sw_press *press, double usual, double stiffer);
+sw_kept sw_press_keep(const sw_press *press, double usual, double stiffer, double deepest);
 /* Hardens a squeezed touch. A squeezed wire cannot come out: letting it out would create energy,
  * and the step would be refused. So a touch that is too deep gets stiffer from the next step on at
  * the same force, and the rest of the depth stays (left). axial: stiffness of the wire's edge, the
  * upper limit: between rigid things no force could be set [N/m]. */
-void sw_kept_harden(sw_kept *kept, double axial);
+void sw_kept_harden(sw_kept *kept, double axial, double deepest);
 /* Energy that a touch gains if its stiffness rises to k [J]. A mesh keeps its depth, and its spring
  * then stores more. A line is light: it comes out, at constant force, to the depth that belongs to
  * k. */
@@ -142,8 +150,8 @@ int sw_press_opens(const sw_press *press, sw_vec shift, double force_scale);
 int sw_press_lies(const sw_press *press);
 
 /* 1 if wires must have been placed this deep. Nothing touched there before, and no touch gets this
- * deep by itself within a step. first: 1 if nothing touched anywhere. */
-int sw_press_was_put(double depth, int first);
+ * deep (deepest) by itself within a step. first: 1 if nothing touched anywhere. */
+int sw_press_was_put(double depth, double deepest, int first);
 
 /* Splits a depth at the step's start. kept: memory of the touch, or NULL. Wires that were placed in
  * each other, or that leave a barrier, come out slowly: within one step the depth would turn into
@@ -185,13 +193,13 @@ int sw_press_apart(const sw_press *press);
 int sw_press_is_short(int statics, double h, double nominal);
 
 /* Depth above which a squeezed touch is made stiffer at once [m]. */
-double sw_press_squeezed(double forgiven, double before);
+double sw_press_squeezed(double forgiven, double before, double deepest);
 
 /* Stiffness from the next iterate on: higher for a touch that is too deep, else unchanged [N/m].
  * usual: stiffness of a new touch; axial: stiffness of the wire's edge, because a taut wire presses
  * with forces unrelated to its weight. before: depth at the step's start in a short step, else
  * negative [m]. forgiven: see sw_left. */
-double sw_press_stiffer(const sw_press *press, double usual, double axial, double forgiven,
-                        double before);
+double sw_press_stiffer(const sw_press *press, double usual, double axial, double deepest,
+                        double forgiven, double before);
 
 #endif

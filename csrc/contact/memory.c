@@ -7,6 +7,7 @@
 
 #include "base/alloc.h"
 #include "contact/curve.h"
+#include "contact/depth.h"
 
 /* Friction uses the normal force as a mean over this many steps, because chords round a peg press
  * more and less from step to step. With half as many a wire's swing through a ring
@@ -22,6 +23,7 @@ static double steady_force(const sw_contact *c, const sw_system *s, const sw_tou
 static sw_status remember(sw_contact *c, const sw_system *s, const sw_touch *t) {
   const sw_contact_at *o = &c->now[t->obstacle];
   const sw_quat back = sw_quat_conj(o->pose.q);
+  const double deepest = sw_contact_deepest(c, t);
   SW_TRY(sw_grow((void **)&c->next_memory, &c->next_capacity, c->next_count + 1,
                  sizeof *c->next_memory));
   sw_memory *m = &c->next_memory[c->next_count++];
@@ -30,13 +32,13 @@ static sw_status remember(sw_contact *c, const sw_system *s, const sw_touch *t) 
                    .node = t->node,
                    .feature = t->feature,
                    .at = t->at,
-                   .kept = sw_press_keep(&t->press, t->usual, t->stiffer),
+                   .kept = sw_press_keep(&t->press, t->usual, t->stiffer, deepest),
                    .normal = sw_rotate(back, t->press.normal),
                    .point = t->local,
                    .seen = t->seen};
   m->kept.steady = steady_force(c, s, t), m->kept.left = t->left;
   if (t->squeezed && c->regime == SW_CONTACT_IMPLICIT && !sw_contact_is_pinched(c, t))
-    sw_kept_harden(&m->kept, sw_contact_edge_stiffness(s, t->body, t->node));
+    sw_kept_harden(&m->kept, sw_contact_edge_stiffness(s, t->body, t->node), deepest);
   if (!(t->press.normal_force > 0)) return SW_OK;
   m->slid = t->slid + sw_norm(t->press.slip);
   m->kept.elastic = sw_rotate(back, m->kept.elastic);

@@ -211,7 +211,7 @@ void sw_mutual_commit(sw_mutual *m, sw_system *s) {
     *out = (sw_met){.of = t->of,
                     .kind = t->kind,
                     .at = {t->at[0], t->at[1]},
-                    .kept = sw_press_keep(&t->press, t->usual, t->stiffer),
+                    .kept = sw_press_keep(&t->press, t->usual, t->stiffer, SW_DEEPEST),
                     .normal = t->press.normal,
                     .emerges = t->let_out > 0 || (t->emerges && t->forgiven > 0)};
     if (m->finder->note) m->finder->note(m, s, t, out);

@@ -59,7 +59,7 @@ typedef struct sw_touch {
   double share;    /* its share of that stiffness, below 1 near a place of the edge beside [-] */
   int known;       /* 1: it pressed at the step's start */
   int held;        /* 1: both ends are held, so there is no force */
-  int squeezed;    /* 1: a line that bore far more than its weight at the step's start */
+  int squeezed;    /* 1: made stiffer from step to step, not within a step */
   double friction; /* coefficient in this step: kinetic if it slid before [-] */
   double slid;     /* sliding way up to the step's start, since the touch began to press [m] */
   sw_vec seen;     /* the wire's position at this evaluation, in the obstacle's coordinates [m] */

@@ -7,6 +7,7 @@
 
 #include "base/alloc.h"
 #include "contact/curve.h"
+#include "contact/depth.h"
 #include "contact/same.h"
 
 /* A touch continues in the next iterate if its gap is below STILL_NEAR of the radius and the cosine
@@ -264,12 +265,6 @@ int sw_contact_is_held(const sw_system *s, const sw_candidate *k) {
   return held[k->node - b->first_node] != SW_FREE && held[k->other - b->first_node] != SW_FREE;
 }
 
-double sw_contact_depth_before(const sw_contact *c, const sw_system *s, const sw_touch *t) {
-  const sw_vec from = sw_pose_local(c->start[t->obstacle].pose, sw_mean_place(c, s->x, &t->spot));
-  const sw_vec way = sw_rotate(c->now[t->obstacle].pose.q, sw_sub(t->seen, from));
-  return t->forgiven - t->press.gap + sw_dot(t->press.normal, way);
-}
-
 /* Stiffness of a new touch. A wire pushed on by its end bears far more than its weight, and
  * stiffening its touch after it has sunk in would throw the end back. So the end's touch is as
  * stiff as the wire itself from the beginning [N/m]. */
@@ -298,24 +293,6 @@ static int goes_on(const sw_contact *c, const sw_candidate *k, const sw_press *p
                    const sw_touch *last) {
   return last && c->regime != SW_CONTACT_EXPLICIT && press->gap < STILL_NEAR * k->radius &&
          sw_dot(press->normal, last->press.normal) > SAME_SIDE;
-}
-
-/* Sets how much of its depth a touch leaves alone in this step. */
-static void forgive(const sw_contact *c, const sw_system *s, const sw_candidate *k,
-                    const sw_memory *m, const double *y, sw_touch *t) {
-  const sw_web *web = s->bodies[k->body].plan->web;
-  const int slowly = (web && web->per_ring) || c->fresh;
-  if (c->regime == SW_CONTACT_EXPLICIT || t->press.gap >= 0) return; /* force follows depth */
-  const double always = sw_contact_imposed(c, s, k, t, y);
-  const double depth = sw_contact_depth_before(c, s, t) - always;
-  t->forgiven = always;
-  if (c->regime != SW_CONTACT_IMPLICIT) return;
-  const double h = slowly ? c->stage_time - c->time : c->h;
-  sw_kept kept = m ? m->kept : (sw_kept){0};
-  if (!t->squeezed) kept.left = 0;
-  const sw_left left = sw_press_leave(depth, m ? &kept : NULL, h, slowly);
-  t->forgiven += left.forgiven, t->left = left.left;
-  t->let_out = left.let_out;
 }
 
 /* 1 if friction's direction follows from the place. In bundles it is an unknown, as between wires:
@@ -378,8 +355,9 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
   press->gap += sw_contact_aslant(c, k->node, k->other, at, press->normal);
   if (plan->web && !plan->web->per_ring)
     press->soft = fmin(SW_SOFTEST, (double)plan->web->particles);
-  t->squeezed = m && k->squeezing > 0 && m->kept.normal_force >= k->squeezing;
-  forgive(c, s, k, m, y, t);
+  const sw_kept *const kept = m ? &m->kept : NULL;
+  t->squeezed = sw_contact_is_squeezed(c, k, kept, t);
+  sw_contact_forgive(c, s, k, kept, y, t);
   if (m && !t->squeezed)
     t->hardened = sw_kept_hardened(&m->kept, t->share * t->stiffer, plan->web != NULL);
   press->gap += t->forgiven;

@@ -155,8 +155,6 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
  * the list is final. SW_ENOMEM. */
 sw_status sw_contact_look_on(sw_contact *c, const sw_system *s, const double *y, sw_glance *at,
                              size_t *found, sw_error *err);
-/* Depth of the touch's place at the step's start, negative outside [m]. */
-double sw_contact_depth_before(const sw_contact *c, const sw_system *s, const sw_touch *t);
 
 /* 1 if, after an update by shift [m] to positions y, the touch keeps the place and normal of its
  * equations. scale: smaller forces do not matter [N]. */

@@ -76,7 +76,7 @@ static void judge_touches(sw_scene *s, double h, sw_step_energy *step) {
     step->obstacles += sw_contact_struck(contact);
     step->let_out = sw_contact_hardened(contact);
     if (sw_contact_emerges(contact))
-      step->let_out += sw_presses_emerged(sw_contact_presses(contact)) +
+      step->let_out += sw_contact_emerged(contact) +
                        b->mass * (THROWN * THROWN + LET_OUT * h * sw_norm(sw_scene_gravity(s)));
   }
   for (int k = 0; k < 2; k++) {

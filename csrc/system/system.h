@@ -99,8 +99,7 @@ struct sw_system {
   double *clamps_now; /* (first_kept - edges) of kept clamps, in world coordinates: past directions
                          of a stage, or rates of a state [-], [1/s] */
   void *pull_block;
-  double *factor_at; /* (freedoms) positions at which the factors were made, if they may be reused
-                        [m] */
+  double *factor_at; /* (freedoms) positions at which reusable factors were made [m] */
   void *work;
 };
 
