@@ -199,13 +199,20 @@ static double share_of(const sw_piece *c) {
   return before * after;
 }
 
+/* Up to this share of w, its part perpendicular to the curve is rounding: the wire goes through the
+ * middle of a ball [-]. */
+static const double THROUGH = 1e-9;
+
 /* Normal of a place that is w off the middle line: perpendicular to the curve and to the line. (The
  * part of w that is perpendicular to the curve has a share along the line where the wire crosses it
  * obliquely and the place is not the nearest one: that would push the wire along the obstacle, and
  * make energy.) A ball has a point for a line; there it is that part of w. */
 static sw_vec normal_of(sw_vec w, sw_vec along, sw_vec e) {
   const sw_vec out = sw_unit_or(sw_cross(along, e), sw_perpendicular(along));
-  if (!(sw_norm2(e) > 0)) return sw_unit_or(sw_madd(w, along, -sw_dot(w, along)), out);
+  if (!(sw_norm2(e) > 0)) {
+    const sw_vec across = sw_madd(w, along, -sw_dot(w, along));
+    return sw_norm2(across) > THROUGH * THROUGH * sw_norm2(w) ? sw_unit_or(across, out) : out;
+  }
   return sw_dot(out, w) < 0 ? sw_neg(out) : out;
 }
 

@@ -182,6 +182,7 @@ local function given_up(context, state, time)
   if state.rung == rung then return end
   context.given_up[#context.given_up + 1] = { kind = "model", time = time, count = 1,
     text = ("%s: %s given up; %s"):format(state.choice.name, was, state.why) }
+  decide.settle(context)
 end
 
 -- True if the finest run can contradict the free check of a choice.
@@ -213,7 +214,7 @@ local function compared_finer(context, state, values)
     repeat until decide.look(context, state)
     if state.rung ~= rung then
       context.given_up[#context.given_up + 1] = { kind = "model", time = context.scene.time, count = 1,
-        text = ("%s: %s given up; on the coarsest edges the wire is in another place: %s"):format(
+        text = ("%s: %s given up; on coarse edges the wire is in another place: %s"):format(
           state.choice.name, as, state.why) }
       decide.settle(context)
       return true
