@@ -182,7 +182,6 @@ local function given_up(context, state, time)
   if state.rung == rung then return end
   context.given_up[#context.given_up + 1] = { kind = "model", time = time, count = 1,
     text = ("%s: %s given up; %s"):format(state.choice.name, was, state.why) }
-  decide.settle(context)
 end
 
 -- True if the finest run can contradict the free check of a choice.
