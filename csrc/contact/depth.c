@@ -4,8 +4,10 @@
 #include <math.h>
 
 double sw_contact_deepest(const sw_contact *c, const sw_touch *t) {
-  const double radius = c->candidates[t->candidate].radius;
-  return c->regime == SW_CONTACT_STATIC ? SW_DEEPEST : fmin(SW_DEEPEST, SW_SHALLOW * radius);
+  const sw_candidate *k = &c->candidates[t->candidate];
+  const int line = k->squeezing > 0, pad = c->obstacles[t->obstacle].grips > 0;
+  if (!line || pad || c->regime == SW_CONTACT_STATIC) return SW_DEEPEST;
+  return fmin(SW_DEEPEST, SW_SHALLOW * k->radius);
 }
 
 double sw_contact_depth_before(const sw_contact *c, const sw_system *s, const sw_touch *t) {

@@ -60,11 +60,12 @@ typedef struct sw_kept {
   int sliding;
 } sw_kept;
 
-/* Depth that a touch may have [m]. A deeper touch is made stiffer until it is not deeper. On
- * obstacles in motion it is less, SHALLOW of the radius [-]: with SW_DEEPEST a stiff wire drawn
+/* Depth that a touch may have [m]. A deeper touch is made stiffer until it is not deeper. Lines in
+ * motion are less deep in obstacles, SHALLOW of the radius [-]: with SW_DEEPEST a stiff wire drawn
  * through a narrow eyelet has a tension 10 % too low, with this 2 %; with half of it the laying S3
- * costs 15 % more (spec/contact/eyelet_spec). In statics and between wires a fifth of SW_DEEPEST
- * would keep taut strings from settling, and overlapping wires from coming out smoothly. */
+ * costs 15 % more (spec/contact/eyelet_spec). Meshes and pads are softer than that. In statics and
+ * between wires a fifth of SW_DEEPEST would keep taut strings from settling, and overlapping wires
+ * from coming out smoothly. */
 #define SW_DEEPEST 50e-6
 #define SW_SHALLOW 0.004
 
@@ -197,8 +198,8 @@ double sw_press_squeezed(double forgiven, double before, double deepest);
 
 /* Stiffness from the next iterate on: higher for a touch that is too deep, else unchanged [N/m].
  * usual: stiffness of a new touch; axial: stiffness of the wire's edge, because a taut wire presses
- * with forces unrelated to its weight. before: depth at the step's start in a short step, else
- * negative [m]. forgiven: see sw_left. */
+ * with forces unrelated to its weight. before: a touch is not made stiffer up to this depth (wires in
+ * a short step, squeezed touches); else negative [m]. forgiven: see sw_left. */
 double sw_press_stiffer(const sw_press *press, double usual, double axial, double deepest,
                         double forgiven, double before);
 
