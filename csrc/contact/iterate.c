@@ -209,8 +209,8 @@ static double stiffer(const sw_contact *c, const sw_system *s, const sw_touch *t
   if (t->held || c->candidates[t->candidate].given) return t->stiffer;
   if (squeezed && sw_contact_is_pinched(c, t)) return t->stiffer;
   const double deepest = sw_contact_deepest(c, t);
-  double before = squeezed ? sw_contact_depth_before(c, s, t) : -1.0;
-  if (squeezed) before = sw_press_squeezed(t->forgiven, before, deepest);
+  const double at_start = squeezed ? sw_contact_depth_before(c, s, t) : 0.0;
+  const double before = squeezed ? sw_press_squeezed(t->forgiven, at_start, deepest) : -1.0;
   const double k = sw_press_stiffer(&t->press, t->share * t->usual,
                                     t->share * sw_contact_edge_stiffness(s, t->body, t->node),
                                     deepest, t->forgiven, before);
