@@ -140,7 +140,8 @@ static double off_by_update(const sw_system *s, const sw_body *b) {
 /* 1 if the update changes the lengths of a taut wire's edges too much for the linear axial law. */
 static int pulls_roughly(const sw_system *s, const sw_stage *stage, const sw_newton *newton,
                          const sw_stage_report *report) {
-  for (size_t k = s->part; k < s->part_end && newton->keeps_energy; k++) {
+  if (!newton->keeps_energy || report->rotation <= LEAST_UPDATE) return 0;
+  for (size_t k = s->part; k < s->part_end; k++) {
     const sw_body *b = &s->bodies[k];
     if (b->plan->web || !isfinite(stage->hbar)) continue;
     const double weight = ENERGY_NOISE * usual_force(s, b) * b->plan->beam.radius;
