@@ -95,7 +95,7 @@ sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime r
                                 double h, double nominal, sw_error *err) {
   c->time = t;
   c->h = h;
-  c->nominal = nominal;
+  c->nominal = c->asked = nominal;
   c->regime = regime;
   c->pressed_count = 0;
   c->plastic = c->hasty = c->careful = 0;
@@ -266,6 +266,7 @@ int sw_contact_steady(const sw_contact *c) {
 }
 
 void sw_contact_cut(sw_contact *c, double least) { c->least = least; }
+void sw_contact_ask(sw_contact *c, double part) { c->asked = fmin(c->nominal, part); }
 double sw_contact_soonest(const sw_contact *c) { return c->soonest; }
 size_t sw_contact_impacts(const sw_contact *c) { return c->impact_count; }
 double sw_contact_struck(const sw_contact *c) { return c->struck; }

@@ -3,10 +3,25 @@
 
 #include <math.h>
 
-double sw_contact_deepest(const sw_contact *c, const sw_touch *t) {
+/* A wire is limp if tension times edge^2 is above this multiple of EI: it bends within a small part
+ * of an edge. Statics may leave a limp string as deep as other things; with less depth it does not
+ * settle [-]. */
+static const double LIMP = 500.0;
+
+/* 1 if statics must not leave a touch as deep as usual, because the depth lowers the tension: it
+ * presses far more than the line's weight. */
+static int is_taut(const sw_system *s, const sw_candidate *k, const sw_touch *t) {
+  const sw_body *b = &s->bodies[t->body];
+  const size_t i = t->node - b->first_node, e = i < b->plan->edges ? i : i - 1;
+  const double edge = b->plan->rest[e], tension = s->tension[b->first_edge + e];
+  return t->press.normal_force >= k->squeezing && tension * edge * edge < LIMP * b->plan->beam.EI;
+}
+
+double sw_contact_deepest(const sw_contact *c, const sw_system *s, const sw_touch *t) {
   const sw_candidate *k = &c->candidates[t->candidate];
   const int line = k->squeezing > 0, pad = c->obstacles[t->obstacle].grips > 0;
-  if (!line || pad || c->regime == SW_CONTACT_STATIC) return SW_DEEPEST;
+  if (!line || pad) return SW_DEEPEST;
+  if (c->regime == SW_CONTACT_STATIC && !is_taut(s, k, t)) return SW_DEEPEST;
   return fmin(SW_DEEPEST, SW_SHALLOW * k->radius);
 }
 
@@ -33,9 +48,9 @@ void sw_contact_forgive(const sw_contact *c, const sw_system *s, const sw_candid
   t->let_out = left.let_out;
 }
 
-int sw_contact_is_squeezed(const sw_contact *c, const sw_candidate *k, const sw_kept *last,
-                           const sw_touch *t) {
+int sw_contact_is_squeezed(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                           const sw_kept *last, const sw_touch *t) {
   if (!last || !(k->squeezing > 0)) return 0;
   return last->normal_force >= k->squeezing || last->left > 0 ||
-         last->depth > sw_contact_deepest(c, t);
+         last->depth > sw_contact_deepest(c, s, t);
 }

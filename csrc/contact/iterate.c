@@ -207,14 +207,15 @@ static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *
 static double stiffer(const sw_contact *c, const sw_system *s, const sw_touch *t) {
   const int still = c->regime == SW_CONTACT_STATIC, squeezed = t->squeezed && !still;
   if (t->held || c->candidates[t->candidate].given) return t->stiffer;
-  if (squeezed && sw_contact_is_pinched(c, t)) return t->stiffer;
-  const double deepest = sw_contact_deepest(c, t);
-  const double at_start = squeezed ? sw_contact_depth_before(c, s, t) : 0.0;
-  const double before = squeezed ? sw_press_squeezed(t->forgiven, at_start, deepest) : -1.0;
+  const double deepest = sw_contact_deepest(c, s, t);
+  const int small = sw_press_is_short(still, c->h, c->asked);
+  double before = small || squeezed ? fmax(0.0, sw_contact_depth_before(c, s, t)) : -1.0;
+  if (squeezed) before = sw_press_squeezed(t->forgiven, before, deepest);
   const double k = sw_press_stiffer(&t->press, t->share * t->usual,
                                     t->share * sw_contact_edge_stiffness(s, t->body, t->node),
                                     deepest, t->forgiven, before);
-  return k > t->press.k ? k / t->share : t->stiffer;
+  if (!(k > t->press.k) || (!still && sw_contact_is_pinched(c, t))) return t->stiffer;
+  return k / t->share;
 }
 
 /* Stiffens touches that are too deep; 1 = there were some. */

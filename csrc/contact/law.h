@@ -61,11 +61,11 @@ typedef struct sw_kept {
 } sw_kept;
 
 /* Depth that a touch may have [m]. A deeper touch is made stiffer until it is not deeper. Lines in
- * motion are less deep in obstacles, SHALLOW of the radius [-]: with SW_DEEPEST a stiff wire drawn
- * through a narrow eyelet has a tension 10 % too low, with this 2 %; with half of it the laying S3
- * costs 15 % more (spec/contact/eyelet_spec). Meshes and pads are softer than that. In statics and
- * between wires a fifth of SW_DEEPEST would keep taut strings from settling, and overlapping wires
- * from coming out smoothly. */
+ * motion, and taut lines in statics, are less deep in obstacles, SHALLOW of the radius [-]: with
+ * SW_DEEPEST a stiff wire drawn through a narrow eyelet has a tension 10 % too low, with this 2 %;
+ * with half of it the laying S3 costs 15 % more (spec/contact/eyelet_spec). Meshes and pads are
+ * softer than that. In other statics and between wires a fifth of SW_DEEPEST would cost iterations,
+ * and keep overlapping wires from coming out smoothly. */
 #define SW_DEEPEST 50e-6
 #define SW_SHALLOW 0.004
 

@@ -23,7 +23,7 @@ static double steady_force(const sw_contact *c, const sw_system *s, const sw_tou
 static sw_status remember(sw_contact *c, const sw_system *s, const sw_touch *t) {
   const sw_contact_at *o = &c->now[t->obstacle];
   const sw_quat back = sw_quat_conj(o->pose.q);
-  const double deepest = sw_contact_deepest(c, t);
+  const double deepest = sw_contact_deepest(c, s, t);
   SW_TRY(sw_grow((void **)&c->next_memory, &c->next_capacity, c->next_count + 1,
                  sizeof *c->next_memory));
   sw_memory *m = &c->next_memory[c->next_count++];

@@ -356,7 +356,7 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
   if (plan->web && !plan->web->per_ring)
     press->soft = fmin(SW_SOFTEST, (double)plan->web->particles);
   const sw_kept *const kept = m ? &m->kept : NULL;
-  t->squeezed = sw_contact_is_squeezed(c, k, kept, t);
+  t->squeezed = sw_contact_is_squeezed(c, s, k, kept, t);
   sw_contact_forgive(c, s, k, kept, y, t);
   if (m && !t->squeezed)
     t->hardened = sw_kept_hardened(&m->kept, t->share * t->stiffer, plan->web != NULL);

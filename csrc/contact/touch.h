@@ -69,6 +69,7 @@ struct sw_contact {
   double time, h; /* the step's start and size [s] */
   double stage_time; /* time that obstacles were last placed for [s] */
   double nominal;    /* the run's full step [s] */
+  double asked;      /* part (substep) that was first tried, before any was refused [s] */
   sw_contact_regime regime;
   int plastic;     /* 1: nothing rebounds in this step */
   int hasty;       /* 1: this trial ends before friction of a striking wire is settled */

@@ -54,6 +54,7 @@ sw_status sw_rung_strike(sw_ladder *p, const sw_rung *below, double h, sw_error 
       s, c->method->flags & SW_INTEGRATOR_IMPLICIT ? SW_CONTACT_IMPLICIT : SW_CONTACT_EXPLICIT,
       sw_scene_time(s), h, sw_blow_part(s, p->args->dt), err);
   if (contact) sw_contact_cut(contact, shortest_cut(p));
+  if (contact && p->asked > 0) sw_contact_ask(contact, p->asked);
   int expected = status == SW_OK && begin_dully(p, h);
   for (int redo = 0; status == SW_OK && redo < MOST_REDOS; redo++) {
     status = sw_rung_go(p, below, h, err);

@@ -22,6 +22,8 @@ typedef struct sw_ladder {
   int redo;        /* SW_AS_IS, or how the step is redone because it made energy */
   double soonest;  /* a rebound asks the step to end this long after its start; 0 = none [s] */
   int cuts;        /* cuts at rebounds in this step [-] */
+  double asked;    /* part (substep) that was first tried; shorter parts come from refusals or from
+                      the end of the step; 0: dt [s] */
   sw_error held;   /* why the last part was rejected */
   int smooth;      /* 1: the last rejected step made energy where nothing touches */
   int changed;     /* 1: the scene was changed since the last step; the energy of this step is not

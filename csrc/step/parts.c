@@ -122,6 +122,7 @@ static sw_status take(sw_ladder *p, parts *k, int may_grow, sw_error *err) {
   k->part = k->starts || k->cut ? k->h : may_grow ? 2 * k->part : k->part;
   if (k->whole > k->part) k->part = k->whole;
   k->starts = k->cut = 0;
+  p->asked = fmin(k->h, fmax(p->asked, k->part));
   return SW_OK;
 }
 
@@ -167,6 +168,7 @@ static void remember(sw_scene *s, const parts *k) {
 
 sw_status sw_step_fixed(sw_ladder *p, double h, double t1, sw_error *err) {
   parts k = {.h = h, .t0 = sw_scene_time(p->s), .t1 = t1, .part = first_part(p->s, h)};
+  p->asked = k.part;
   k.starts = sw_scene_course(p->s)->next && sw_slip_any(p->s);
   if (k.starts) k.part = FIRST_SLIP * h;
   p->cuts = 0;
@@ -181,6 +183,7 @@ sw_status sw_step_fixed(sw_ladder *p, double h, double t1, sw_error *err) {
     if (status == SW_OK && is_too_long(p, &k, &may_grow)) {
       sw_ladder_undo(p);
       sw_scene_books(p->s)->sums.redone = redone; /* counts only steps that are taken */
+      p->asked = k.part;
     } else {
       SW_TRY(status == SW_OK ? take(p, &k, may_grow, err) : refuse(p, &k, status, err));
     }
