@@ -304,9 +304,7 @@ int sw_press_apart(const sw_press *p) {
 
 int sw_press_lies(const sw_press *p) { return p->gap_after <= PLACED; }
 
-int sw_press_was_put(double depth, double deepest, int first) {
-  return depth > (first ? PLACED : deepest);
-}
+int sw_press_was_put(double depth, int first) { return depth > (first ? PLACED : SW_DEEPEST); }
 
 sw_left sw_press_leave(double depth, const sw_kept *kept, double h, int slowly) {
   const double speed = slowly ? SLOW_RECOVERY : RECOVERY_SPEED;

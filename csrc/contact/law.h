@@ -61,7 +61,7 @@ typedef struct sw_kept {
 } sw_kept;
 
 /* Depth that a touch may have [m]. A deeper touch is made stiffer until it is not deeper. Lines in
- * motion, and taut lines in statics, are less deep in obstacles, SHALLOW of the radius [-]: with
+ * motion, and taut lines in statics, are less deep in obstacles, SW_SHALLOW of the radius [-]: with
  * SW_DEEPEST a stiff wire drawn through a narrow eyelet has a tension 10 % too low, with this 2 %;
  * with half of it the laying S3 costs 15 % more (spec/contact/eyelet_spec). Meshes and pads are
  * softer than that. In other statics and between wires a fifth of SW_DEEPEST would cost iterations,
@@ -151,8 +151,8 @@ int sw_press_opens(const sw_press *press, sw_vec shift, double force_scale);
 int sw_press_lies(const sw_press *press);
 
 /* 1 if wires must have been placed this deep. Nothing touched there before, and no touch gets this
- * deep (deepest) by itself within a step. first: 1 if nothing touched anywhere. */
-int sw_press_was_put(double depth, double deepest, int first);
+ * deep by itself within a step. first: 1 if nothing touched anywhere. */
+int sw_press_was_put(double depth, int first);
 
 /* Splits a depth at the step's start. kept: memory of the touch, or NULL. Wires that were placed in
  * each other, or that leave a barrier, come out slowly: within one step the depth would turn into
@@ -193,13 +193,14 @@ int sw_press_apart(const sw_press *press);
  * into speed. */
 int sw_press_is_short(int statics, double h, double nominal);
 
-/* Depth above which a squeezed touch is made stiffer at once [m]. */
+/* Depth above which a squeezed touch is made stiffer at once. deepest: depth that it may have, here
+ * and below [m]. */
 double sw_press_squeezed(double forgiven, double before, double deepest);
 
 /* Stiffness from the next iterate on: higher for a touch that is too deep, else unchanged [N/m].
  * usual: stiffness of a new touch; axial: stiffness of the wire's edge, because a taut wire presses
- * with forces unrelated to its weight. before: a touch is not made stiffer up to this depth (wires in
- * a short step, squeezed touches); else negative [m]. forgiven: see sw_left. */
+ * with forces unrelated to its weight. before: up to this depth a touch is not made stiffer, as
+ * wires in a short step and squeezed touches; else negative [m]. forgiven: see sw_left. */
 double sw_press_stiffer(const sw_press *press, double usual, double axial, double deepest,
                         double forgiven, double before);
 

@@ -45,7 +45,7 @@ static void forgive(const sw_mutual *m, const sw_system *s, const sw_met *met, s
   t->forgiven = always;
   if (m->regime != SW_CONTACT_IMPLICIT) return;
   const double depth = t->reach - sw_dot(t->square, sw_bows_apart(s->x, t->bow)) - always;
-  t->emerges |= met ? met->emerges : sw_press_was_put(depth, SW_DEEPEST, m->memory_count == 0);
+  t->emerges |= met ? met->emerges : sw_press_was_put(depth, m->memory_count == 0);
   const sw_left left = sw_press_leave(depth, met ? &met->kept : NULL, m->h, t->emerges);
   t->forgiven += left.forgiven;
   if (t->emerges) t->let_out = left.let_out;
