@@ -24,6 +24,9 @@ void sw_scene_tell_broken(const sw_scene *scene, char *out, size_t size);
 /* Reports a tube that is folded at one place. */
 void sw_scene_watch_kink(sw_scene *scene, size_t wire, const sw_wire_extremes *now);
 
+/* Reports a rod whose edges are too long for its sharpest bend. */
+void sw_scene_watch_edges(sw_scene *scene, size_t wire, const sw_wire_extremes *now);
+
 /* 1 if there is an unbroken tie with a strength. */
 int sw_scene_may_break(const sw_scene *scene);
 /* SW_ENOCONV when a tie is pulled far beyond its strength with nodes at x: it breaks within the

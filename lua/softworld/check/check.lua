@@ -5,6 +5,7 @@ local build = require "softworld.scene.build"
 local bendrule = require "softworld.wire.bendrule"
 local checks = require "softworld.checks"
 local core = require "softworld.core"
+local edges = require "softworld.check.edges"
 local fixing = require "softworld.link.fixing"
 local judge = require "softworld.check.judge"
 local limits = require "softworld.check.limits"
@@ -174,6 +175,7 @@ local function judge_one(self, member, entry, context, list)
     value = { value = 0 / 0, note = "this run has no such value" } -- asked for by its full name
   end
   with_error(value, error_bar(self.run, entry.name, member.name))
+  if not self.several then edges.widen(value, member.edges, entry, self.run) end
   local function fresh() return start_row(self, member.name, entry.name, member.label, member.unit, value) end
   local known, why = known_limit(member, entry, context)
   if given then
@@ -281,10 +283,11 @@ local function read(run, args)
   return args, context
 end
 
-local function make(run, args)
+-- several: true for a level of error bars, whose changes from level to level tell more.
+local function make(run, args, several)
   if not run.ok then args = call:read(args == nil and {} or args) end
   local self = { run = run, scene = run.scene, name = run.name, start = run.start, time = run.time, rows = {},
-    skipped = {}, made = {}, trial = type(args) == "table" and args.trial }
+    skipped = {}, made = {}, several = several, trial = type(args) == "table" and args.trial }
   local why = unfit(run)
   if why then
     refuse(self, why)
@@ -323,7 +326,7 @@ function check.early(scene, args)
 end
 
 --- Returns the rows of a run that is one of several.
-function check.rows(run, args) return make(run, args).rows end
+function check.rows(run, args) return make(run, args, true).rows end
 
 --- run:check{ use =, limits =, checks =, landing =, trial = }: see help "run:check".
 function check.check(run, args)

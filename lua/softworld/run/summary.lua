@@ -35,18 +35,6 @@ local function sum_up_grippers(self, data, add)
   end
 end
 
--- An edge longer than LONG of the bend radius makes the radius about a tenth too large, and the tension of a
--- taut wire wrong by more; FINE of it makes both right within a few percent [-].
-local LONG, FINE = 0.8, 0.4
-
--- Returns a remark on a rod's edges if they are too long for a bend, and says how many would do.
-local function long_edges(wire, radius)
-  local edge = wire.length / wire.segments
-  if wire.model ~= "rod" or edge <= LONG * radius then return nil end
-  return ("edges of %s are too long for it; try segments = %d"):format(number.text(edge, "m"),
-    math.ceil(wire.length / (FINE * radius)))
-end
-
 local function sum_up_wires(self, data, add)
   for _, w in ipairs(data.wires) do
     local radius, s, t = w.object:min_bend_radius()
@@ -56,7 +44,7 @@ local function sum_up_wires(self, data, add)
       label = ("%s (limit %s, %s%s)"):format(label, number.text(allowed.limit, "m"), allowed.use,
         allowed.ok and "" or ", EXCEEDED")
     end
-    add(label, radius, "m", s, t, long_edges(w.object, radius))
+    add(label, radius, "m", s, t)
     local tension, note
     tension, s, t, note = window.tension(self.scene, w.object)
     add(w.name .. ": largest tension", tension, "N", s, t, note)
