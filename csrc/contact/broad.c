@@ -210,7 +210,7 @@ static void sort(int *a, size_t n) {
   }
 }
 
-const int *sw_broad_near(sw_broad *b, sw_vec low, sw_vec high, double reach, size_t *count,
+const int *sw_broad_near(sw_broad *b, const sw_bounds *box, double reach, size_t *count,
                          size_t *looks) {
   *count = b->aside_count;
   *looks += b->aside_count;
@@ -219,10 +219,10 @@ const int *sw_broad_near(sw_broad *b, sw_vec low, sw_vec high, double reach, siz
   for (int k = 0; k < 2; k++) {
     const sw_broad_group *g = &b->group[k];
     if (!g->count) continue;
-    const double length = sw_dist(low, high);
+    const double length = sw_dist(box->min, box->max);
     const double most = k ? b->factor * (reach + b->omega * b->turning_time * length) : reach;
     const sw_vec w = sw_v(ROUNDING * most, ROUNDING * most, ROUNDING * most);
-    const sw_bounds near = {sw_sub(low, w), sw_add(high, w)};
+    const sw_bounds near = {sw_sub(box->min, w), sw_add(box->max, w)};
     const size_t found = sw_box_tree_find(&g->tree, g->boxes, &near, b->found + n, looks);
     for (size_t i = n; i < n + found; i++) b->found[i] = g->member[b->found[i]];
     n += found;

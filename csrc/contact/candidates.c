@@ -159,18 +159,19 @@ static void look_at_pads(sw_contact *c, const sw_plan *p) {
 
 /* A node and the other ends of its segments. */
 typedef struct outlook {
-  sw_vec x, low, high; /* the node's position; the box of all nodes [m] */
-  double reach;        /* largest reach of these nodes, without the motion of obstacles [m] */
+  sw_vec x;      /* the node's position [m] */
+  sw_bounds box; /* of all nodes [m] */
+  double reach;  /* largest reach of these nodes, without the motion of obstacles [m] */
 } outlook;
 
 static outlook look_out(const sw_contact *c, const sw_system *s, const sw_body *b, size_t i) {
   const size_t node = b->first_node + i;
   const sw_vec x = sw_contact_where(c, s->x, node, node, 0);
-  outlook out = {x, x, x, c->reach[node]};
+  outlook out = {x, {x, x}, c->reach[node]};
   for (int k = 1; other_end(b->plan, i, k) != i; k++) {
     const size_t other = b->first_node + other_end(b->plan, i, k);
     const sw_vec y = sw_contact_where(c, s->x, other, other, 0);
-    out.low = low_of(out.low, y), out.high = high_of(out.high, y);
+    out.box = (sw_bounds){low_of(out.box.min, y), high_of(out.box.max, y)};
     out.reach = larger(out.reach, c->reach[other]);
   }
   return out;
@@ -178,7 +179,7 @@ static outlook look_out(const sw_contact *c, const sw_system *s, const sw_body *
 
 static int out_of_reach(const sw_bounds *b, const outlook *at) {
   const sw_vec r = sw_v(at->reach, at->reach, at->reach);
-  return outside(b, sw_sub(at->low, r), sw_add(at->high, r));
+  return outside(b, sw_sub(at->box.min, r), sw_add(at->box.max, r));
 }
 
 static sw_status obstacle_candidates(sw_contact *c, const sw_system *s, size_t body, size_t i,
@@ -200,7 +201,7 @@ static sw_status obstacle_candidates(sw_contact *c, const sw_system *s, size_t b
 static sw_status node_candidates(sw_contact *c, sw_system *s, size_t body, size_t i) {
   size_t count;
   const outlook at = look_out(c, s, &s->bodies[body], i);
-  const int *near = sw_broad_near(&c->broad, at.low, at.high, at.reach, &count, &s->counters.looks);
+  const int *near = sw_broad_near(&c->broad, &at.box, at.reach, &count, &s->counters.looks);
   for (size_t k = 0; k < count; k++)
     SW_TRY(obstacle_candidates(c, s, body, i, &at, (size_t)near[k]));
   return SW_OK;

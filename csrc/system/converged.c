@@ -9,11 +9,14 @@
 #include "system/part.h"
 #include "system/rail.h"
 
+/* As fmax for numbers, without its call: these loops see each number of a wire in each iteration. */
+static inline double larger(double most, double x) { return x > most ? x : most; }
+
 static double largest_shift(const sw_system *s) {
   double largest = 0;
   const size_t end = 3 * sw_part_node(s, s->part_end);
   for (size_t i = 3 * sw_part_node(s, s->part); i < end; i++)
-    largest = fmax(largest, fabs(s->delta[i]));
+    largest = larger(largest, fabs(s->delta[i]));
   return largest;
 }
 
@@ -46,12 +49,14 @@ static double trusted_shift(const sw_system *s, const sw_body *b, double hbar, i
 }
 
 static int drowned_in_rounding(const sw_system *s, const sw_stage *stage, int statics) {
-  const double shift = largest_shift(s);
+  double shift = -1;
   for (size_t b = s->part; b < s->part_end; b++) {
     const sw_body *body = &s->bodies[b];
     if (body->plan->web) continue; /* its springs form no chain that adds up rounding */
     const double trusted = trusted_shift(s, body, stage->hbar, statics);
-    if (trusted < body->plan->length && trusted > 0 && shift > trusted) return 1;
+    if (!(trusted < body->plan->length && trusted > 0)) continue;
+    if (shift < 0) shift = largest_shift(s);
+    if (shift > trusted) return 1;
   }
   return 0;
 }
@@ -64,7 +69,7 @@ static double fastest(const sw_system *s, const sw_body *b, const sw_stage *stag
   double largest2 = 0;
   for (size_t i = b->first_node; i < b->first_node + b->plan->nodes; i++) {
     const sw_vec off = sw_sub(sw_load(stage->y + 3 * i), sw_load(s->yhat + 3 * i));
-    largest2 = fmax(largest2, sw_norm2(off));
+    largest2 = larger(largest2, sw_norm2(off));
   }
   return sqrt(largest2) * rate2;
 }
@@ -86,7 +91,7 @@ static int bends_roughly(const sw_system *s, const sw_stage *stage, const sw_new
     if (p->web || hinge * u * u <= weight) continue;
     for (size_t e = 0; e < p->edges; e++) {
       const double *d = s->delta + 3 * (b->first_node + e), r = b->field.reciprocal[e];
-      largest = fmax(largest, sw_norm2(sw_sub(sw_load(d + 3), sw_load(d))) * r * r);
+      largest = larger(largest, sw_norm2(sw_sub(sw_load(d + 3), sw_load(d))) * r * r);
     }
     if (stiff * largest <= p->beam.EI * LEAST_UPDATE * LEAST_UPDATE || hinge * largest <= weight)
       continue;
@@ -118,7 +123,7 @@ static double kinetic_of(const sw_body *b, const sw_stage *stage) {
 static double off_by_turn(const sw_system *s, const sw_body *b, double u) {
   const double *T = s->tension + b->first_edge, *rest = b->plan->rest;
   double sum = 0;
-  for (size_t e = 0; e < b->plan->edges; e++) sum += fmax(0.0, T[e]) * rest[e];
+  for (size_t e = 0; e < b->plan->edges; e++) sum += larger(0.0, T[e]) * rest[e];
   return 0.5 * sum * u * u;
 }
 
@@ -132,7 +137,7 @@ static double off_by_update(const sw_system *s, const sw_body *b) {
     const sw_vec t = sw_v(f->tangent[0][e], f->tangent[1][e], f->tangent[2][e]);
     const sw_vec turn = sw_scale(sw_sub(sw_load(d + 3), sw_load(d)), r);
     const double along = sw_dot(turn, t);
-    sum += fmax(0.0, T[e]) * rest[e] * fmax(0.0, sw_norm2(turn) - along * along);
+    sum += larger(0.0, T[e]) * rest[e] * larger(0.0, sw_norm2(turn) - along * along);
   }
   return 0.5 * sum;
 }
