@@ -7,7 +7,8 @@
 #include "base/interrupt.h"
 #include "contact/round.h"
 
-/* A wire at rest sinks in by this much if one touch carries its whole weight [m]. */
+/* A wire at rest sinks in by this much, or less if it is thin, if one touch carries its whole weight
+ * [m]. */
 static const double ALLOWED_PENETRATION = 20e-6;
 /* Stiffness over mass/hbar^2 in implicit steps. It is far above what the step resolves, so that the
  * gap closes to a thousandth of the free fall [-]. */
@@ -230,9 +231,9 @@ static void match_memory(sw_contact *c) {
   }
 }
 
-void sw_contact_stiffness(sw_contact_regime regime, double force, double nominal, double *base,
-                          double *rate2) {
-  *base = force / ALLOWED_PENETRATION;
+void sw_contact_stiffness(sw_contact_regime regime, const sw_plan *p, double force, double nominal,
+                          double *base, double *rate2) {
+  *base = force / sw_depth_for(ALLOWED_PENETRATION, p->web ? SW_THIN : p->beam.radius);
   *rate2 = 0;
   if (regime == SW_CONTACT_IMPLICIT)
     *rate2 = IMPLICIT_SHARE / (STAGE_SHARE * STAGE_SHARE * nominal * nominal);
@@ -318,7 +319,7 @@ static void set_stiffness(sw_contact *c, const sw_system *s, size_t body, size_t
   const sw_plan *p = s->bodies[body].plan;
   const double L = p->length, weight = p->beam.mass * L * sw_norm(sw_load(s->gravity));
   double base, rate2;
-  sw_contact_stiffness(c->regime, usual_force(p, weight), c->nominal, &base, &rate2);
+  sw_contact_stiffness(c->regime, p, usual_force(p, weight), c->nominal, &base, &rate2);
   if (p->web && !p->web->per_ring && c->regime != SW_CONTACT_EXPLICIT)
     rate2 = fmax(rate2, HARD_SHARE * 0.5 * (p->web->rate2 + p->web->solid_rate2));
   const double squeezing = sw_contact_squeezing_force(s, p);

@@ -61,10 +61,10 @@ typedef enum sw_contact_regime {
   SW_CONTACT_EXPLICIT
 } sw_contact_regime;
 
-/* Stiffness of a touch that carries up to this force: base plus rate2 times the mass behind it
- * [N/m], [1/s2]. */
-void sw_contact_stiffness(sw_contact_regime regime, double force, double nominal, double *base,
-                          double *rate2);
+/* Stiffness of a body's touch that carries up to this force: base plus rate2 times the mass behind
+ * it [N/m], [1/s2]. */
+void sw_contact_stiffness(sw_contact_regime regime, const sw_plan *plan, double force,
+                          double nominal, double *base, double *rate2);
 /* Least stiffness of touches of a particle with other objects, not in explicit steps [N/m]. */
 double sw_contact_hardness(const sw_web *web, size_t particle);
 

@@ -21,8 +21,9 @@ double sw_contact_deepest(const sw_contact *c, const sw_system *s, const sw_touc
   const sw_candidate *k = &c->candidates[t->candidate];
   const int line = k->squeezing > 0, pad = c->obstacles[t->obstacle].grips > 0;
   if (!line || pad) return SW_DEEPEST;
-  if (c->regime == SW_CONTACT_STATIC && !is_taut(s, k, t)) return SW_DEEPEST;
-  return fmin(SW_DEEPEST, SW_SHALLOW * k->radius);
+  const double usual = sw_depth_for(SW_DEEPEST, k->radius);
+  if (c->regime == SW_CONTACT_STATIC && !is_taut(s, k, t)) return usual;
+  return fmin(usual, SW_SHALLOW * k->radius);
 }
 
 double sw_contact_depth_before(const sw_contact *c, const sw_system *s, const sw_touch *t) {

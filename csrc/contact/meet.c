@@ -183,7 +183,7 @@ static int stiffen(sw_mutual *m, const sw_system *s) {
     const double before = fmax(0.0, t->reach - sw_dot(t->square, sw_bows_apart(s->x, t->bow)));
     const double axial = fmin(sw_contact_edge_stiffness(s, t->of.body[0], t->of.node[0]),
                               sw_contact_edge_stiffness(s, t->of.body[1], t->of.node[1]));
-    t->stiffer = sw_press_stiffer(&t->press, t->usual, axial, SW_DEEPEST, t->forgiven,
+    t->stiffer = sw_press_stiffer(&t->press, t->usual, axial, sw_meet_deepest(t), t->forgiven,
                                   small ? before : -1.0);
     any |= t->stiffer > t->press.k;
   }

@@ -49,6 +49,11 @@ typedef struct sw_meet {
   sw_press press;  /* its normal points towards the first thing */
 } sw_meet;
 
+/* Depth that the touch may have [m]. */
+static inline double sw_meet_deepest(const sw_meet *t) {
+  return sw_depth_for(SW_DEEPEST, 0.5 * t->reach);
+}
+
 /* Memory of a touch between steps. */
 typedef struct sw_met {
   sw_ends of;

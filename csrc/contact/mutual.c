@@ -109,7 +109,8 @@ sw_status sw_mutual_begin_step(sw_mutual *m, sw_system *s, sw_contact_regime reg
   m->fall = regime == SW_CONTACT_STATIC ? 0.0 : SW_RESERVE * sw_norm(sw_load(s->gravity)) * h * h;
   for (size_t b = 0; b < s->body_count; b++)
     if (sw_mutual_takes_part(m, b))
-      sw_contact_stiffness(regime, force_of(s, &s->bodies[b]), nominal, &m->base[b], &m->rate2);
+      sw_contact_stiffness(regime, s->bodies[b].plan, force_of(s, &s->bodies[b]), nominal,
+                           &m->base[b], &m->rate2);
   const sw_status status = sw_mutual_choose(m, s);
   return status == SW_OK ? SW_OK : fail(m, status, err);
 }
@@ -211,7 +212,7 @@ void sw_mutual_commit(sw_mutual *m, sw_system *s) {
     *out = (sw_met){.of = t->of,
                     .kind = t->kind,
                     .at = {t->at[0], t->at[1]},
-                    .kept = sw_press_keep(&t->press, t->usual, t->stiffer, SW_DEEPEST),
+                    .kept = sw_press_keep(&t->press, t->usual, t->stiffer, sw_meet_deepest(t)),
                     .normal = t->press.normal,
                     .emerges = t->let_out > 0 || (t->emerges && t->forgiven > 0)};
     if (m->finder->note) m->finder->note(m, s, t, out);
