@@ -37,6 +37,24 @@ static double imposed(const sw_system *s, const sw_meet *t) {
   return share < 1.0 ? (1.0 - share) * fmax(0.0, t->reach - sw_dist(a, b)) : 0.0;
 }
 
+static int is_line(const sw_system *s, uint32_t body) { return !s->bodies[body].plan->web; }
+
+/* 1 if the touch of two wires pressed at the step's start. Made stiffer within a step it would
+ * press more at the same depth, and store energy from nowhere: a twisted pair that was drawn taut
+ * redid each step, and its wires sank into each other by 0.3 of the radius
+ * (spec/contact/drawn_pair_spec). It gets stiffer from step to step, at the same force. */
+static int is_squeezed(const sw_mutual *m, const sw_system *s, const sw_met *met,
+                       const sw_meet *t) {
+  if (!met || m->regime != SW_CONTACT_IMPLICIT) return 0;
+  if (!is_line(s, t->of.body[0]) || !is_line(s, t->of.body[1])) return 0;
+  return met->kept.normal_force > 0 || met->kept.left > 0;
+}
+
+double sw_meet_axial(const sw_system *s, const sw_meet *t) {
+  return fmin(sw_contact_edge_stiffness(s, t->of.body[0], t->of.node[0]),
+              sw_contact_edge_stiffness(s, t->of.body[1], t->of.node[1]));
+}
+
 /* Sets how much depth a touch leaves alone. Wires that were placed in each other come out slowly:
  * within one step the depth would turn into speed. */
 static void forgive(const sw_mutual *m, const sw_system *s, const sw_met *met, sw_meet *t) {
@@ -46,8 +64,11 @@ static void forgive(const sw_mutual *m, const sw_system *s, const sw_met *met, s
   if (m->regime != SW_CONTACT_IMPLICIT) return;
   const double depth = t->reach - sw_dot(t->square, sw_bows_apart(s->x, t->bow)) - always;
   t->emerges |= met ? met->emerges : sw_press_was_put(depth, m->memory_count == 0);
-  const sw_left left = sw_press_leave(depth, met ? &met->kept : NULL, m->h, t->emerges);
-  t->forgiven += left.forgiven;
+  sw_kept kept = met ? met->kept : (sw_kept){0};
+  t->squeezed = is_squeezed(m, s, met, t);
+  if (!t->squeezed) kept.left = 0;
+  const sw_left left = sw_press_leave(depth, met ? &kept : NULL, m->h, t->emerges);
+  t->forgiven += left.forgiven, t->left = left.left;
   if (t->emerges) t->let_out = left.let_out;
 }
 
@@ -180,11 +201,11 @@ static int stiffen(sw_mutual *m, const sw_system *s) {
   if (m->regime == SW_CONTACT_EXPLICIT || s->rough) return 0;
   for (size_t i = 0; i < m->touch_count; i++) {
     sw_meet *t = &m->touches[i];
-    const double before = fmax(0.0, t->reach - sw_dot(t->square, sw_bows_apart(s->x, t->bow)));
-    const double axial = fmin(sw_contact_edge_stiffness(s, t->of.body[0], t->of.node[0]),
-                              sw_contact_edge_stiffness(s, t->of.body[1], t->of.node[1]));
-    t->stiffer = sw_press_stiffer(&t->press, t->usual, axial, sw_meet_deepest(t), t->forgiven,
-                                  small ? before : -1.0);
+    const double deepest = sw_meet_deepest(t);
+    double before = fmax(0.0, t->reach - sw_dot(t->square, sw_bows_apart(s->x, t->bow)));
+    before = t->squeezed ? sw_press_squeezed(t->forgiven, before, deepest) : small ? before : -1.0;
+    t->stiffer =
+        sw_press_stiffer(&t->press, t->usual, sw_meet_axial(s, t), deepest, t->forgiven, before);
     any |= t->stiffer > t->press.k;
   }
   return any;

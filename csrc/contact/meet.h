@@ -44,6 +44,8 @@ typedef struct sw_meet {
   double aslant;   /* true distance minus the distance along the fixed normal of a barrier [m] */
   double forgiven; /* part of the true depth that this step leaves alone [m] */
   double let_out;  /* unexplained part of the true depth that this step removes [m] */
+  double left;     /* part of forgiven that is left since the touch was made stiffer [m] */
+  int squeezed;    /* 1: made stiffer from step to step, not within a step */
   double steady;   /* steady normal force at the step's start [N] */
   sw_vec square;   /* its normal without the lean [-] */
   sw_press press;  /* its normal points towards the first thing */
@@ -53,6 +55,9 @@ typedef struct sw_meet {
 static inline double sw_meet_deepest(const sw_meet *t) {
   return sw_depth_for(SW_DEEPEST, 0.5 * t->reach);
 }
+
+/* Axial stiffness of the softer of both edges [N/m]. */
+double sw_meet_axial(const sw_system *system, const sw_meet *touch);
 
 /* Memory of a touch between steps. */
 typedef struct sw_met {

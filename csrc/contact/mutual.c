@@ -215,6 +215,8 @@ void sw_mutual_commit(sw_mutual *m, sw_system *s) {
                     .kept = sw_press_keep(&t->press, t->usual, t->stiffer, sw_meet_deepest(t)),
                     .normal = t->press.normal,
                     .emerges = t->let_out > 0 || (t->emerges && t->forgiven > 0)};
+    out->kept.left = t->left;
+    if (t->squeezed) sw_kept_harden(&out->kept, sw_meet_axial(s, t), sw_meet_deepest(t));
     if (m->finder->note) m->finder->note(m, s, t, out);
   }
   SW_SWAP(m->memory, m->next_memory);

@@ -164,13 +164,52 @@ static double longest_edge(const sw_plan *p) {
 }
 
 /* Segments that diverge by less than this along the shorter of them touch along their length, not
- * at a point; share of the sum of radii [-]. */
-static const double PARALLEL_SPREAD = 0.25;
+ * at a point. Wires that go on beside each other, as those of a twisted pair, may diverge by more:
+ * by their crossings they would touch here and there, and the places would come and go. Shares of
+ * the sum of radii [-]. */
+static const double PARALLEL_SPREAD = 0.25, WOUND_SPREAD = 0.75;
+/* Only edges up to this many sums of radii: along longer ones the nodes, which then touch, are too
+ * far apart [-]. */
+static const double WOUND_EDGE = 2.0;
+/* A wire goes on beside another one if the nodes beyond its segment are not further away than the
+ * segment by more than this share of the sum of radii. Crossing wires are further away by 0.2 and
+ * more [-]. */
+static const double BESIDE = 0.1;
+enum { NEIGHBOURS = 3 }; /* segments to either side in which the other wire is looked for [-] */
 
-static int is_parallel(const double *x, const sw_near *n, double reach) {
-  const sw_vec u = sw_edge_at(x, n->one), v = sw_edge_at(x, n->two);
-  const double most = PARALLEL_SPREAD * reach;
-  return sw_norm2(sw_cross(u, v)) < most * most * fmax(sw_norm2(u), sw_norm2(v));
+static double distance_to(const double *x, sw_vec q, uint32_t segment) {
+  const sw_vec a = sw_vec_at(x, segment), u = sw_edge_at(x, segment);
+  const double at = sw_dot(sw_sub(q, a), u) / fmax(sw_norm2(u), 1e-300);
+  return sw_dist(q, sw_madd(a, u, fmin(1.0, fmax(0.0, at))));
+}
+
+/* 1 if the node lies no further than `most` from the wire near its segment. */
+static int is_beside(const sw_system *s, sw_vec q, uint32_t body, uint32_t segment, double most) {
+  const sw_body *b = &s->bodies[body];
+  const size_t i = segment - b->first_node, from = i > NEIGHBOURS ? i - NEIGHBOURS : 0;
+  for (size_t k = from; k <= i + NEIGHBOURS && k < b->plan->edges; k++)
+    if (distance_to(s->x, q, (uint32_t)(b->first_node + k)) <= most) return 1;
+  return 0;
+}
+
+static int goes_on_beside(const sw_system *s, const sw_near *n, double reach) {
+  const sw_body *b = &s->bodies[n->body[0]];
+  const size_t i = n->one - b->first_node;
+  const double most = n->distance + n->bulge + BESIDE * reach;
+  if (n->body[0] == n->body[1]) return 0;
+  if (i > 0 && !is_beside(s, sw_vec_at(s->x, n->one - 1), n->body[1], n->two, most)) return 0;
+  return i + 2 >= b->plan->nodes ||
+         is_beside(s, sw_vec_at(s->x, n->one + 2), n->body[1], n->two, most);
+}
+
+static int is_parallel(const sw_system *s, const sw_near *n, double reach) {
+  const sw_vec u = sw_edge_at(s->x, n->one), v = sw_edge_at(s->x, n->two);
+  const double longer = fmax(sw_norm2(u), sw_norm2(v));
+  const double spread2 = longer > 0 ? sw_norm2(sw_cross(u, v)) / longer : 0.0;
+  const double usual = PARALLEL_SPREAD * reach, wound = WOUND_SPREAD * reach;
+  if (spread2 < usual * usual) return 1;
+  return spread2 < wound * wound && longer < WOUND_EDGE * WOUND_EDGE * reach * reach &&
+         goes_on_beside(s, n, reach);
 }
 
 static double segment_mass(const sw_body *b, size_t node) {
@@ -230,7 +269,7 @@ static sw_status add_pair(sw_pairs *p, sw_system *s, const sw_near *n, double su
   *k = (sw_pair){.one = n->one,
                  .two = n->two,
                  .body = {n->body[0], n->body[1]},
-                 .parallel = is_parallel(s->x, n, sum),
+                 .parallel = is_parallel(s, n, sum),
                  .held = sw_ends_held(s, &ends),
                  .reach = sum,
                  .usual = fmax(fmin(p->m.base[n->body[0]], p->m.base[n->body[1]]),
