@@ -170,7 +170,7 @@ static double longest_edge(const sw_plan *p) {
 static const double PARALLEL_SPREAD = 0.25, WOUND_SPREAD = 0.75;
 /* Only edges up to this many sums of radii: along longer ones the nodes, which then touch, are too
  * far apart [-]. */
-static const double WOUND_EDGE = 2.0;
+static const double WOUND_EDGE = 3.0;
 /* A wire goes on beside another one if the nodes beyond its segment are not further away than the
  * segment by more than this share of the sum of radii. Crossing wires are further away by 0.2 and
  * more [-]. */
