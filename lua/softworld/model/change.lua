@@ -42,6 +42,35 @@ local function own_bound(state, levels, name, d)
   return state.choice.safety * (d + (quantity.alike(before, now) and quantity.distance(before, now) or 0))
 end
 
+--- Returns the smallest tolerance over the value of its quantity [-].
+function change.tightest(context, values)
+  local share = 1
+  for _, q in ipairs(context.job.quantities) do
+    local value = values[q.name] or NONE
+    local size, asked = quantity.size(value), quantity.asked(q, value)
+    if size > 0 and size < math.huge then share = math.min(share, asked / size) end
+  end
+  return share
+end
+
+--- Returns what the chosen rungs, except those of choice `but`, leave out of a quantity, in its unit.
+function change.left_out(context, name, but)
+  local sum = 0
+  for _, state in ipairs(context.states) do
+    sum = sum + (state.change and state ~= but and (state.change[name] or 0) or 0)
+  end
+  return sum
+end
+
+--- Same without failed choices: no other choice can make up for a failed rung.
+function change.left_by_others(context, name, but)
+  local sum = change.left_out(context, name, but)
+  for _, state in ipairs(context.states) do
+    if state.by == "failed" and state ~= but and state.change then sum = sum - (state.change[name] or 0) end
+  end
+  return sum
+end
+
 --- Returns a quantity's value on level k, for shares of it: that of a finer level if one was computed. Coarse
 -- poses may end in another place, where a force is a small part of its later value.
 function change.known(context, name, k, value)

@@ -96,7 +96,7 @@ end
 -- Returns the steps of levels, each with a guard that watches what the free checks rely on.
 local function guarded(context, steps)
   local base = probe.known(context, decide.rungs(context), 1)
-  local share = base and base.values and decide.tightest(context, base.values)
+  local share = base and base.values and change.tightest(context, base.values)
   return function(k)
     local options = steps(k)
     if context.guard then context.guard:close() end
@@ -138,7 +138,7 @@ end
 local function refined(context)
   local job, steps = context.job, nil
   for _, q in ipairs(job.quantities) do
-    local left = decide.left_out(context, q.name)
+    local left = change.left_out(context, q.name)
     function q.aim(asked) return math.max(asked - left, asked * LEAST, context.spread:floor(q)) end
   end
   local kept = take_known(context)
@@ -226,7 +226,7 @@ end
 local function broken(context, result)
   local values = {}
   for name, q in pairs(result.quantities) do values[name] = q.value end
-  local facts, share = last_facts(context, result), decide.tightest(context, values)
+  local facts, share = last_facts(context, result), change.tightest(context, values)
   local again = false
   for _, state in ipairs(context.states) do
     local f = facts[state.choice.name]
@@ -259,7 +259,7 @@ local function shorter(context, result)
   for _, q in ipairs(result:error_bars()) do
     local least = context.job.read[q.name].least -- coarse levels of a motion make a bar longer
     local hopeless = least > HOPELESS * q.tolerance or q.error <= context.spread:floor(q)
-    local all = q.error + decide.left_out(context, q.name)
+    local all = q.error + change.left_out(context, q.name)
     local over = all - q.tolerance
     for _, state in ipairs(over > 0 and not hopeless and context.states or {}) do
       if state.rung < state.last and not state.choice.steady and may_mend(state, q, over) then
