@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Poses that fail on fine edges only: coarse edges do not show this, and the run goes on with dynamics.
+-- Poses that fail on fine edges only: coarse edges do not show this, and the run goes on with dynamics. Edges
+-- so coarse that no run of any model succeeds on them.
 local hung = require "spec.model.hung"
 
 local function fails(run_once, scene, options, name)
@@ -32,6 +33,31 @@ describe("model = 'auto' where poses fail on fine edges", function()
     local run = hung.run(fails, { quasistatic = true })
     assert.is_false(run.ok)
     assert.equal("poses", run.model.motion)
+    assert.truthy(run.reason:find("as this spec has it", 1, true), run.reason)
+  end)
+end)
+
+describe("model = 'auto' where nothing can be computed on the coarsest edges", function()
+  local function are_coarse(_, segments) return segments < 12 end
+
+  for _, more in ipairs { {}, { quasistatic = true } } do
+    local who = more.quasistatic and "with poses that the script asks for" or "with any model"
+    it("begins on finer edges " .. who, function()
+      local usual, run = hung.run(nil, more), hung.run(fails, more, are_coarse)
+      assert.is_true(run.ok, run.reason)
+      assert.is_true(run.met, tostring(run:why()))
+      for _, choice in ipairs(usual.model.choices) do
+        assert.equal(choice.rung, run.model[choice.name], tostring(run:why()))
+      end
+      assert.equal(12, run.levels[1].segments[1])
+      local away, bars = hung.apart(usual, run)
+      assert.is_true(away <= bars, ("%.3g N apart"):format(away))
+    end)
+  end
+
+  it("says so if no edges help", function()
+    local run = hung.run(fails, nil, function() return true end)
+    assert.is_false(run.ok)
     assert.truthy(run.reason:find("as this spec has it", 1, true), run.reason)
   end)
 end)

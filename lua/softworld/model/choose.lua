@@ -339,6 +339,7 @@ local function begin(context)
     if why then state.by, state.why, state.rung = "given", why, rung end
     context.states[i] = state
   end
+  context.most = context.job.most
 end
 
 --- True if a model is to be chosen. Raises an error if that is impossible.
@@ -369,7 +370,6 @@ function choose.run(scene, given, check, run_once)
   local job = refine.job(scene, args, check)
   local context = new_context(scene, job, args, run_once)
   local touching = context.data.touching
-  context.most = job.most
   local begun = os.clock()
   local fine, result = pcall(function()
     begin(context)

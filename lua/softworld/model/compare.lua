@@ -88,7 +88,8 @@ function compare.rungs(context, state, rungs, above)
     local grows = last and not state.choice.steady and c.worst > 1 and c.seen >= last.seen
     if grows then return c end
     local costly = state.choice.costly
-    if c.worst > 1 and costly and costly(state.rung, here, there, k, true) then return c end
+    local depth = k + context.job.skipped
+    if c.worst > 1 and costly and costly(state.rung, here, there, depth, true) then return c end
   end
   return c
 end

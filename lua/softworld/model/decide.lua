@@ -50,7 +50,8 @@ function decide.wasteful(context, k, run)
   for _, state in ipairs(context.states) do
     local open = state.by ~= "given" and not state.went_on and state.rung < state.last and state.choice.toils
     local above = open and open(state.rung, run) and iterations_above(context, state, k)
-    local why = above and state.choice.costly(state.rung, run, { iterations = above }, k)
+    local why = above and state.choice.costly(state.rung, run, { iterations = above },
+      k + context.job.skipped)
     if why then return state, why end
   end
 end
@@ -166,7 +167,7 @@ local function climb(context, state, rungs, here)
   if not above.ok then
     return unknown(context, state, f, here, ("%s cannot be computed: %s"):format(next_as, above.reason))
   end
-  local costly = choice.costly and choice.costly(rung, here, above, 1)
+  local costly = choice.costly and choice.costly(rung, here, above, 1 + context.job.skipped)
   if costly then
     decide.raise(context, state, costly)
     return false
@@ -185,6 +186,20 @@ local function climb(context, state, rungs, here)
   return false
 end
 
+-- If no motion can be computed on the coarsest edges, begins again on finer ones. True if there are such.
+local function begins_finer(context, here)
+  if here.raised or here.unmade then return false end
+  for _, state in ipairs(context.states) do
+    if state.choice.instead and state.by ~= "given" and state.rung < state.last then return false end
+    if state.choice.steady and state.rung > 1 then return false end -- a mesh has edges of its own
+  end
+  if not probe.finer(context) then return false end
+  for _, state in ipairs(context.states) do
+    if state.by ~= "given" then begin_anew(state) end
+  end
+  return true
+end
+
 --- Takes one step in deciding a choice; true when it is settled.
 function decide.look(context, state)
   local choice, rungs = state.choice, decide.rungs(context)
@@ -197,6 +212,7 @@ function decide.look(context, state)
     return false
   end
   if here.unmade and bar_rung(context, here) then return false end
+  if not here.ok and begins_finer(context, here) then return false end
   if not here.ok then
     if rung == state.last or here.raised then return stay(state, "failed") end
     decide.raise(context, state, ("%s cannot be computed: %s"):format(choice.rungs[rung].as, here.reason))
@@ -254,7 +270,8 @@ local function may_fall(context, state)
   if not state.rose or state.choice.steady or state.rose == probe.key(below, 1) then return false end
   state.rose = probe.key(below, 1)
   local here, above, costly = probe.of(context, below, 1), probe.of(context, now, 1), state.choice.costly
-  if not (here.ok and above.ok) or costly and costly(state.rung - 1, here, above, 1) then return false end
+  if not (here.ok and above.ok) then return false end
+  if costly and costly(state.rung - 1, here, above, 1 + context.job.skipped) then return false end
   local rung, was = state.rung, state.change
   state.rung, state.change = rung - 1, nil
   local c = compare.rungs(context, state, below, now)

@@ -106,12 +106,17 @@ function motion.look(context, run)
 end
 
 --- Finds the first period of the scene at rest at its start [s]. It takes the coarsest edges, because the
--- cost of all modes grows with the cube of their number. look_at_end may find a longer period.
+-- cost of all modes grows with the cube of their number. look_at_end may find a longer period. Edges on which
+-- a scene at rest has no equilibrium are too coarse for any model.
 function motion.begin(context)
   local job, scene = context.job, context.scene
   if not job.rests then return end
   core.remesh(scene, trust.counts(job, 1))
   local rests = scene:settle().ok
+  if not rests and trust.finer(job) then
+    job.restore()
+    return motion.begin(context)
+  end
   context.period = rests and period(scene) or nil
   context.alone = rests and not context.period and period_alone(scene) or nil
   job.restore()

@@ -174,6 +174,14 @@ local function compute(context, rungs, k, factors)
   return result
 end
 
+--- Leaves out the coarsest level, on which no rung could be computed. False if there is no finer one that is
+-- still coarse.
+function probe.finer(context)
+  if not trust.finer(context.job) then return false end
+  context.most, context.probes, context.finest = context.job.most, {}, nil
+  return true
+end
+
 --- Returns what was computed of rungs on level k, or nil.
 function probe.known(context, rungs, k) return context.probes[probe.key(rungs, k)] end
 
