@@ -17,6 +17,7 @@ local FEIGNED = 16 -- change over the allowed one that coarse edges cause only i
 local HIDDEN = 4   -- coarse edges and steps that blur a change may hide this many times as much [-]
 local HIDES = 2 / 3 -- largest change with hidden part over the allowed one; the rest is for edges, steps [-]
 local SEEN = 0.1   -- least share of a swing that steps must show to accept a blurred change [-]
+local BRIEF = 3e3 -- iterations times nodes beside which the next rung costs little: about 2 ms [-]
 local NONE = 0 / 0 -- value of a check's row that a computation lacks
 
 compare.levels = 3 -- coarse levels on which rungs are compared [-]
@@ -68,12 +69,31 @@ local function mark_astray(now, last)
   end
 end
 
+--- Compares a rung with the next one on wide steps. Returns the change if it is so small that it stays within
+-- what is allowed even if these steps hide most of it; nil: computing the next rung in full tells, or costs
+-- little anyway.
+function compare.glance(context, state, rungs, above)
+  local choice, k = state.choice, state.from or 1
+  local here = choice.widen and probe.of(context, rungs, k)
+  if not here or not here.ok or here.work < BRIEF or jumps(here) then return nil end
+  local there = probe.glance(context, above, k, choice)
+  if not there.ok or jumps(there) then return nil end
+  local now = { k = k, here = here, above = there, wide = true }
+  local c, f = change.between(context, state, now, change.left_by_others), there.facts[choice.name]
+  local all = change.hidden(c, HIDDEN)
+  if all.worst >= HIDES or choice.shows(f) <= SEEN then return nil end
+  now.worst, state.compared = c.worst, now
+  local share = change.tightest(context, there.values)
+  return choice.blurred(here.facts[choice.name], f, share) and all or c
+end
+
 --- Compares a rung with the next on the coarsest level, and on finer levels while a too large change becomes
 -- smaller: coarse steps must not rule out a cheap rung. Returns the change, and why the next rung failed.
 function compare.rungs(context, state, rungs, above)
   local rung, levels = state.choice.rungs[state.rung], state.choice.levels or compare.levels
+  local first = state.compared and state.compared.wide and state.from or 1 -- wide steps tell no change
   local c, before
-  for k = 1, levels do
+  for k = first, levels do
     local again = before and before.before and before.before.above
     if again and saves_nothing(context, before.above, again, k) then return c end
     local here, there = probe.of(context, rungs, k), probe.of(context, above, k)
@@ -81,6 +101,7 @@ function compare.rungs(context, state, rungs, above)
     local now = { k = k, here = here, above = there, before = before }
     local last = c
     c, before, state.compared = change.between(context, state, now, change.left_by_others), now, now
+    now.worst = c.worst
     local clear = c.worst < 1 / DOUBT or c.worst > HOPE ^ (levels - k) or k > 1 and c.worst <= 1
     if last and last.worst > FEIGNED and c.worst <= 1 then mark_astray(now, last) end
     local blurred, all = is_blurred(context, state, now, c)

@@ -63,8 +63,9 @@ local function changed_by(c)
     number.text(c.allowed, q.unit))
 end
 
+-- Starts a choice again. What a fine run has shown of its free check still holds.
 local function begin_anew(state)
-  state.rung, state.by, state.raised, state.why, state.checked, state.rose = 1, nil, nil, nil, nil, nil
+  state.rung, state.by, state.raised, state.why, state.rose = 1, nil, nil, nil, nil
 end
 
 --- Raises a choice by one rung. The choices after it start again, as they were decided with the old rung.
@@ -77,10 +78,13 @@ function decide.raise(context, state, why)
   end
 end
 
--- Settles a choice with the reason why it was raised, if it was, and why it stays. Returns true.
+-- Settles a choice with what a fine run has shown of it, why it was raised, and why it stays. Returns true.
 local function stay(state, by, why)
-  state.by = by
-  state.why = state.raised and why and state.raised .. "; " .. why or state.raised or why
+  local reasons = {}
+  for _, words in ipairs { state.lost or false, state.raised or false, why or false } do
+    if words then reasons[#reasons + 1] = words end
+  end
+  state.by, state.why = by, reasons[1] and table.concat(reasons, "; ")
   return true
 end
 
@@ -148,6 +152,19 @@ local function in_vain(context, rungs, up)
   end
 end
 
+-- Same, found only once for the same rungs: the expected time changes as more is computed.
+local function known_in_vain(context, rungs, up)
+  local key, known = probe.key(up, 1), context.vain
+  if known[key] == nil then known[key] = in_vain(context, rungs, up) or false end
+  return known[key]
+end
+
+-- Settles a choice by what the next rung changes.
+local function stays(state, c, next_as)
+  state.change = c.all
+  return stay(state, "compared", ("with %s %s"):format(next_as, changed_by(c)))
+end
+
 -- Checks whether the next rung gives another answer. True when the choice is settled.
 local function climb(context, state, rungs, here)
   local choice, rung = state.choice, state.rung
@@ -158,11 +175,13 @@ local function climb(context, state, rungs, here)
     return unknown(context, state, f, here,
       ("%s cannot be computed on finer edges: there is no such mesh"):format(next_as))
   end
-  local vain = choice.rungs[rung + 1].own and in_vain(context, rungs, up)
+  local vain = choice.rungs[rung + 1].own and known_in_vain(context, rungs, up)
   if vain then
     state.doubt = vain
     return stay(state, "skipped", vain)
   end
+  local seen = compare.glance(context, state, rungs, up)
+  if seen then return stays(state, seen, next_as) end
   local above = probe.of(context, up, 1)
   if not above.ok then
     return unknown(context, state, f, here, ("%s cannot be computed: %s"):format(next_as, above.reason))
@@ -179,11 +198,9 @@ local function climb(context, state, rungs, here)
   if c.worst > 1 then
     decide.raise(context, state, ("with %s %s"):format(next_as, changed_by(c)))
     state.rose = probe.key(rungs, 1)
-  else
-    state.change = c.all
-    return stay(state, "compared", ("with %s %s"):format(next_as, changed_by(c)))
+    return false
   end
-  return false
+  return stays(state, c, next_as)
 end
 
 -- If no motion can be computed on the coarsest edges, begins again on finer ones. True if there are such.

@@ -50,6 +50,13 @@ function motion.apply(context, rung, changes)
   end
 end
 
+--- Widens the steps of dynamics: the longest step is that of poses, and the error of a step is that of steps
+-- longer by the same factor. Third-order errors grow with its cube.
+function motion.widen(options)
+  options.dt = options.dt * POSES
+  options.tolerance = options.tolerance and options.tolerance * POSES ^ 3
+end
+
 -- Returns the first period of wire w about its rest position [s]; nil if it has none, or if it is joined to
 -- others and `alone` is not set.
 local function period_of(w, alone)
