@@ -2,6 +2,9 @@
 -- Poses that fail on fine edges only: coarse edges do not show this, and the run goes on with dynamics. Edges
 -- so coarse that no run of any model succeeds on them.
 local hung = require "spec.model.hung"
+local rod = require "spec.model.rod"
+local sw = require "softworld"
+local twist = require "softworld.model.twist"
 
 local function fails(run_once, scene, options, name)
   return run_once(scene, options, name, "no equilibrium, as this spec has it")
@@ -59,5 +62,43 @@ describe("model = 'auto' where nothing can be computed on the coarsest edges", f
     local run = hung.run(fails, nil, function() return true end)
     assert.is_false(run.ok)
     assert.truthy(run.reason:find("as this spec has it", 1, true), run.reason)
+  end)
+end)
+
+-- Two wires hang one above the other; touches of wires change the quantity. Rolling is compared without them.
+-- With them it cannot be computed, as this spec has it: like a wire that rolls and should become a mesh.
+local function beside()
+  local scene = sw.scene { name = "beside" }
+  scene:force { kind = "damping", mass = 5 }
+  for k, name in ipairs { "a", "b" } do
+    local z = 2.2 * rod.radius * (k - 1)
+    local w = rod.wire(scene, { name = name, from = { 0, 0, z }, to = { 0.6, 0, z } })
+    scene:clamp(w, { s = 0 })
+    scene:clamp(w, { s = 0.6 }):follow { relative = true, duration = 0.5,
+      points = { { 0, 0, 0 }, { -0.1, 0, 0 } } }
+  end
+  local function odd() return 1 + (sw.core.data(scene).touching and 0.05 or 0) end
+  return scene:run { duration = 0.5, model = "auto", levels = 3, quasistatic = true,
+    tolerance = { { name = "odd", value = 0.03, unit = "-", of = odd } } }
+end
+
+describe("model = 'auto' where a rung can no longer be computed after a later choice", function()
+  local free, apply = twist.free, twist.apply
+  after_each(function() twist.free, twist.apply = free, apply end)
+
+  it("keeps what was found before, and says so", function()
+    function twist.free() return nil end
+    function twist.apply(context, rung, changes, rungs)
+      if rung == 2 and rungs.contact == 2 then error("they cannot roll, as this spec has it", 0) end
+      return apply(context, rung, changes, rungs)
+    end
+    local run = beside()
+    assert.equal("wires", run.model.contact, tostring(run:why()))
+    assert.equal("held", run.model.twist)
+    local why = tostring(run:why())
+    local words = "found with cheaper models of the other choices; now rolling cannot be computed"
+    assert.truthy(why:find(words, 1, true), why)
+    assert.is_nil(run.model.blind)
+    assert.is_true(run.met, why)
   end)
 end)

@@ -76,6 +76,7 @@ function compare.glance(context, state, rungs, above)
   local choice, k = state.choice, state.from or 1
   local here = choice.widen and probe.of(context, rungs, k)
   if not here or not here.ok or here.work < BRIEF or jumps(here) then return nil end
+  if choice.toils and choice.toils(state.rung, here) then return nil end -- the full cost must be known
   local there = probe.glance(context, above, k, choice)
   if not there.ok or jumps(there) then return nil end
   local now = { k = k, here = here, above = there, wide = true }

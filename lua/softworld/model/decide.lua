@@ -65,7 +65,7 @@ end
 
 -- Starts a choice again. What a fine run has shown of its free check still holds.
 local function begin_anew(state)
-  state.rung, state.by, state.raised, state.why, state.rose = 1, nil, nil, nil, nil
+  state.rung, state.by, state.raised, state.why, state.rose, state.found = 1, nil, nil, nil, nil, nil
 end
 
 --- Raises a choice by one rung. The choices after it start again, as they were decided with the old rung.
@@ -161,8 +161,26 @@ end
 
 -- Settles a choice by what the next rung changes.
 local function stays(state, c, next_as)
-  state.change = c.all
-  return stay(state, "compared", ("with %s %s"):format(next_as, changed_by(c)))
+  local why = ("with %s %s"):format(next_as, changed_by(c))
+  state.change, state.found = c.all, { rung = state.rung, all = c.all, why = why }
+  return stay(state, "compared", why)
+end
+
+-- Settles a choice by what was found before, with cheaper rungs of later choices, if the next rung cannot be
+-- computed any more: a wire that rolls cannot become a mesh between pads. Returns nil if nothing was found,
+-- or if others leave out more now. why: what failed.
+local function stays_as_before(context, state, why)
+  local found, base = state.found, probe.of(context, decide.rungs(context), 1)
+  if not found or found.rung ~= state.rung then return nil end
+  for _, q in ipairs(context.job.quantities) do
+    local value = change.known(context, q.name, 1, base.values[q.name] or NONE)
+    local left = change.left_by_others(context, q.name, state)
+    local enough = found.all[q.name] + left <= MODEL * quantity.asked(q, value) -- false for NaN
+    if not enough then return nil end
+  end
+  state.change = found.all
+  return stay(state, "compared", ("%s, found with cheaper models of the other choices; now %s"):format(
+    found.why, why))
 end
 
 -- Checks whether the next rung gives another answer. True when the choice is settled.
@@ -184,7 +202,8 @@ local function climb(context, state, rungs, here)
   if seen then return stays(state, seen, next_as) end
   local above = probe.of(context, up, 1)
   if not above.ok then
-    return unknown(context, state, f, here, ("%s cannot be computed: %s"):format(next_as, above.reason))
+    local why = ("%s cannot be computed: %s"):format(next_as, above.reason)
+    return stays_as_before(context, state, why) or unknown(context, state, f, here, why)
   end
   local costly = choice.costly and choice.costly(rung, here, above, 1 + context.job.skipped)
   if costly then

@@ -165,7 +165,7 @@ local function compute(context, rungs, k, factors, choice)
   local run = refine.computer(job, steps, context.run_once, { wall = 0, cpu = 0 })(k, "choosing a model")
   if job.unmade then return { ok = false, unmade = true, reason = job.unmade } end
   local cpu = os.clock() - begun
-  local result = { ok = run.ok, reason = run.reason, iterations = run.iterations }
+  local result = { ok = run.ok, reason = run.reason, iterations = run.iterations, steps = run.steps }
   if not run.ok then
     result.facts = facts_of_failed(context, run)
     return result
