@@ -35,7 +35,26 @@ static sw_vec farthest(const look *l, sw_vec from, sw_vec along) {
   return best;
 }
 
-/* Finds a plane through three nodes far from each other. 0: all are on a line. */
+/* Returns the largest part of a force across a unit vector, over the largest force: 0 to 1 [-]. */
+static sw_vec largest_across(const look *l, sw_vec along) {
+  sw_vec best = sw_v(0, 0, 0);
+  double most = 0, largest = 0;
+  for (size_t f = l->first; f < sw_scene_frames(l->scene); f++) {
+    size_t count;
+    const float *v = sw_scene_frame_values(l->scene, f, l->w, &count);
+    for (size_t i = 0; v && i < count; i++, v += SW_FRAME_VALUES) {
+      const sw_vec push = sw_vec_of(v + SW_FRAME_FORCE);
+      const sw_vec part = sw_madd(push, along, -sw_dot(push, along));
+      largest = fmax(largest, sw_norm(push));
+      if (sw_norm2(part) > most) most = sw_norm2(part), best = part;
+    }
+  }
+  return largest > 0 ? sw_scale(best, 1 / largest) : best;
+}
+
+/* Finds a plane through a line along the wire and what is farthest from it: a node, over the
+ * wire's size, or a force, over the largest. The nodes of a straight wire alone do not show in
+ * which plane it lies. 0: there is none. */
 static int find_plane(const look *l, plane *p) {
   size_t count;
   const float *x = sw_scene_frame_wire(l->scene, l->first, l->w, &count);
@@ -44,10 +63,12 @@ static int find_plane(const look *l, plane *p) {
   const sw_vec way = sw_sub(farthest(l, p->at, sw_v(0, 0, 0)), p->at);
   const sw_vec along = sw_unit_or(way, sw_v(0, 0, 0));
   const sw_vec aside = sw_sub(farthest(l, p->at, along), p->at);
-  const sw_vec across = sw_cross(along, aside);
+  const sw_vec push = sw_cross(along, largest_across(l, along));
   p->size = sw_norm(way);
+  const sw_vec node = p->size > 0 ? sw_scale(sw_cross(along, aside), 1 / p->size) : aside;
+  const sw_vec across = sw_norm2(push) > sw_norm2(node) ? push : node;
   p->normal = sw_unit_or(across, sw_v(0, 0, 0));
-  return sw_norm(across) > NONE * p->size;
+  return sw_norm(across) > NONE;
 }
 
 /* 1 if in this frame places and forces lie in the plane, and there is no twist. */

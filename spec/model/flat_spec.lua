@@ -53,6 +53,19 @@ describe("a wire that stays in a plane", function()
     assert.is_true(off(elsewhere, {}) < 1e-6)
   end)
 
+  -- Its nodes are on a line, so the plane is that of the line and its forces.
+  it("is recognised while it lies straight, unless it is turned about itself", function()
+    for spin, flat in pairs { [0] = true, [0.1] = false } do
+      local scene = sw.scene { name = "straight" }
+      scene:obstacle { name = "table", shape = "plane", friction = 0.3 }
+      local w = rod.wire(scene, { model = "rod", from = { 0, 0, rod.radius }, to = { 0.6, 0, rod.radius } })
+      scene:clamp(w, { s = 0 }):follow { duration = 1, relative = true,
+        points = { { 0, 0, 0 }, { -0.02, 0, 0 } }, turn = { axis = { 1, 0, 0 }, angle = spin } }
+      assert.is_true(scene:run { duration = 1, dt = 0.1, quasistatic = true, frame = 0.1 }.ok)
+      assert.equal(flat, sw.core.frames_flat(scene, 1, 0))
+    end
+  end)
+
   for name, o in pairs { ["leaves it by 0.1 mm"] = { aside = 1e-4 },
     ["is turned about itself"] = { spin = 0.1 } } do
     it("is not recognised if it " .. name, function()

@@ -111,6 +111,41 @@ describe("a run that chose its model", function()
     assert.truthy(tostring(run:why()):find("is twisted by", 1, true), tostring(run:why()))
   end)
 
+  -- Two wires hang side by side, and a table begins to rub the lower one, which is twisted. The quantity
+  -- depends on touches only if wires roll.
+  it("decides the other choices again where one is given up", function()
+    local scene, count = sw.scene { name = "both" }, 0
+    scene:force { kind = "damping", mass = 5 }
+    local a
+    for k, name in ipairs { "a", "b" } do
+      local z = 2.2 * rod.radius * (k - 1)
+      local w = rod.wire(scene, { name = name, from = { 0, 0, z }, to = { 0.6, 0, z } })
+      a = a or w
+      scene:clamp(w, { s = 0 })
+      scene:clamp(w, { s = 0.6 }):follow { relative = true, points = { { 0, 0, 0 }, { -0.1, 0, 0 } },
+        duration = 4, turn = { axis = { 1, 0, 0 }, angle = 1 } }
+    end
+    local table_ = scene:obstacle { name = "table", shape = "plane", friction = 0.3, at = { 0, 0, -0.3 } }
+    scene:process(function(p)
+      count = count + 1
+      p:wait(5)
+      if count > 2 then
+        table_:follow { relative = true, points = { { 0, 0, 0 }, { 0, 0.03, 0.17 } }, duration = 5 }
+      end
+      p:wait(15)
+    end)
+    local function odd()
+      local rolls = a:get().spin_inertia ~= nil
+      return 1 + (rolls and 0.05 or 0) + (rolls and core.data(scene).touching and 0.05 or 0)
+    end
+    local run = scene:run { quasistatic = true, model = "auto",
+      tolerance = { { name = "odd", value = 0.03, unit = "-", of = odd } } }
+    assert.equal("rolling", run.model.twist, tostring(run:why()))
+    assert.truthy(event_of(run, "twist: no rolling given up; in the fine run this is no longer true"))
+    assert.equal("wires", run.model.contact, tostring(run:why()))
+    assert.is_true(run.met)
+  end)
+
   -- The same way in a fifth of the time loads the pads more: 29 % become more than 50 %.
   it("ends a run whose pads bear too much, compares the grip and begins again", function()
     local scene, count = sw.scene { name = "carry" }, 0

@@ -21,9 +21,11 @@ local function computing(instead, f)
   return result
 end
 
---- Returns its run; more: arguments of the run. of_fine(run_once, scene, options, name, why) is called
---- instead of run_once for poses on fine edges; nil: no replacement.
-function hung.run(of_fine, more)
+local function are_fine_poses(options, segments) return options.quasistatic and segments >= FINE end
+
+--- Returns its run; more: arguments of the run. instead(run_once, scene, options, name, why) is called
+--- instead of run_once if replaces(options, segments), which is true for poses on fine edges if not given.
+function hung.run(instead, more, replaces)
   local scene = sw.scene { name = "hung" }
   scene:force { kind = "damping", mass = 5 }
   local w = rod.wire(scene)
@@ -34,8 +36,8 @@ function hung.run(of_fine, more)
   local args = { duration = 10, tolerance = { ["right.force"] = { relative = 0.001 } } }
   for key, value in pairs(more or {}) do args[key] = value end
   return computing(function(run_once, s, options, ...)
-    local fine = of_fine and options.quasistatic and sw.core.segments(w) >= FINE
-    if fine then return of_fine(run_once, s, options, ...) end
+    local other = instead and (replaces or are_fine_poses)(options, sw.core.segments(w))
+    if other then return instead(run_once, s, options, ...) end
     return run_once(s, options, ...)
   end, function() return scene:run(args) end)
 end

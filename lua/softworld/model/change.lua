@@ -10,6 +10,7 @@ change.MODEL = 0.875 -- share of a tolerance that the rungs may leave out [-]
 
 local SAFETY = 1.5 -- on estimates for finer levels [-]
 local ELSEWHERE = 1 / 4 -- error of a coarse value, over the value, up to which a comparison counts [-]
+local FAINT = 1 / 64 -- change over the allowed one that finer edges hardly bring up to it [-]
 local NONE = 0 / 0 -- value of a check's row that a computation lacks
 
 local function is_finite(v) return v ~= nil and quantity.size(v) < math.huge end
@@ -42,6 +43,35 @@ local function own_bound(state, levels, name, d)
   return state.choice.safety * (d + (quantity.alike(before, now) and quantity.distance(before, now) or 0))
 end
 
+--- Returns the smallest tolerance over the value of its quantity [-].
+function change.tightest(context, values)
+  local share = 1
+  for _, q in ipairs(context.job.quantities) do
+    local value = values[q.name] or NONE
+    local size, asked = quantity.size(value), quantity.asked(q, value)
+    if size > 0 and size < math.huge then share = math.min(share, asked / size) end
+  end
+  return share
+end
+
+--- Returns what the chosen rungs, except those of choice `but`, leave out of a quantity, in its unit.
+function change.left_out(context, name, but)
+  local sum = 0
+  for _, state in ipairs(context.states) do
+    sum = sum + (state.change and state ~= but and (state.change[name] or 0) or 0)
+  end
+  return sum
+end
+
+--- Same without failed choices: no other choice can make up for a failed rung.
+function change.left_by_others(context, name, but)
+  local sum = change.left_out(context, name, but)
+  for _, state in ipairs(context.states) do
+    if state.by == "failed" and state ~= but and state.change then sum = sum - (state.change[name] or 0) end
+  end
+  return sum
+end
+
 --- Returns a quantity's value on level k, for shares of it: that of a finer level if one was computed. Coarse
 -- poses may end in another place, where a force is a small part of its later value.
 function change.known(context, name, k, value)
@@ -70,16 +100,35 @@ function change.between(context, state, levels, left)
   return c
 end
 
+-- Returns the largest distance between two shapes, lists of points of each wire [m].
+local function shapes_apart(one, other)
+  return quantity.alike(one, other) and quantity.distance(one, other) or math.huge
+end
+
+-- True if the wires were at the same place on the edges of a comparison as in the finest run: nearer than a
+-- share of how far they moved, and of the shortest edge there.
+local function is_there(context, compared, shape)
+  local way, edge = shapes_apart(context.start, shape), math.huge
+  for i, w in ipairs(context.data.wires) do
+    edge = math.min(edge, w.object.length / compared.here.level.segments[i])
+  end
+  return shapes_apart(compared.here.shape, shape) < ELSEWHERE * math.min(way, edge)
+end
+
 --- Returns true if a choice was compared on edges so coarse that the wire was somewhere else there: the
 -- rung's values were off those of the finest run by a quarter, and by more than the tolerance. On such edges
 -- both rungs may agree on a shape that fine edges do not have. A pushed trunk may buckle to the other side.
-function change.is_elsewhere(context, state, values)
+-- Values alone may also be off because a sharp bend needs fine edges. So if the shape is the same, a change
+-- far below the allowed one counts. fine: values and shape of the finest run.
+function change.is_elsewhere(context, state, fine)
   local there = state.by == "compared" and state.compared
   for _, q in ipairs(there and context.job.quantities or {}) do
-    local coarse, fine = there.here.values[q.name] or NONE, values[q.name] or NONE
-    if quantity.alike(coarse, fine) then
-      local off = quantity.distance(coarse, fine)
-      if off > ELSEWHERE * quantity.size(fine) and off > quantity.asked(q, fine) then return true end
+    local coarse, value = there.here.values[q.name] or NONE, fine.values[q.name] or NONE
+    if quantity.alike(coarse, value) then
+      local off = quantity.distance(coarse, value)
+      if off > ELSEWHERE * quantity.size(value) and off > quantity.asked(q, value) then
+        return not (there.worst < FAINT and is_there(context, there, fine.shape))
+      end
     end
   end
   return false

@@ -13,6 +13,7 @@ local change = require "softworld.model.change"
 local checks = require "softworld.checks"
 local core = require "softworld.core"
 local decide = require "softworld.model.decide"
+local facts = require "softworld.model.facts"
 local guard = require "softworld.model.guard"
 local mesh = require "softworld.model.mesh"
 local number = require "softworld.output.number"
@@ -96,7 +97,7 @@ end
 -- Returns the steps of levels, each with a guard that watches what the free checks rely on.
 local function guarded(context, steps)
   local base = probe.known(context, decide.rungs(context), 1)
-  local share = base and base.values and decide.tightest(context, base.values)
+  local share = base and base.values and change.tightest(context, base.values)
   return function(k)
     local options = steps(k)
     if context.guard then context.guard:close() end
@@ -138,7 +139,7 @@ end
 local function refined(context)
   local job, steps = context.job, nil
   for _, q in ipairs(job.quantities) do
-    local left = decide.left_out(context, q.name)
+    local left = change.left_out(context, q.name)
     function q.aim(asked) return math.max(asked - left, asked * LEAST, context.spread:floor(q)) end
   end
   local kept = take_known(context)
@@ -166,22 +167,22 @@ local function refined(context)
   return result
 end
 
--- Drops a free check that the finest run contradicts: its choice is decided again, by comparing.
--- time: when this was seen [s].
+-- Drops a free check that the finest run contradicts: its choice is decided again, by comparing. The other
+-- choices follow, because it may leave out more now, or less. time: when this was seen [s].
 local function given_up(context, state, time)
-  local was, why = state.choice.rungs[state.rung].as, state.known
-  state.checked, state.by, state.known = true, nil, nil
-  local rung = state.rung
-  repeat until decide.look(context, state)
-  local text = ("in the fine run this is no longer true: %s"):format(why)
+  local was, rung = state.choice.rungs[state.rung].as, state.rung
+  state.lost = ("in the fine run this is no longer true: %s"):format(state.known)
   if state.no_way then
-    text = ("%s; by %s %s, and the run began again, because %s"):format(text, number.text(time, "s"),
-      state.broke, state.no_way)
+    state.lost = ("%s; by %s %s, and the run began again, because %s"):format(state.lost,
+      number.text(time, "s"), state.broke, state.no_way)
   end
-  state.why = state.why and text .. "; " .. state.why or text
-  if state.rung == rung then return end
-  context.given_up[#context.given_up + 1] = { kind = "model", time = time, count = 1,
-    text = ("%s: %s given up; %s"):format(state.choice.name, was, state.why) }
+  state.checked, state.by, state.known = true, nil, nil
+  repeat until decide.look(context, state)
+  if state.rung ~= rung then
+    context.given_up[#context.given_up + 1] = { kind = "model", time = time, count = 1,
+      text = ("%s: %s given up; %s"):format(state.choice.name, was, state.why) }
+  end
+  decide.settle(context)
 end
 
 -- True if the finest run can contradict the free check of a choice.
@@ -206,9 +207,9 @@ end
 
 -- Compares a choice on finer edges as long as the edges it was compared on show another state than the finest
 -- run. Returns true if another rung is chosen.
-local function compared_finer(context, state, values)
+local function compared_finer(context, state, fine)
   local rung, as = state.rung, state.choice.rungs[state.rung].as
-  while change.is_elsewhere(context, state, values) and state.compared.k < decide.levels do
+  while change.is_elsewhere(context, state, fine) and state.compared.k < decide.levels do
     state.from, state.by = state.compared.k + 1, nil
     repeat until decide.look(context, state)
     if state.rung ~= rung then
@@ -226,15 +227,16 @@ end
 local function broken(context, result)
   local values = {}
   for name, q in pairs(result.quantities) do values[name] = q.value end
-  local facts, share = last_facts(context, result), decide.tightest(context, values)
-  local again = false
+  local found, share = last_facts(context, result), change.tightest(context, values)
+  local fine = { values = values, shape = facts.shape(context.scene) }
+  local again, ran = false, decide.rungs(context)
   for _, state in ipairs(context.states) do
-    local f = facts[state.choice.name]
-    if is_checked(state) and state.choice.broken(f, SLACK * share, state.rung) then
+    local f, same = found[state.choice.name], state.rung == ran[state.choice.name]
+    if same and is_checked(state) and state.choice.broken(f, SLACK * share, state.rung) then
       given_up(context, state, context.scene.time)
       again = true
     end
-    again = again or state.choice.by_state and compared_finer(context, state, values)
+    again = again or same and state.choice.by_state and compared_finer(context, state, fine)
     state.short = state.choice.short and state.choice.short(context, f, share, state)
   end
   return again
@@ -259,7 +261,7 @@ local function shorter(context, result)
   for _, q in ipairs(result:error_bars()) do
     local least = context.job.read[q.name].least -- coarse levels of a motion make a bar longer
     local hopeless = least > HOPELESS * q.tolerance or q.error <= context.spread:floor(q)
-    local all = q.error + decide.left_out(context, q.name)
+    local all = q.error + change.left_out(context, q.name)
     local over = all - q.tolerance
     for _, state in ipairs(over > 0 and not hopeless and context.states or {}) do
       if state.rung < state.last and not state.choice.steady and may_mend(state, q, over) then
@@ -322,7 +324,7 @@ end
 local function new_context(scene, job, args, run_once)
   local data = build.data(scene)
   local context = { scene = scene, data = data, job = job, args = args, run_once = run_once, probes = {},
-    probe_count = 0, states = {}, given_up = {},
+    probe_count = 0, states = {}, given_up = {}, vain = {},
     scripted_contact = data.touching }
   context.spread = spread.new(context)
   return context
@@ -330,6 +332,7 @@ end
 
 local function begin(context)
   trust.open(context.job)
+  context.start = facts.shape(context.scene)
   if not context.args.quasistatic then refine.look(context.job) end
   for i, choice in ipairs(registry.list) do
     if choice.begin then choice.begin(context) end
@@ -339,6 +342,7 @@ local function begin(context)
     if why then state.by, state.why, state.rung = "given", why, rung end
     context.states[i] = state
   end
+  context.most = context.job.most
 end
 
 --- True if a model is to be chosen. Raises an error if that is impossible.
@@ -369,7 +373,6 @@ function choose.run(scene, given, check, run_once)
   local job = refine.job(scene, args, check)
   local context = new_context(scene, job, args, run_once)
   local touching = context.data.touching
-  context.most = job.most
   local begun = os.clock()
   local fine, result = pcall(function()
     begin(context)

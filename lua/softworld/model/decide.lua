@@ -3,6 +3,7 @@
 -- leaves out no more than a part of the tolerance.
 -- @module softworld.model.decide
 local change = require "softworld.model.change"
+local compare = require "softworld.model.compare"
 local number = require "softworld.output.number"
 local probe = require "softworld.model.probe"
 local quantity = require "softworld.quantity"
@@ -11,19 +12,11 @@ local estimate = require "softworld.run.estimate"
 local decide = {}
 
 local MODEL = change.MODEL
-local DOUBT = 2 -- changes above the allowed one over this are compared on a finer mesh too [-]
-local MOMENT = 1e5 -- iterations times nodes that cost nothing worth saving: about 70 ms [-]
 local LONG = 1     -- expected time of a mesh on the second level above which in_vain is asked [s]
-local FAR = 100    -- change over the allowed one that cannot come from coarse edges [-]
-local HOPE = 4     -- a change shrinks at most by this factor from level to level [-]
-local FEIGNED = 16 -- change over the allowed one that coarse edges cause only if poses jump elsewhere [-]
-local HIDDEN = 4   -- coarse edges and steps that blur a change may hide this many times as much [-]
-local HIDES = 2 / 3 -- largest change with hidden part over the allowed one; the rest is for edges, steps [-]
-local SEEN = 0.1   -- least share of a swing that steps must show to accept a blurred change [-]
 local GROWTH = 2   -- least iterations of a run over those of the level before [-]
 local NONE = 0 / 0 -- value of a check's row that a computation lacks
 
-decide.levels = 3 -- coarse levels on which rungs are compared [-]
+decide.levels = compare.levels -- coarse levels on which rungs are compared [-]
 
 --- Returns the chosen rungs by the names of the choices.
 function decide.rungs(context)
@@ -57,110 +50,10 @@ function decide.wasteful(context, k, run)
   for _, state in ipairs(context.states) do
     local open = state.by ~= "given" and not state.went_on and state.rung < state.last and state.choice.toils
     local above = open and open(state.rung, run) and iterations_above(context, state, k)
-    local why = above and state.choice.costly(state.rung, run, { iterations = above }, k)
+    local why = above and state.choice.costly(state.rung, run, { iterations = above },
+      k + context.job.skipped)
     if why then return state, why end
   end
-end
-
---- Returns the smallest tolerance over the value of its quantity [-].
-function decide.tightest(context, values)
-  local share = 1
-  for _, q in ipairs(context.job.quantities) do
-    local value = values[q.name] or NONE
-    local size, asked = quantity.size(value), quantity.asked(q, value)
-    if size > 0 and size < math.huge then share = math.min(share, asked / size) end
-  end
-  return share
-end
-
---- Returns what the chosen rungs, except those of choice `but`, leave out of a quantity, in its unit.
-function decide.left_out(context, name, but)
-  local sum = 0
-  for _, state in ipairs(context.states) do
-    sum = sum + (state.change and state ~= but and (state.change[name] or 0) or 0)
-  end
-  return sum
-end
-
--- Same without failed choices: no other choice can make up for a failed rung.
-local function left_by_others(context, name, but)
-  local sum = decide.left_out(context, name, but)
-  for _, state in ipairs(context.states) do
-    if state.by == "failed" and state ~= but and state.change then sum = sum - (state.change[name] or 0) end
-  end
-  return sum
-end
-
--- True if the next rung's run would need only one more level. Comparing there saves nothing, so the
--- comparison ends if it takes more than a moment. above: the next rung on level k - 1, before: on k - 2.
-local function saves_nothing(context, above, before, k)
-  local growth = above.work / math.max(1, before.work)
-  if k < decide.levels or growth * above.work < MOMENT then return false end
-  for _, q in ipairs(context.job.quantities) do
-    local value = above.values[q.name] or NONE
-    local bar, rate = estimate.bar(q, { before.values[q.name] or NONE, value }, above.contact)
-    local enough = bar / rate <= quantity.asked(q, value) -- false for NaN
-    if not enough then return false end
-  end
-  return true
-end
-
--- True if poses jumped. On coarse edges chance decides where to, which may cause any change.
-local function jumps(result) return (result.facts.motion.jumps or 0) > 0 end
-
--- True if the level tells too little of the next rung to decide. Else false; and the change together with
--- what may be hidden, if that is still small enough.
-local function is_blurred(context, state, now, c)
-  local choice = state.choice
-  if now.k > 1 then return false end
-  if choice.rungs[state.rung].own then return true end -- the next rung's own error is unknown
-  if c.worst > 1 then return c.worst <= FAR or jumps(now.here) or jumps(now.above) end
-  local above, share = now.above.facts[choice.name], decide.tightest(context, now.above.values)
-  if not choice.blurred or not choice.blurred(now.here.facts[choice.name], above, share) then return false end
-  local all = change.hidden(c, HIDDEN)
-  if all.worst < HIDES and choice.shows and choice.shows(above) > SEEN then return false, all end
-  return true
-end
-
--- Marks results of the level before whose poses jumped to a place where they do not go on this level: such
--- results say nothing about finer levels. A result is marked if it jumped and has moved since by at least
--- half of the distance between the rungs. last: the change there.
-local function mark_astray(now, last)
-  local name, before = last.quantity.name, now.before
-  local function distance(one, other)
-    local a, b = one.values[name] or NONE, other.values[name] or NONE
-    return quantity.alike(a, b) and quantity.distance(a, b) or NONE
-  end
-  local apart = distance(before.here, before.above)
-  for _, rung in ipairs { "here", "above" } do
-    local moved = distance(before[rung], now[rung])
-    if jumps(before[rung]) and moved >= apart / 2 then before[rung].astray = true end
-  end
-end
-
--- Compares a rung with the next on the coarsest level, and on finer levels while a too large change becomes
--- smaller: coarse steps must not rule out a cheap rung. Returns the change, and why the next rung failed.
-local function compare(context, state, rungs, above)
-  local rung, levels = state.choice.rungs[state.rung], state.choice.levels or decide.levels
-  local c, before
-  for k = 1, levels do
-    local again = before and before.before and before.before.above
-    if again and saves_nothing(context, before.above, again, k) then return c end
-    local here, there = probe.of(context, rungs, k), probe.of(context, above, k)
-    if k > 1 and not (here.ok and there.ok) then return c, not there.ok and rung.own and there.reason end
-    local now = { k = k, here = here, above = there, before = before }
-    local last = c
-    c, before, state.compared = change.between(context, state, now, left_by_others), now, now
-    local clear = c.worst < 1 / DOUBT or c.worst > HOPE ^ (levels - k) or k > 1 and c.worst <= 1
-    if last and last.worst > FEIGNED and c.worst <= 1 then mark_astray(now, last) end
-    local blurred, all = is_blurred(context, state, now, c)
-    if clear and not blurred and k >= (state.from or 1) then return all or c end
-    local grows = last and not state.choice.steady and c.worst > 1 and c.seen >= last.seen
-    if grows then return c end
-    local costly = state.choice.costly
-    if c.worst > 1 and costly and costly(state.rung, here, there, k, true) then return c end
-  end
-  return c
 end
 
 local function changed_by(c)
@@ -170,8 +63,9 @@ local function changed_by(c)
     number.text(c.allowed, q.unit))
 end
 
+-- Starts a choice again. What a fine run has shown of its free check still holds.
 local function begin_anew(state)
-  state.rung, state.by, state.raised, state.why, state.checked, state.rose = 1, nil, nil, nil, nil, nil
+  state.rung, state.by, state.raised, state.why, state.rose, state.found = 1, nil, nil, nil, nil, nil
 end
 
 --- Raises a choice by one rung. The choices after it start again, as they were decided with the old rung.
@@ -184,16 +78,19 @@ function decide.raise(context, state, why)
   end
 end
 
--- Settles a choice with the reason why it was raised, if it was, and why it stays. Returns true.
+-- Settles a choice with what a fine run has shown of it, why it was raised, and why it stays. Returns true.
 local function stay(state, by, why)
-  state.by = by
-  state.why = state.raised and why and state.raised .. "; " .. why or state.raised or why
+  local reasons = {}
+  for _, words in ipairs { state.lost or false, state.raised or false, why or false } do
+    if words then reasons[#reasons + 1] = words end
+  end
+  state.by, state.why = by, reasons[1] and table.concat(reasons, "; ")
   return true
 end
 
 -- Returns the choice whose next rung can compute what this one cannot, and why.
 local function mends(context, result)
-  local share = result.values and decide.tightest(context, result.values) or 1
+  local share = result.values and change.tightest(context, result.values) or 1
   for _, state in ipairs(context.states) do
     local why = state.by ~= "given" and not state.barred and state.rung < state.last and state.choice.mends
       and state.choice.mends(context, state.rung, result, share)
@@ -255,6 +152,37 @@ local function in_vain(context, rungs, up)
   end
 end
 
+-- Same, found only once for the same rungs: the expected time changes as more is computed.
+local function known_in_vain(context, rungs, up)
+  local key, known = probe.key(up, 1), context.vain
+  if known[key] == nil then known[key] = in_vain(context, rungs, up) or false end
+  return known[key]
+end
+
+-- Settles a choice by what the next rung changes.
+local function stays(state, c, next_as)
+  local why = ("with %s %s"):format(next_as, changed_by(c))
+  state.change, state.found = c.all, { rung = state.rung, all = c.all, why = why }
+  return stay(state, "compared", why)
+end
+
+-- Settles a choice by what was found before, with cheaper rungs of later choices, if the next rung cannot be
+-- computed any more: a wire that rolls cannot become a mesh between pads. Returns nil if nothing was found,
+-- or if others leave out more now. why: what failed.
+local function stays_as_before(context, state, why)
+  local found, base = state.found, probe.of(context, decide.rungs(context), 1)
+  if not found or found.rung ~= state.rung then return nil end
+  for _, q in ipairs(context.job.quantities) do
+    local value = change.known(context, q.name, 1, base.values[q.name] or NONE)
+    local left = change.left_by_others(context, q.name, state)
+    local enough = found.all[q.name] + left <= MODEL * quantity.asked(q, value) -- false for NaN
+    if not enough then return nil end
+  end
+  state.change = found.all
+  return stay(state, "compared", ("%s, found with cheaper models of the other choices; now %s"):format(
+    found.why, why))
+end
+
 -- Checks whether the next rung gives another answer. True when the choice is settled.
 local function climb(context, state, rungs, here)
   local choice, rung = state.choice, state.rung
@@ -265,32 +193,47 @@ local function climb(context, state, rungs, here)
     return unknown(context, state, f, here,
       ("%s cannot be computed on finer edges: there is no such mesh"):format(next_as))
   end
-  local vain = choice.rungs[rung + 1].own and in_vain(context, rungs, up)
+  local vain = choice.rungs[rung + 1].own and known_in_vain(context, rungs, up)
   if vain then
     state.doubt = vain
     return stay(state, "skipped", vain)
   end
+  local seen = compare.glance(context, state, rungs, up)
+  if seen then return stays(state, seen, next_as) end
   local above = probe.of(context, up, 1)
   if not above.ok then
-    return unknown(context, state, f, here, ("%s cannot be computed: %s"):format(next_as, above.reason))
+    local why = ("%s cannot be computed: %s"):format(next_as, above.reason)
+    return stays_as_before(context, state, why) or unknown(context, state, f, here, why)
   end
-  local costly = choice.costly and choice.costly(rung, here, above, 1)
+  local costly = choice.costly and choice.costly(rung, here, above, 1 + context.job.skipped)
   if costly then
     decide.raise(context, state, costly)
     return false
   end
-  local c, blind = compare(context, state, rungs, up)
+  local c, blind = compare.rungs(context, state, rungs, up)
   if blind then
     return unknown(context, state, f, here, ("%s: no computation on finer edges: %s"):format(next_as, blind))
   end
   if c.worst > 1 then
     decide.raise(context, state, ("with %s %s"):format(next_as, changed_by(c)))
     state.rose = probe.key(rungs, 1)
-  else
-    state.change = c.all
-    return stay(state, "compared", ("with %s %s"):format(next_as, changed_by(c)))
+    return false
   end
-  return false
+  return stays(state, c, next_as)
+end
+
+-- If no motion can be computed on the coarsest edges, begins again on finer ones. True if there are such.
+local function begins_finer(context, here)
+  if here.raised or here.unmade then return false end
+  for _, state in ipairs(context.states) do
+    if state.choice.instead and state.by ~= "given" and state.rung < state.last then return false end
+    if state.choice.steady and state.rung > 1 then return false end -- a mesh has edges of its own
+  end
+  if not probe.finer(context) then return false end
+  for _, state in ipairs(context.states) do
+    if state.by ~= "given" then begin_anew(state) end
+  end
+  return true
 end
 
 --- Takes one step in deciding a choice; true when it is settled.
@@ -305,6 +248,7 @@ function decide.look(context, state)
     return false
   end
   if here.unmade and bar_rung(context, here) then return false end
+  if not here.ok and begins_finer(context, here) then return false end
   if not here.ok then
     if rung == state.last or here.raised then return stay(state, "failed") end
     decide.raise(context, state, ("%s cannot be computed: %s"):format(choice.rungs[rung].as, here.reason))
@@ -316,7 +260,7 @@ function decide.look(context, state)
   end
   local why, more
   if choice.free and not state.checked then
-    why, more = choice.free(context, rung, f, decide.tightest(context, here.values))
+    why, more = choice.free(context, rung, f, change.tightest(context, here.values))
   end
   state.doubt = not why and more or nil
   if why then
@@ -324,7 +268,7 @@ function decide.look(context, state)
     return stay(state, "free", why)
   end
   if rung == state.last then return stay(state, "last") end
-  local skip = choice.skip and choice.skip(context, rung, f, decide.tightest(context, here.values))
+  local skip = choice.skip and choice.skip(context, rung, f, change.tightest(context, here.values))
   if skip then
     state.doubt = skip
     return stay(state, "skipped")
@@ -347,7 +291,7 @@ end
 local function is_overdrawn(context)
   local here = probe.of(context, decide.rungs(context), 1)
   for _, q in ipairs(here.ok and context.job.quantities or {}) do
-    local left = left_by_others(context, q.name)
+    local left = change.left_by_others(context, q.name)
     local value = change.known(context, q.name, 1, here.values[q.name] or NONE)
     if left > MODEL * quantity.asked(q, value) then return true end
   end
@@ -362,10 +306,11 @@ local function may_fall(context, state)
   if not state.rose or state.choice.steady or state.rose == probe.key(below, 1) then return false end
   state.rose = probe.key(below, 1)
   local here, above, costly = probe.of(context, below, 1), probe.of(context, now, 1), state.choice.costly
-  if not (here.ok and above.ok) or costly and costly(state.rung - 1, here, above, 1) then return false end
+  if not (here.ok and above.ok) then return false end
+  if costly and costly(state.rung - 1, here, above, 1 + context.job.skipped) then return false end
   local rung, was = state.rung, state.change
   state.rung, state.change = rung - 1, nil
-  local c = compare(context, state, below, now)
+  local c = compare.rungs(context, state, below, now)
   if c.worst <= 1 then
     state.change = c.all
     state.by, state.why = "compared", ("with %s %s"):format(state.choice.rungs[rung].as, changed_by(c))

@@ -4,11 +4,21 @@
 -- @module softworld.model.facts
 local build = require "softworld.scene.build"
 local core = require "softworld.core"
+local quantity = require "softworld.quantity"
 
 local facts = {}
 
 --- Returns a share as text.
 function facts.percent(share) return ("%.2g %%"):format(100 * share) end
+
+--- Returns points of each wire that exists [m].
+function facts.shape(scene)
+  local list = {}
+  for _, w in ipairs(build.data(scene).wires) do
+    if core.exists(w.object) then list[#list + 1] = quantity.known.wire.position.of(w.object) end
+  end
+  return list
+end
 
 --- Returns the names of obstacles with friction that pressed on something in the run.
 function facts.rubbing(scene, start)

@@ -50,6 +50,13 @@ function motion.apply(context, rung, changes)
   end
 end
 
+--- Widens the steps of dynamics: the longest step is that of poses, and the error of a step is that of steps
+-- longer by the same factor. Third-order errors grow with its cube.
+function motion.widen(options)
+  options.dt = options.dt * POSES
+  options.tolerance = options.tolerance and options.tolerance * POSES ^ 3
+end
+
 -- Returns the first period of wire w about its rest position [s]; nil if it has none, or if it is joined to
 -- others and `alone` is not set.
 local function period_of(w, alone)
@@ -106,12 +113,17 @@ function motion.look(context, run)
 end
 
 --- Finds the first period of the scene at rest at its start [s]. It takes the coarsest edges, because the
--- cost of all modes grows with the cube of their number. look_at_end may find a longer period.
+-- cost of all modes grows with the cube of their number. look_at_end may find a longer period. Edges on which
+-- a scene at rest has no equilibrium are too coarse for any model.
 function motion.begin(context)
   local job, scene = context.job, context.scene
   if not job.rests then return end
   core.remesh(scene, trust.counts(job, 1))
   local rests = scene:settle().ok
+  if not rests and trust.finer(job) then
+    job.restore()
+    return motion.begin(context)
+  end
   context.period = rests and period(scene) or nil
   context.alone = rests and not context.period and period_alone(scene) or nil
   job.restore()

@@ -141,7 +141,16 @@ local function nodes_of(scene)
   return sum
 end
 
-local function compute(context, rungs, k, factors)
+-- Returns the steps of levels widened by a choice.
+local function widened(steps, choice)
+  return function(k)
+    local options = steps(k)
+    choice.widen(options)
+    return options
+  end
+end
+
+local function compute(context, rungs, k, factors, choice)
   local job, scene = context.job, context.scene
   local time = probe.expected(context, rungs, k)
   if time and time > LONGEST and time < math.huge then
@@ -149,30 +158,42 @@ local function compute(context, rungs, k, factors)
   end
   context.last = nil
   job.restore()
-  local steps = probe.arrange(context, rungs, factors)
+  local steps, own = probe.arrange(context, rungs, factors), factors or choice
+  if choice then steps = widened(steps, choice) end
   core.remesh(scene, trust.counts(job, k))
   local begun = os.clock()
   local run = refine.computer(job, steps, context.run_once, { wall = 0, cpu = 0 })(k, "choosing a model")
   if job.unmade then return { ok = false, unmade = true, reason = job.unmade } end
   local cpu = os.clock() - begun
-  local result = { ok = run.ok, reason = run.reason, iterations = run.iterations }
+  local result = { ok = run.ok, reason = run.reason, iterations = run.iterations, steps = run.steps }
   if not run.ok then
     result.facts = facts_of_failed(context, run)
     return result
   end
   result.work = run.iterations * nodes_of(scene)
   result.facts, result.contact = probe.facts(context, run), trust.touches(scene)
-  result.moves = job.moves
+  result.moves, result.shape = job.moves, facts.shape(scene)
   result.values = {}
   for name, read in pairs(trust.read(job, run)) do result.values[name] = read.value end
-  context.iterations = run.iterations / 2 ^ (k - 1)
+  if not choice then context.iterations = run.iterations / 2 ^ (k - 1) end
   result.level = { segments = trust.counts(job, k), ok = true, cpu = cpu }
-  if not factors and k >= (context.finest and context.finest.k or 0) then
+  if not own and k >= (context.finest and context.finest.k or 0) then
     context.finest = { k = k, values = result.values }
   end
-  context.last = not factors and { key = probe.key(rungs, k), run = run, level = result.level } or nil
+  context.last = not own and { key = probe.key(rungs, k), run = run, level = result.level } or nil
   return result
 end
+
+--- Leaves out the coarsest level, on which no rung could be computed. False if there is no finer one that is
+-- still coarse.
+function probe.finer(context)
+  if not trust.finer(context.job) then return false end
+  context.most, context.probes, context.finest = context.job.most, {}, nil
+  return true
+end
+
+--- Same with the steps that the choice `state` widens.
+function probe.glance(context, rungs, k, choice) return probe.of(context, rungs, k, nil, "wide", choice) end
 
 --- Returns what was computed of rungs on level k, or nil.
 function probe.known(context, rungs, k) return context.probes[probe.key(rungs, k)] end
@@ -186,12 +207,13 @@ function probe.as_it_ended(context, rungs, k)
 end
 
 --- Returns the values and facts of rungs (by the choices' names) on level k; each is computed only once.
--- A computation that raises an error counts as failed.
-function probe.of(context, rungs, k, factors, label)
+-- A computation that raises an error counts as failed. A variant has a label: factors on the stiffness of
+-- wires, or the choice that widens the steps.
+function probe.of(context, rungs, k, factors, label, choice)
   local key = probe.key(rungs, k, label)
   local known = context.probes[key]
   if known then return known end
-  local fine, result = pcall(compute, context, rungs, k, factors)
+  local fine, result = pcall(compute, context, rungs, k, factors, choice)
   if not fine then
     if checks.is_interrupt(result) then error(result, 0) end
     result = { ok = false, reason = build.plain(tostring(result)), raised = result }

@@ -133,6 +133,16 @@ local function first_counts(scene)
   return counts, share
 end
 
+--- Leaves out the coarsest level of a job and counts it in job.skipped; the finest stays, unless too few are
+-- left. False if the script's own edges are the coarsest already.
+function trust.finer(job)
+  if job.share >= 1 then return false end
+  job.skipped = job.skipped + 1
+  for i, n in ipairs(job.first) do job.first[i] = 2 * n end
+  job.share, job.most = 2 * job.share, math.max(least_levels, job.most - 1)
+  return true
+end
+
 -- Takes the levels out of the table of arguments and checks them.
 local function take_levels(what, args)
   local levels = args.levels
@@ -164,7 +174,7 @@ function trust.job(scene, what, args)
   if #data.wires + #data.particles == 0 then
     error(("%s: scene '%s': there is no wire"):format(what, scene.name), 0)
   end
-  local job = { scene = scene, what = what, values = {}, levels = {}, gone = #(data.gone or {}) }
+  local job = { scene = scene, what = what, values = {}, levels = {}, skipped = 0, gone = #(data.gone or {}) }
   local count = (data.process_count or 0) - #bodies
   function job.begin_processes()
     data.process_count = count -- the same numbers again

@@ -1,0 +1,119 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Compares a rung of a choice with the next one on coarse levels of edges and steps, until it is clear
+-- whether it suffices.
+-- @module softworld.model.compare
+local change = require "softworld.model.change"
+local probe = require "softworld.model.probe"
+local quantity = require "softworld.quantity"
+local estimate = require "softworld.run.estimate"
+
+local compare = {}
+
+local DOUBT = 2 -- changes above the allowed one over this are compared on a finer mesh too [-]
+local MOMENT = 1e5 -- iterations times nodes that cost nothing worth saving: about 70 ms [-]
+local FAR = 100    -- change over the allowed one that cannot come from coarse edges [-]
+local HOPE = 4     -- a change shrinks at most by this factor from level to level [-]
+local FEIGNED = 16 -- change over the allowed one that coarse edges cause only if poses jump elsewhere [-]
+local HIDDEN = 4   -- coarse edges and steps that blur a change may hide this many times as much [-]
+local HIDES = 2 / 3 -- largest change with hidden part over the allowed one; the rest is for edges, steps [-]
+local SEEN = 0.1   -- least share of a swing that steps must show to accept a blurred change [-]
+local BRIEF = 3e3 -- iterations times nodes beside which the next rung costs little: about 2 ms [-]
+local NONE = 0 / 0 -- value of a check's row that a computation lacks
+
+compare.levels = 3 -- coarse levels on which rungs are compared [-]
+
+-- True if the next rung's run would need only one more level. Comparing there saves nothing, so the
+-- comparison ends if it takes more than a moment. above: the next rung on level k - 1, before: on k - 2.
+local function saves_nothing(context, above, before, k)
+  local growth = above.work / math.max(1, before.work)
+  if k < compare.levels or growth * above.work < MOMENT then return false end
+  for _, q in ipairs(context.job.quantities) do
+    local value = above.values[q.name] or NONE
+    local bar, rate = estimate.bar(q, { before.values[q.name] or NONE, value }, above.contact)
+    local enough = bar / rate <= quantity.asked(q, value) -- false for NaN
+    if not enough then return false end
+  end
+  return true
+end
+
+-- True if poses jumped. On coarse edges chance decides where to, which may cause any change.
+local function jumps(result) return (result.facts.motion.jumps or 0) > 0 end
+
+-- True if the level tells too little of the next rung to decide. Else false; and the change together with
+-- what may be hidden, if that is still small enough.
+local function is_blurred(context, state, now, c)
+  local choice = state.choice
+  if now.k > 1 then return false end
+  if choice.rungs[state.rung].own then return true end -- the next rung's own error is unknown
+  if c.worst > 1 then return c.worst <= FAR or jumps(now.here) or jumps(now.above) end
+  local above, share = now.above.facts[choice.name], change.tightest(context, now.above.values)
+  if not choice.blurred or not choice.blurred(now.here.facts[choice.name], above, share) then return false end
+  local all = change.hidden(c, HIDDEN)
+  if all.worst < HIDES and choice.shows and choice.shows(above) > SEEN then return false, all end
+  return true
+end
+
+-- Marks results of the level before whose poses jumped to a place where they do not go on this level: such
+-- results say nothing about finer levels. A result is marked if it jumped and has moved since by at least
+-- half of the distance between the rungs. last: the change there.
+local function mark_astray(now, last)
+  local name, before = last.quantity.name, now.before
+  local function distance(one, other)
+    local a, b = one.values[name] or NONE, other.values[name] or NONE
+    return quantity.alike(a, b) and quantity.distance(a, b) or NONE
+  end
+  local apart = distance(before.here, before.above)
+  for _, rung in ipairs { "here", "above" } do
+    local moved = distance(before[rung], now[rung])
+    if jumps(before[rung]) and moved >= apart / 2 then before[rung].astray = true end
+  end
+end
+
+--- Compares a rung with the next one on wide steps. Returns the change if it is so small that it stays within
+-- what is allowed even if these steps hide most of it; nil: computing the next rung in full tells, or costs
+-- little anyway.
+function compare.glance(context, state, rungs, above)
+  local choice, k = state.choice, state.from or 1
+  local here = choice.widen and probe.of(context, rungs, k)
+  if not here or not here.ok or here.work < BRIEF or jumps(here) then return nil end
+  if choice.toils and choice.toils(state.rung, here) then return nil end -- the full cost must be known
+  local there = probe.glance(context, above, k, choice)
+  if not there.ok or jumps(there) then return nil end
+  local now = { k = k, here = here, above = there, wide = true }
+  local c, f = change.between(context, state, now, change.left_by_others), there.facts[choice.name]
+  local all = change.hidden(c, HIDDEN)
+  if all.worst >= HIDES or choice.shows(f) <= SEEN then return nil end
+  now.worst, state.compared = c.worst, now
+  local share = change.tightest(context, there.values)
+  return choice.blurred(here.facts[choice.name], f, share) and all or c
+end
+
+--- Compares a rung with the next on the coarsest level, and on finer levels while a too large change becomes
+-- smaller: coarse steps must not rule out a cheap rung. Returns the change, and why the next rung failed.
+function compare.rungs(context, state, rungs, above)
+  local rung, levels = state.choice.rungs[state.rung], state.choice.levels or compare.levels
+  local first = state.compared and state.compared.wide and state.from or 1 -- wide steps tell no change
+  local c, before
+  for k = first, levels do
+    local again = before and before.before and before.before.above
+    if again and saves_nothing(context, before.above, again, k) then return c end
+    local here, there = probe.of(context, rungs, k), probe.of(context, above, k)
+    if k > 1 and not (here.ok and there.ok) then return c, not there.ok and rung.own and there.reason end
+    local now = { k = k, here = here, above = there, before = before }
+    local last = c
+    c, before, state.compared = change.between(context, state, now, change.left_by_others), now, now
+    now.worst = c.worst
+    local clear = c.worst < 1 / DOUBT or c.worst > HOPE ^ (levels - k) or k > 1 and c.worst <= 1
+    if last and last.worst > FEIGNED and c.worst <= 1 then mark_astray(now, last) end
+    local blurred, all = is_blurred(context, state, now, c)
+    if clear and not blurred and k >= (state.from or 1) then return all or c end
+    local grows = last and not state.choice.steady and c.worst > 1 and c.seen >= last.seen
+    if grows then return c end
+    local costly = state.choice.costly
+    local depth = k + context.job.skipped
+    if c.worst > 1 and costly and costly(state.rung, here, there, depth, true) then return c end
+  end
+  return c
+end
+
+return compare
