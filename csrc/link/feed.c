@@ -154,8 +154,9 @@ static int follow(sw_hold *h, const sw_link_wire *w) {
   const double u = w->time - slip->since;
   slip->length = slipped(slip, w->time);
   /* If the wire yields as little as a wall, its speed oscillates about the right one. Half the
-   * change damps this. */
-  const int swings = slip->way != 0 && slip->growth * slip->growth_before < 0;
+   * change damps this. Wire that stood and now begins to slip does not oscillate. */
+  const int slides = slip->way != 0 && slip->way_before != 0;
+  const int swings = slides && slip->growth * slip->growth_before < 0;
   slip->speed += (swings ? 0.5 : 1.0) * slip->growth * u;
   slip->since = w->time;
   taken(slip);
