@@ -178,7 +178,7 @@ typedef struct sw_contact_push {
   sw_vec force;        /* on the wire, with friction [N] */
   sw_vec normal;       /* the obstacle's, outward [-] */
   sw_vec slip;         /* sliding way in the last step [m] */
-  sw_vec point;        /* on the obstacle [m] */
+  sw_vec point, acts;  /* on the obstacle; of the force, on the axis or a rolling surface [m] */
   double place;        /* arc length [m] */
   double slid;         /* sliding way since the touch began to press [m] */
 } sw_contact_push;

@@ -316,6 +316,7 @@ static void take_place(const sw_contact *c, const sw_system *s, const sw_candida
   t->spot = spot_of(s, k, t, at);
   t->local = place->near.point, t->point = sw_pose_point(*pose, t->local);
   t->seen = sw_pose_local(*pose, sw_mean_place(c, y, &t->spot));
+  t->acts = s->bodies[k->body].roll_block ? t->point : sw_mean_of(y, 0, &t->spot);
   t->held = sw_contact_is_held(s, k);
   t->candidate = (size_t)(k - c->candidates);
   t->stage = c->stage;
