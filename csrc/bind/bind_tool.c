@@ -150,8 +150,8 @@ static int meth_moment(lua_State *L) { return lsw_push_vector(L, load_of(L, 2, 3
  * force at the end of a step of this length; 0: an equilibrium. */
 static int meth_log(lua_State *L) { return lsw_log(L, &lsw_class_tool, SW_LOG_TOOL_SIZE); }
 
-/* tool:touches() -> { { finger, at (on the pad), acts (where the force acts), force (all three in the
- * tool's axes), normal, s, slid, wire = number in frames from 0, wire_name }, ... } */
+/* tool:touches() -> { { finger, at (on the pad), acts (where the force acts), force (all three in
+ * the tool's axes), normal, s, slid, wire = number in frames from 0, wire_name }, ... } */
 static int meth_touches(lua_State *L) {
   size_t count;
   lua_Integer found = 0;
