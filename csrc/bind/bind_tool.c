@@ -150,8 +150,8 @@ static int meth_moment(lua_State *L) { return lsw_push_vector(L, load_of(L, 2, 3
  * force at the end of a step of this length; 0: an equilibrium. */
 static int meth_log(lua_State *L) { return lsw_log(L, &lsw_class_tool, SW_LOG_TOOL_SIZE); }
 
-/* tool:touches() -> { { finger, at, force (both in the tool's axes), normal, s, slid, wire = number
- * in frames from 0, wire_name }, ... } */
+/* tool:touches() -> { { finger, at (on the pad), acts (where the force acts), force (all three in
+ * the tool's axes), normal, s, slid, wire = number in frames from 0, wire_name }, ... } */
 static int meth_touches(lua_State *L) {
   size_t count;
   lua_Integer found = 0;
@@ -161,10 +161,11 @@ static int meth_touches(lua_State *L) {
   for (size_t k = 0; k < count; k++) {
     sw_tool_touch touch;
     if (!sw_scene_tool_touch(t.scene, t.id, k, &touch)) continue;
-    lua_createtable(L, 0, 7);
+    lua_createtable(L, 0, 9);
     lsw_set_text(L, "wire_name", touch.name);
     lsw_set_integer(L, "finger", (size_t)touch.finger + 1);
     lsw_set_vector(L, "at", touch.at);
+    lsw_set_vector(L, "acts", touch.acts);
     lsw_set_vector(L, "force", touch.force);
     lsw_set_number(L, "normal", touch.normal);
     lsw_set_number(L, "s", touch.s);

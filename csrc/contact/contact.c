@@ -137,7 +137,7 @@ void sw_contact_force(const sw_contact *c, int id, sw_vec about, sw_vec *force, 
     if (c->obstacles[t->obstacle].id != id || !(t->press.normal_force > 0)) continue;
     const sw_vec f = sw_neg(sw_madd(t->press.tangential, t->press.normal, t->press.normal_force));
     *force = sw_add(*force, f);
-    *moment = sw_add(*moment, sw_cross(sw_sub(t->point, about), f));
+    *moment = sw_add(*moment, sw_cross(sw_sub(t->acts, about), f));
   }
 }
 
@@ -204,6 +204,7 @@ int sw_contact_push_at(const sw_contact *c, const sw_system *s, size_t k, sw_con
                            .normal = p->normal,
                            .slip = p->slip,
                            .point = t->point,
+                           .acts = t->acts,
                            .place = place_of(s, t),
                            .slid = t->slid + sw_norm(p->slip),
                            .force = sw_madd(p->tangential, p->normal, p->normal_force)};

@@ -97,11 +97,10 @@ int sw_contact_settled(void *contact, sw_system *system, const double *y, const 
 
 /* See sw_coupling. */
 void sw_contact_book(void *contact, const sw_booking *booking);
-/* Impulse and moment of impulse of the wires on an obstacle, booked so far in the step, about a
- * point; impacts are not included. id: the owner's number of an existing obstacle [N s], [N m s].
+/* Impulse and moment of impulse of the wires on an obstacle, booked so far in the step, about its
+ * place; impacts are not included. id: the owner's number of an existing obstacle [N s], [N m s].
  */
-void sw_contact_gained(const sw_contact *contact, int id, sw_vec about, sw_vec *force,
-                       sw_vec *moment);
+void sw_contact_gained(const sw_contact *contact, int id, sw_vec *force, sw_vec *moment);
 
 /* The owner's number of obstacle k; its load in the last accepted step. */
 int sw_contact_id(const sw_contact *contact, size_t k);
@@ -178,7 +177,7 @@ typedef struct sw_contact_push {
   sw_vec force;        /* on the wire, with friction [N] */
   sw_vec normal;       /* the obstacle's, outward [-] */
   sw_vec slip;         /* sliding way in the last step [m] */
-  sw_vec point;        /* on the obstacle [m] */
+  sw_vec point, acts;  /* on the obstacle; of the force, on the axis or a rolling surface [m] */
   double place;        /* arc length [m] */
   double slid;         /* sliding way since the touch began to press [m] */
 } sw_contact_push;

@@ -25,7 +25,7 @@ static void add_now(const sw_contact *c, double share, sw_contact_load *(*at)(sw
   for (size_t i = 0; i < c->touch_count; i++) {
     const sw_touch *t = &c->touches[i];
     if (!t->press.active && !t->press.opened) continue;
-    const sw_vec arm = sw_sub(t->point, c->now[t->obstacle].pivot);
+    const sw_vec arm = sw_sub(t->acts, c->now[t->obstacle].pivot);
     const sw_vec f = sw_neg(force_on(c, t));
     sw_contact_load *to = at(&c->loads[t->obstacle]);
     *to = sum(*to, share, (sw_contact_load){f, sw_cross(arm, f)});
@@ -50,11 +50,15 @@ void sw_contact_book(void *contact, const sw_booking *b) {
   if (b->own != 0) add_now(c, b->own, b->stage ? second_of : first_of);
 }
 
-void sw_contact_gained(const sw_contact *c, int id, sw_vec about, sw_vec *force, sw_vec *moment) {
+/* A pad that turns with its tool has its lever in the middle of the step: the mean force has the
+ * direction of the middle too, and the lever at the end would be half a turn ahead of it. */
+void sw_contact_gained(const sw_contact *c, int id, sw_vec *force, sw_vec *moment) {
   const size_t o = sw_contact_index(c, id);
+  const sw_contact_at *from = &c->start[o], *to = &c->now[o];
   const sw_contact_load all = c->loads[o].stage[c->last_stage];
+  const sw_vec twice = sw_add(sw_sub(from->pivot, from->pose.p), sw_sub(to->pivot, to->pose.p));
   *force = all.force;
-  *moment = sw_add(all.moment, sw_cross(sw_sub(c->now[o].pivot, about), all.force));
+  *moment = sw_add(all.moment, sw_cross(sw_scale(twice, 0.5), all.force));
 }
 
 void sw_contact_add_blow(sw_contact *c, int obstacle, sw_vec point, sw_vec impulse) {

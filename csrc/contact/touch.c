@@ -128,11 +128,12 @@ static sw_mean spot_of(const sw_system *s, const sw_candidate *k, const sw_touch
 }
 
 /* Displacement of the wire's material at the touch since the step's start, relative to the
- * obstacle's. For a wire that rolls, that of its surface. */
+ * obstacle's. For a wire that rolls, that of its surface. Sunk nodes count with their own place:
+ * how they are sunk is that of the step's start, and does not turn with the obstacle. */
 static sw_vec relative_shift(const sw_contact *c, const sw_system *s, const sw_touch *t,
                              const double *y) {
-  const sw_vec from = sw_mean_place(c, s->x, &t->spot);
-  const sw_vec to = sw_mean_place(c, y, &t->spot);
+  const sw_vec from = sw_mean_of(s->x, 0, &t->spot);
+  const sw_vec to = sw_mean_of(y, 0, &t->spot);
   const sw_vec carried =
       sw_pose_point(c->now[t->obstacle].pose, sw_pose_local(c->start[t->obstacle].pose, from));
   const sw_body *b = &s->bodies[t->body];
@@ -316,6 +317,7 @@ static void take_place(const sw_contact *c, const sw_system *s, const sw_candida
   t->spot = spot_of(s, k, t, at);
   t->local = place->near.point, t->point = sw_pose_point(*pose, t->local);
   t->seen = sw_pose_local(*pose, sw_mean_place(c, y, &t->spot));
+  t->acts = s->bodies[k->body].roll_block ? t->point : sw_mean_of(y, 0, &t->spot);
   t->held = sw_contact_is_held(s, k);
   t->candidate = (size_t)(k - c->candidates);
   t->stage = c->stage;

@@ -306,6 +306,7 @@ int sw_scene_tool_touch(const sw_scene *s, sw_handle tool, size_t number, sw_too
     const size_t wire = sw_system_body_of(system, push.node);
     *out = (sw_tool_touch){.finger = t->pad[k].finger,
                            .at = sw_unrotate(t->now.q, arm),
+                           .acts = sw_unrotate(t->now.q, sw_sub(push.acts, t->now.centre)),
                            .force = sw_unrotate(t->now.q, push.force),
                            .normal = push.normal_force,
                            .s = push.place,

@@ -56,7 +56,8 @@ sw_status sw_scene_tool_finger(sw_scene *scene, sw_handle tool, int finger, cons
 /* A place where a pad presses on a wire. */
 typedef struct sw_tool_touch {
   int finger;
-  sw_vec at;        /* in the tool's axes [m] */
+  sw_vec at;        /* on the pad, in the tool's axes [m] */
+  sw_vec acts;      /* where the force acts on the wire, in the tool's axes [m] */
   sw_vec force;     /* on the wire, in the tool's axes [N] */
   double normal;    /* part of the force across the surface [N] */
   double s;         /* arc length [m] */

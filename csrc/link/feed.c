@@ -13,7 +13,6 @@
 #include "link/hold.h"
 #include "link/spool.h"
 #include "state/hinge.h"
-#include "state/state_tape.h"
 #include "system/axial.h"
 
 static const sw_param rows[] = {
@@ -33,6 +32,8 @@ static const sw_param rows[] = {
 };
 
 static const double AT_END = 1e-9; /* of the wire's length, for rounding [-] */
+/* A jump of the speed is made at once if the force limit needs less than this time for it [s]. */
+static const double AT_ONCE = 1e-3;
 
 /* --- what it holds ---------------------------------------------------------------- */
 
@@ -47,22 +48,6 @@ static sw_status check(const sw_link_wire *w, sw_hold_args *a, sw_error *err) {
     return sw_fail(err, SW_EINVAL, "feed: give speed or force, not both; the run finds the other");
   if (outward(w->mesh, a->s) < 0) a->direction = sw_neg(a->direction); /* it must point outwards */
   return SW_OK;
-}
-
-static sw_status begin(sw_hold *h, const sw_link_wire *w) {
-  const sw_mesh *m = w->mesh;
-  const sw_hold_args *a = &h->args;
-  const double size = (m->s[m->n - 1] - m->s[0]) / (double)(m->n - 1);
-  h->feed = (sw_feed){.guide = {.outward = outward(m, h->s1), .label = h->s1, .size = size},
-                      .slip = {.push = a->force, .limit = a->force_limit, .since = w->time},
-                      .since = w->time,
-                      .speed = isnan(a->speed) ? 0 : a->speed};
-  return m->rest ? sw_mesh_copy(m, &h->feed.guide.shape) : SW_OK;
-}
-
-static void clear(sw_hold *h) {
-  sw_motion_release(h->feed.motion);
-  sw_mesh_free(&h->feed.guide.shape);
 }
 
 /* Length paid out at a time, with speed and acceleration. */
@@ -89,6 +74,36 @@ static feed_now feed_at(const sw_hold *h, double t) {
     now.fed += m.pose.p.x, now.speed += m.v.x, now.acceleration += m.a.x;
   }
   return now;
+}
+
+/* The asked speed has jumped, and a drive with a limit may not be able to follow: the wire then
+ * keeps its speed and slips. */
+static void keep_speed(sw_hold *h, const sw_link_wire *w, double kept) {
+  sw_slip *slip = &h->feed.slip;
+  const sw_mesh *m = w->mesh;
+  const double jump = kept - feed_at(h, w->time).speed;
+  const double momentum = fabs(jump) * w->beam->mass * (m->s[m->n - 1] - m->s[0]);
+  if (!isfinite(slip->limit) || momentum <= slip->limit * AT_ONCE) return;
+  slip->speed = jump;
+  slip->way = copysign(1.0, -jump);
+  sw_slip_taken(slip);
+}
+
+static sw_status begin(sw_hold *h, const sw_link_wire *w) {
+  const sw_mesh *m = w->mesh;
+  const sw_hold_args *a = &h->args;
+  const double size = (m->s[m->n - 1] - m->s[0]) / (double)(m->n - 1);
+  h->feed = (sw_feed){.guide = {.outward = outward(m, h->s1), .label = h->s1, .size = size},
+                      .slip = {.push = a->force, .limit = a->force_limit, .since = w->time},
+                      .since = w->time,
+                      .speed = isnan(a->speed) ? 0 : a->speed};
+  keep_speed(h, w, 0);
+  return m->rest ? sw_mesh_copy(m, &h->feed.guide.shape) : SW_OK;
+}
+
+static void clear(sw_hold *h) {
+  sw_motion_release(h->feed.motion);
+  sw_mesh_free(&h->feed.guide.shape);
 }
 
 static double arc_at(const sw_guide *g, double fed) { return g->label - g->outward * fed; }
@@ -143,22 +158,17 @@ static void place(sw_hold *h, const sw_link_wire *w, double t, sw_hold_state *st
   state->a = sw_madd(state->a, sw_cross(state->omega, along), 2.0 * now.speed);
 }
 
-/* The present values become those from which the next step starts. */
-static void taken(sw_slip *slip) {
-  slip->growth_before = slip->growth;
-  slip->way_before = slip->way;
-}
-
 static int follow(sw_hold *h, const sw_link_wire *w) {
   sw_slip *slip = &h->feed.slip;
   const double u = w->time - slip->since;
   slip->length = slipped(slip, w->time);
   /* If the wire yields as little as a wall, its speed oscillates about the right one. Half the
-   * change damps this. */
-  const int swings = slip->way != 0 && slip->growth * slip->growth_before < 0;
+   * change damps this. Wire that stood and now begins to slip does not oscillate. */
+  const int slides = slip->way != 0 && slip->way_before != 0;
+  const int swings = slides && slip->growth * slip->growth_before < 0;
   slip->speed += (swings ? 0.5 : 1.0) * slip->growth * u;
   slip->since = w->time;
-  taken(slip);
+  sw_slip_taken(slip);
   const double arc = arc_at(&h->feed.guide, feed_at(h, w->time).fed);
   w->mesh->s[h->node] = arc;
   h->s1 = h->s2 = h->s[0] = arc;
@@ -274,16 +284,18 @@ static void stop(sw_hold *h, double t) {
   f->since = t;
   f->speed = f->slip.speed = f->slip.growth = f->slip.way = 0;
   f->slip.push = NAN;
-  taken(&f->slip);
+  sw_slip_taken(&f->slip);
   sw_motion_release(f->motion);
   f->motion = NULL;
 }
 
 static sw_status go(sw_hold *h, const sw_link_wire *w, double speed, sw_motion *motion,
                     sw_error *err) {
+  const double before = feed_at(h, w->time).speed;
   (void)motion, (void)err;
   stop(h, w->time);
   h->feed.speed = speed;
+  keep_speed(h, w, before);
   return SW_OK;
 }
 
@@ -302,7 +314,7 @@ static sw_status limit(sw_hold *h, const sw_link_wire *w, double force, sw_motio
   (void)w, (void)motion, (void)err;
   slip->limit = force;
   if (isnan(force) && isnan(slip->push)) slip->speed = slip->growth = slip->way = 0;
-  taken(slip);
+  sw_slip_taken(slip);
   return SW_OK;
 }
 
@@ -321,8 +333,10 @@ static sw_status pay_out(sw_hold *h, const sw_link_wire *w, double length, sw_mo
     return sw_fail(err, SW_EINVAL,
                    "feed '%s': length = %g m is not allowed; %.6g m of wire '%s' are left", h->name,
                    length, there, w->name);
+  const double before = feed_at(h, w->time).speed;
   stop(h, w->time);
   h->feed.motion = sw_motion_retain(motion), h->feed.start = w->time;
+  keep_speed(h, w, before);
   return SW_OK;
 }
 
@@ -338,35 +352,6 @@ static const char *const outputs[] = {"fed", "speed", "drive_force", "force_limi
 static void read(const sw_hold *h, double t, double *out) {
   const feed_now now = feed_at(h, t);
   out[0] = now.fed, out[1] = now.speed, out[2] = h->feed.guide.drive, out[3] = h->feed.slip.limit;
-}
-
-/* --- on a tape --------------------------------------------------------------------- */
-
-#define DOUBLE(field) sw_tape_double(t, &x->field)
-#define SLIP(field) sw_tape_double(t, &x->slip.field)
-#define GUIDE(field) sw_tape_double(t, &x->guide.field)
-
-void sw_tape_feed(sw_tape *t, sw_feed *x) {
-  sw_guide *g = &x->guide;
-  int shaped = g->shape.n > 0;
-  SW_TAPE_STRUCT(t, sw_feed, 376);
-  sw_tape_int(t, &g->outward), GUIDE(label), DOUBLE(fed), DOUBLE(since), DOUBLE(speed);
-  DOUBLE(start);
-  sw_tape_motion(t, &x->motion);
-  SLIP(length), SLIP(since), SLIP(speed), SLIP(growth), SLIP(growth_before);
-  SLIP(push), SLIP(limit), SLIP(way), SLIP(way_before);
-  sw_tape_bracket(t, &x->slip.found, "a feed");
-  SLIP(slope), GUIDE(spare[0]), GUIDE(spare[1]), GUIDE(spare_fed[0]), GUIDE(spare_fed[1]);
-  GUIDE(size), GUIDE(drive), GUIDE(stage);
-  sw_tape_int(t, &shaped);
-  if (shaped) sw_tape_mesh(t, &g->shape, 1);
-  if (!sw_tape_reads(t)) return;
-  const sw_slip *slip = &x->slip;
-  taken(&x->slip); /* older files hold other values before the step */
-  const double all = g->label + x->fed + x->since + x->speed + x->start + slip->length +
-                     slip->since + slip->speed + slip->growth + slip->growth_before + slip->slope +
-                     g->size;
-  sw_tape_expect(t, isfinite(all + g->spare[0] + g->spare[1]), "a feed");
 }
 
 /* 1 if the hold read from a tape is a feed of this wire. */

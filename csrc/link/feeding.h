@@ -23,6 +23,12 @@ typedef struct sw_slip {
   double slope;         /* last slope of the force over the growth; 0 = unknown [kg] */
 } sw_slip;
 
+/* The present values become those from which the next step starts. */
+static inline void sw_slip_taken(sw_slip *slip) {
+  slip->growth_before = slip->growth;
+  slip->way_before = slip->way;
+}
+
 /* A place through which wire passes. Nodes beside it come and go. */
 typedef struct sw_guide {
   int outward;         /* direction of paid-out wire: +1 along the arc length, -1 against it [-] */

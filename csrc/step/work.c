@@ -165,7 +165,7 @@ static bounds work_of_obstacle(sw_scene *s, size_t k, const sw_worker *from, con
   sw_contact_force(contact, (int)k, to->p, &force, &moment);
   const bounds b = work_of(from, to, sw_neg(force), sw_neg(moment), changed);
   if (!(h > 0)) return b;
-  sw_contact_gained(contact, (int)k, to->p, &force, &moment);
+  sw_contact_gained(contact, (int)k, &force, &moment);
   return by_impulse(b, from, to, sw_neg(force), sw_neg(moment), h);
 }
 

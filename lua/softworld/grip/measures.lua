@@ -36,7 +36,7 @@ local function pads_on(self, wire, at, finger)
   for _, touch in ipairs(self.tool:touches()) do
     if touch.wire == slot and (finger == nil or finger == touch.finger) then
       local f = vec.rotate(q, touch.force)
-      local arm = vec.rotate(q, touch.at)
+      local arm = vec.rotate(q, touch.acts)
       if at then arm = vec.add(arm, vec.sub(centre, at)) end
       force, moment = vec.add(force, f), vec.add(moment, vec.cross(arm, f))
     end
