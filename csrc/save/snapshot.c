@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Snapshots: the scene on a tape that stays in the process. Restoring gives the same bits as if
  * nothing had happened in between. */
-#include <string.h>
 
 #include "base/alloc.h"
 #include "body/build.h"
