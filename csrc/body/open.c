@@ -7,7 +7,9 @@
 #include "scene/wire.h"
 #include "system/system.h"
 
-static sw_status open(sw_scene *s, sw_handle h, int places, sw_scene_wire **body, sw_error *err) {
+/* places = 1: forces that have been added need not be built in. */
+static sw_status prepare(sw_scene *s, sw_handle h, int places, sw_scene_wire **body,
+                         sw_error *err) {
   sw_system *system = sw_scene_system(s);
   SW_TRY(sw_scene_readable(s, err));
   *body = sw_scene_find_body(s, h, err);
@@ -20,12 +22,12 @@ static sw_status open(sw_scene *s, sw_handle h, int places, sw_scene_wire **body
 }
 
 sw_status sw_scene_open_body(sw_scene *s, sw_handle h, sw_scene_wire **body, sw_error *err) {
-  return open(s, h, 0, body, err);
+  return prepare(s, h, 0, body, err);
 }
 
 sw_status sw_scene_open_places(sw_scene *s, sw_handle h, sw_scene_wire **wire, sw_error *err) {
   if (!sw_scene_find_wire(s, h, err)) return SW_EDEAD;
-  return open(s, h, 1, wire, err);
+  return prepare(s, h, 1, wire, err);
 }
 
 /* The same for wires only. */

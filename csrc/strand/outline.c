@@ -136,7 +136,7 @@ static size_t even(size_t n) { return n + n % 2; }
 double sw_outline_ovalisation(const sw_web *w, const double *outline, sw_vec tangent) {
   point p[SW_OUTLINE], fine[FINE + 2 * SW_OUTLINE], hull[2 * (FINE + 2 * SW_OUTLINE)];
   const sw_vec u = sw_perpendicular(tangent), v = sw_cross(tangent, u);
-  const size_t n = w->around_count, times = is_round(w) ? even((FINE + n - 1) / n) : 1;
+  const size_t n = w->around_count, times = n && is_round(w) ? even((FINE + n - 1) / n) : 1;
   flatten(outline, n, u, v, p);
   const size_t all = smooth(p, n, times, fine);
   const sw_widths wide = widths(fine, all, hull, u, v);
