@@ -30,6 +30,7 @@
 #include "force/solid.h"
 #include "grip/tool.h"
 #include "integrate/integrate.h"
+#include "modal/eigen.h"
 #include "motion/motion.h"
 #include "read/frames.h"
 #include "read/reading.h"

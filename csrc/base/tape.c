@@ -102,6 +102,14 @@ int sw_tape_share(sw_tape *t, void *p_pointer, const sw_sharing *how) {
   return 1;
 }
 
+void *sw_tape_object(sw_tape *t, void *p_pointer, size_t size) {
+  void **p = p_pointer;
+  if (!sw_tape_reads(t)) return *p;
+  *p = sw_tape_good(t) ? sw_alloc(1, size) : NULL;
+  if (!*p) sw_tape_fail(t, SW_ENOMEM);
+  return *p;
+}
+
 void sw_tape_view(sw_tape *t, const void **p, size_t bytes) {
   if (!sw_tape_reads(t)) {
     sw_tape_raw(t, (void *)(uintptr_t)*p, bytes);

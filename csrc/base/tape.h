@@ -94,6 +94,8 @@ static inline int sw_tape_address(sw_tape *t, void *p) {
 /* On a tape at home: writes or reads a reference to *p, which may be NULL, and returns 1. On other
  * tapes does nothing and returns 0. */
 int sw_tape_share(sw_tape *tape, void *p_pointer, const sw_sharing *how);
+/* Reading: makes a zeroed object of this size and sets *p to it; NULL if it cannot. Returns *p. */
+void *sw_tape_object(sw_tape *tape, void *p_pointer, size_t size);
 /* Writes bytes; reading does not copy them: *p then points into the tape and may be unaligned. */
 void sw_tape_view(sw_tape *tape, const void **p, size_t bytes);
 
@@ -113,6 +115,16 @@ void sw_tape_name(sw_tape *tape, char *x);
 /* Writes or reads a name that the program defines, such as a class name. Returns the name, which
  * is in buffer (SW_NAME_SIZE bytes). NULL is written as "". */
 const char *sw_tape_word(sw_tape *tape, const char *word, char *buffer);
+
+/* Writes or reads which class an object has: the address at home, else the class's name, for which
+ * find returns the class or NULL. */
+#define SW_TAPE_CLASS(tape, class, find)                                                       \
+  do {                                                                                         \
+    char word_[SW_NAME_SIZE];                                                                  \
+    if (sw_tape_address(tape, &(class))) break;                                                \
+    const char *name_ = sw_tape_word(tape, sw_tape_reads(tape) ? NULL : (class)->name, word_); \
+    if (sw_tape_reads(tape)) (class) = find(name_);                                            \
+  } while (0)
 
 /* Writes or reads the number of items that follow, each of at least `least` bytes. Reading refuses
  * more than the rest of the tape can hold. */

@@ -71,6 +71,11 @@ static inline sw_vec sw_perpendicular(sw_vec t) {
   return sw_unit_or(sw_madd(axis, t, -sw_dot(axis, t)), sw_v(0, 0, 1));
 }
 
+/* A vector u perpendicular to the unit vector t, turned about t by an angle [rad]. */
+static inline sw_vec sw_turned(sw_vec u, sw_vec t, double angle) {
+  return sw_madd(sw_scale(u, cos(angle)), sw_cross(t, u), sin(angle));
+}
+
 static inline sw_quat sw_quat_identity(void) { return (sw_quat){1, 0, 0, 0}; }
 static inline sw_quat sw_quat_conj(sw_quat q) { return (sw_quat){q.w, -q.x, -q.y, -q.z}; }
 static inline sw_quat sw_quat_mul(sw_quat a, sw_quat b) {

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Parts of a player's page: the film of a scene, surfaces of wires, compression (zlib), base64, and
  * the page itself, which is stored in this program. */
-#include <string.h>
 
 #include "bind/child.h"
 

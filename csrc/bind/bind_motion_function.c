@@ -2,7 +2,6 @@
 /* Makes motions of Lua functions of time. The functions run protected on a separate
  * Lua thread, so that any part of the core can evaluate them. An error's value
  * stays in the registry until the caller raises it again. */
-#include <string.h>
 
 #include "bind/bind_motion.h"
 

@@ -113,12 +113,7 @@ static int set_all(lua_State *L, lsw_self p, size_t count) {
                       "particles:set_velocity takes {vx, vy, vz} or %d numbers, three for each "
                       "particle, got %d",
                       (int)n, (int)lua_rawlen(L, 2));
-  double *v = lua_newuserdatauv(L, n * sizeof *v, 0);
-  for (size_t i = 0; i < n; i++) {
-    lua_rawgeti(L, 2, (lua_Integer)i + 1);
-    v[i] = lsw_number(L, -1, "particles:set_velocity: an item", "m/s");
-    lua_pop(L, 1);
-  }
+  const double *v = lsw_numbers(L, 2, n, "particles:set_velocity: an item", "m/s");
   LSW_DO(L, sw_scene_particles_set_velocities, p.scene, p.id, v);
   return 0;
 }

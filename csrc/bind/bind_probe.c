@@ -30,12 +30,7 @@ static const double *read_flat(lua_State *L, int table, const char *key, size_t 
   if (!lua_istable(L, -1) || lua_rawlen(L, -1) != n)
     luaL_error(L, "scene:evaluate: %s must be an array of %d numbers, three for each node", key,
                (int)n);
-  double *values = lua_newuserdatauv(L, n * sizeof *values, 0);
-  for (size_t i = 0; i < n; i++) {
-    lua_rawgeti(L, -2, (lua_Integer)i + 1);
-    values[i] = lsw_number(L, -1, "scene:evaluate: an item", "-");
-    lua_pop(L, 1);
-  }
+  const double *values = lsw_numbers(L, -1, n, "scene:evaluate: an item", "-");
   lua_remove(L, -2);
   return values;
 }

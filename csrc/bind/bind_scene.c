@@ -125,12 +125,7 @@ static int mod_came_from(lua_State *L) {
   const double span = lsw_number(L, 3, "came_from: span", "s");
   const size_t count = lua_rawlen(L, 2);
   if (!(span > 0) || count == 0) return luaL_error(L, "came_from: a span above 0, and places");
-  double *before = lua_newuserdatauv(L, count * sizeof *before, 0);
-  for (size_t i = 0; i < count; i++) {
-    lua_rawgeti(L, 2, (lua_Integer)i + 1);
-    before[i] = lsw_number(L, -1, "came_from: a place", "m");
-    lua_pop(L, 1);
-  }
+  const double *before = lsw_numbers(L, 2, count, "came_from: a place", "m");
   LSW_DO(L, sw_scene_wire_came_from, w.scene, w.id, before, count / 3, span);
   return 0;
 }

@@ -91,7 +91,7 @@ static int mod_eigen(lua_State *L) {
   double *a = lua_newuserdatauv(L, sizeof *a * (2 * rows * rows + rows), 0);
   lsw_read_flat(L, 1, a, rows * rows);
   double *values = a + rows * rows, *vectors = values + rows;
-  lsw_must(L, sw_symmetric_eigen(a, rows, values, vectors), &err);
+  lsw_must(L, sw_eigen_dense(a, NULL, rows, values, vectors), &err);
   lsw_push_flat(L, values, rows);
   lua_createtable(L, (int)n, 0);
   for (size_t k = 0; k < rows; k++) {

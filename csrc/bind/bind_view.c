@@ -6,7 +6,6 @@
  *   server:take() -> text, page; nothing if there is no message
  *   server:pages() -> number of open pages, number of these that wait for a frame
  *   core.film_now(scene, values) -> bytes of a film of the present state, number of frames */
-#include <string.h>
 
 #include "bind/child.h"
 

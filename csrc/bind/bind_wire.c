@@ -93,17 +93,20 @@ int lsw_scene_wire(lua_State *L) {
 
 /* --- read-outs ---------------------------------------------------------------- */
 
-static sw_point_state at(lua_State *L) {
+static sw_point_state state_at(lua_State *L, sw_status (*read)(sw_scene *, sw_handle, double,
+                                                               sw_point_state *, sw_error *)) {
   sw_point_state p;
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   const double s = lsw_number(L, 2, "wire: s", "m");
-  LSW_DO(L, sw_scene_wire_at, w.scene, w.id, s, &p);
+  LSW_DO(L, read, w.scene, w.id, s, &p);
   return p;
 }
 
-static int meth_position(lua_State *L) { return lsw_push_vector(L, at(L).position), 1; }
-static int meth_tangent(lua_State *L) { return lsw_push_vector(L, at(L).tangent), 1; }
-static int meth_velocity(lua_State *L) { return lsw_push_vector(L, at(L).velocity), 1; }
+static sw_point_state motion(lua_State *L) { return state_at(L, sw_scene_wire_motion); }
+
+static int meth_position(lua_State *L) { return lsw_push_vector(L, motion(L).position), 1; }
+static int meth_tangent(lua_State *L) { return lsw_push_vector(L, motion(L).tangent), 1; }
+static int meth_velocity(lua_State *L) { return lsw_push_vector(L, motion(L).velocity), 1; }
 
 static int push_readout(lua_State *L, const sw_readout *r) {
   double value;
@@ -126,7 +129,7 @@ static double modulus(lua_State *L) {
 }
 
 static int push_fibres(lua_State *L, double factor) {
-  const sw_point_state p = at(L);
+  const sw_point_state p = state_at(L, sw_scene_wire_at);
   lua_pushnumber(L, factor * p.strain);
   lua_pushnumber(L, factor * p.least_strain);
   return 2;

@@ -108,6 +108,17 @@ void lsw_read_flat(lua_State *L, int index, double *out, size_t n) {
   }
 }
 
+double *lsw_numbers(lua_State *L, int index, size_t n, const char *what, const char *unit) {
+  index = lua_absindex(L, index);
+  double *out = lua_newuserdatauv(L, n * sizeof *out, 0);
+  for (size_t i = 0; i < n; i++) {
+    lua_rawgeti(L, index, (lua_Integer)i + 1);
+    out[i] = lsw_number(L, -1, what, unit);
+    lua_pop(L, 1);
+  }
+  return out;
+}
+
 void lsw_set_text(lua_State *L, const char *name, const char *text) {
   lua_pushstring(L, text), lua_setfield(L, -2, name);
 }

@@ -133,6 +133,10 @@ void lsw_push_flat(lua_State *L, const double *values, size_t n);
 /* Reads a flat array of exactly n finite numbers; raises for anything else. */
 void lsw_read_flat(lua_State *L, int index, double *out, size_t n);
 
+/* Returns n numbers of the list at index, each as by lsw_number; pushes the userdata that owns
+ * them. */
+double *lsw_numbers(lua_State *L, int index, size_t n, const char *what, const char *unit);
+
 /* Pushes a table of each kind of energy and their total [J]. */
 void lsw_push_energy(lua_State *L, const sw_energy *energy);
 

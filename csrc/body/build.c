@@ -40,7 +40,7 @@ static void drop(sw_scene *s) {
   sw_free(s->hold_slot);
   sw_free(s->hold_loads);
   s->hold_slot = NULL, s->hold_loads = NULL;
-  s->built = 0;
+  s->built = s->waiting = 0;
 }
 
 void sw_scene_forget_contact(sw_scene *s) {
@@ -180,6 +180,12 @@ sw_status sw_scene_unbuild(sw_scene *s) {
   drop(s);
   sw_course_jump(&s->course);
   return SW_OK;
+}
+
+void sw_scene_await_forces(sw_scene *s) {
+  if (!s->built) return;
+  s->waiting = 1;
+  sw_course_jump(&s->course);
 }
 
 /* SW_EINTR if the user interrupts, between long parts of building. Restoring a snapshot is not
@@ -348,6 +354,7 @@ static sw_status fill(sw_scene *s, size_t alive) {
 }
 
 sw_status sw_scene_build(sw_scene *s, sw_error *err) {
+  if (s->waiting) SW_TRY(sw_scene_unbuild(s));
   if (!s->built) {
     size_t alive = 0, rails = 0;
     SW_TRY(sw_scene_check_holds(s, err));

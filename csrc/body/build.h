@@ -9,6 +9,8 @@
 
 /* Leaves the built state: the meshes become authoritative again. */
 sw_status sw_scene_unbuild(sw_scene *scene);
+/* Call when a force was added: the system is made anew before it is used for more than places. */
+void sw_scene_await_forces(sw_scene *scene);
 /* Makes the system from the meshes and holds, unless it exists. */
 sw_status sw_scene_build(sw_scene *scene, sw_error *err);
 
@@ -20,6 +22,8 @@ void sw_scene_forget_contact(sw_scene *scene);
 
 /* Finds the wire of a handle; builds and refreshes the scene for reading. */
 sw_status sw_scene_open_wire(sw_scene *scene, sw_handle h, sw_scene_wire **wire, sw_error *err);
+/* The same, for places and velocities only: added forces are not built in for it. */
+sw_status sw_scene_open_places(sw_scene *scene, sw_handle h, sw_scene_wire **wire, sw_error *err);
 /* SW_EINVAL when place is no arc length of the wire. */
 sw_status sw_scene_check_place(const sw_scene_wire *wire, double place, sw_error *err);
 /* The same for a body. */

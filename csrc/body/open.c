@@ -7,16 +7,27 @@
 #include "scene/wire.h"
 #include "system/system.h"
 
-sw_status sw_scene_open_body(sw_scene *s, sw_handle h, sw_scene_wire **body, sw_error *err) {
+/* places = 1: forces that have been added need not be built in. */
+static sw_status prepare(sw_scene *s, sw_handle h, int places, sw_scene_wire **body,
+                         sw_error *err) {
   sw_system *system = sw_scene_system(s);
   SW_TRY(sw_scene_readable(s, err));
   *body = sw_scene_find_body(s, h, err);
   if (!*body) return SW_EDEAD;
   SW_TRY(sw_scene_still(s, err));
-  SW_TRY(sw_scene_build(s, err));
+  if (!places || !sw_scene_is_placed(s)) SW_TRY(sw_scene_build(s, err));
   SW_TRY(sw_system_place_holds(system, sw_scene_time(s), NULL, NULL, NULL, err));
   sw_system_refresh(system);
   return SW_OK;
+}
+
+sw_status sw_scene_open_body(sw_scene *s, sw_handle h, sw_scene_wire **body, sw_error *err) {
+  return prepare(s, h, 0, body, err);
+}
+
+sw_status sw_scene_open_places(sw_scene *s, sw_handle h, sw_scene_wire **wire, sw_error *err) {
+  if (!sw_scene_find_wire(s, h, err)) return SW_EDEAD;
+  return prepare(s, h, 1, wire, err);
 }
 
 /* The same for wires only. */

@@ -14,10 +14,6 @@
  * range [-]. SW_ENOMEM; SW_ESINGULAR if a is not finite. */
 sw_status sw_dense_semidefinite(const double *a, size_t n, double *b, size_t m, double *left);
 
-/* Finds the eigenvalues (ascending) and unit eigenvectors (one after another) of a symmetric matrix
- * a (n x n; its lower half is read). SW_ENOMEM; SW_EDIVERGED if it is not finite. */
-sw_status sw_symmetric_eigen(const double *a, size_t n, double *values, double *vectors);
-
 /* Finds the singular values s (n, descending) of a (rows x n, rows >= n) and directions v (n x n,
  * one per column). One-sided Jacobi: small values are accurate to the last digits too. */
 sw_status sw_singular(const double *a, size_t rows, size_t n, double *s, double *v, sw_error *err);

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Dense matrices by GSL. */
-#include <gsl/gsl_eigen.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
 #include <math.h>
@@ -73,28 +72,6 @@ sw_status sw_dense_semidefinite(const double *a, size_t n, double *b, size_t m, 
   }
   gsl_set_error_handler(before);
   return failed ? SW_ESINGULAR : SW_OK;
-}
-
-sw_status sw_symmetric_eigen(const double *a, size_t n, double *values, double *vectors) {
-  for (size_t k = 0; k < n * n; k++)
-    if (!isfinite(a[k])) return SW_EDIVERGED;
-  gsl_error_handler_t *before = gsl_set_error_handler_off();
-  gsl_eigen_symmv_workspace *work = gsl_eigen_symmv_alloc(n);
-  gsl_matrix *m = gsl_matrix_alloc(n, n), *z = gsl_matrix_alloc(n, n);
-  gsl_vector_view w = gsl_vector_view_array(values, n);
-  sw_status status = SW_ENOMEM;
-  if (work && m && z) {
-    memcpy(m->data, a, n * n * sizeof *a);
-    status = gsl_eigen_symmv(m, &w.vector, z, work) ? SW_EDIVERGED : SW_OK;
-    gsl_eigen_symmv_sort(&w.vector, z, GSL_EIGEN_SORT_VAL_ASC);
-    for (size_t k = 0; k < n; k++)
-      for (size_t i = 0; i < n; i++) vectors[k * n + i] = gsl_matrix_get(z, i, k);
-  }
-  if (work) gsl_eigen_symmv_free(work);
-  gsl_matrix_free(m);
-  gsl_matrix_free(z);
-  gsl_set_error_handler(before);
-  return status;
 }
 
 sw_status sw_singular(const double *a, size_t rows, size_t n, double *s, double *v, sw_error *err) {

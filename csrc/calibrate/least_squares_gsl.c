@@ -3,7 +3,6 @@
  * computed together and kept. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_multifit_nlinear.h>
-#include <string.h>
 
 #include "base/alloc.h"
 #include "calibrate/least_squares.h"

@@ -4,7 +4,6 @@
  * number of outlines; for each outline: number of points, points. All numbers have 16 bits,
  * little-endian; y points upwards. */
 #include <stdlib.h>
-#include <string.h>
 
 #include "draw/draw.h"
 

@@ -136,7 +136,10 @@ sw_status sw_scene_add_force(sw_scene *s, const sw_force_class *cls, sw_handle w
   }
   SW_TRY(check_force(s, cls, wire, args, err));
   if (cls->flags & SW_FORCE_ON_SOME) SW_TRY(check_some(cls, w, args, err));
-  SW_TRY(sw_scene_unbuild(s));
+  if (cls->place)
+    SW_TRY(sw_scene_unbuild(s));
+  else
+    sw_scene_await_forces(s); /* many ties can be made in turn, each where its wire is now */
   sw_scene_force f = {.alive = 1,
                       .cls = cls,
                       .wire = wire.generation ? (long)wire.slot : -1,

@@ -18,7 +18,6 @@
 #include "body/touching.h"
 #include "edit/edit.h"
 #include "grip/frozen.h"
-#include "grip/jaws.h"
 #include "link/joint.h"
 #include "scene/drive.h"
 #include "scene/forces.h"

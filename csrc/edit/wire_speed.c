@@ -3,7 +3,6 @@
 #include "body/build.h"
 #include "edit/wires.h"
 #include "scene/course.h"
-#include "scene/lookup.h"
 #include "scene/parts.h"
 
 sw_status sw_scene_wire_came_from(sw_scene *s, sw_handle h, const double *before, size_t count,

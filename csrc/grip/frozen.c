@@ -31,14 +31,12 @@ static void tape_handle(sw_tape *t, sw_handle *h) {
 }
 
 static void tape_fields(sw_tape *t, sw_frozen *f) {
-  char word[SW_NAME_SIZE];
   SW_TAPE_STRUCT(t, sw_frozen, 552);
   SW_TAPE_STRUCT(t, sw_stations, 32);
   sw_tape_mark(t, "contact", sw_contact_layout());
   sw_tape_uint32(t, &f->wire.generation); /* the slot changes when other wires leave */
   tape_handle(t, &f->hold);
-  const char *model = sw_tape_word(t, sw_tape_reads(t) ? NULL : f->cls->name, word);
-  if (sw_tape_reads(t)) f->cls = sw_wire_find(model);
+  SW_TAPE_CLASS(t, f->cls, sw_wire_find);
   sw_tape_mesh(t, &f->mesh, 1);
   sw_tape_strand(t, &f->strand, 1);
   sw_tape_pose(t, &f->pose), sw_tape_vec(t, &f->across);
@@ -66,15 +64,9 @@ void sw_tape_frozen(sw_tape *t, sw_frozen **frozen) {
   int there = !sw_tape_reads(t) && *frozen != NULL;
   sw_tape_int(t, &there);
   if (!there) return;
-  if (sw_tape_reads(t)) {
-    *frozen = sw_tape_good(t) ? sw_alloc(1, sizeof **frozen) : NULL;
-    if (!*frozen) {
-      sw_tape_fail(t, SW_ENOMEM);
-      return;
-    }
-    (*frozen)->references = 1;
-  }
-  if (*frozen) tape_fields(t, *frozen);
+  if (!sw_tape_object(t, frozen, sizeof **frozen)) return;
+  if (sw_tape_reads(t)) (*frozen)->references = 1;
+  tape_fields(t, *frozen);
 }
 
 int sw_frozen_fits(const sw_frozen *f, const sw_scene *s) {

@@ -3,7 +3,6 @@
 #include "grip/tool.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "body/build.h"
 #include "body/hold.h"

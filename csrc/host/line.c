@@ -2,7 +2,6 @@
 /* The line editor: GNU readline on a terminal, plain reading elsewhere.
  * readline's own loop cannot cancel a line at a signal, so this loop passes it key
  * by key. SIGINT is unblocked only while waiting for a key; so no Ctrl-C is missed. */
-#include <errno.h>
 #include <lauxlib.h>
 #include <locale.h>
 #include <poll.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Small dense symmetric eigenproblems. For csrc/modal only. */
+/* Small dense symmetric eigenproblems. */
 #ifndef SW_MODAL_EIGEN_H
 #define SW_MODAL_EIGEN_H
 

@@ -55,13 +55,25 @@ sw_status sw_scene_wire_beam(sw_scene *s, sw_handle h, sw_beam *out, sw_error *e
   return SW_OK;
 }
 
+static sw_status state_at(const sw_scene *s, sw_handle h, const sw_scene_wire *w, double place,
+                          sw_point_state *out, sw_error *err) {
+  SW_TRY(sw_scene_check_place(w, place, err));
+  sw_body_class_of(w)->at(s, w, &sw_scene_system(s)->bodies[h.slot], place + w->mesh.s[0], out);
+  return SW_OK;
+}
+
 sw_status sw_scene_wire_at(sw_scene *s, sw_handle h, double place, sw_point_state *out,
                            sw_error *err) {
   sw_scene_wire *w;
   SW_TRY(sw_scene_open_wire(s, h, &w, err));
-  SW_TRY(sw_scene_check_place(w, place, err));
-  sw_body_class_of(w)->at(s, w, &sw_scene_system(s)->bodies[h.slot], place + w->mesh.s[0], out);
-  return SW_OK;
+  return state_at(s, h, w, place, out, err);
+}
+
+sw_status sw_scene_wire_motion(sw_scene *s, sw_handle h, double place, sw_point_state *out,
+                               sw_error *err) {
+  sw_scene_wire *w;
+  SW_TRY(sw_scene_open_places(s, h, &w, err));
+  return state_at(s, h, w, place, out, err);
 }
 
 sw_status sw_scene_wire_copy(sw_scene *s, sw_handle h, double *positions, double *arc,

@@ -11,6 +11,9 @@ sw_status sw_scene_wire_nodes(sw_scene *scene, sw_handle wire, size_t *nodes, sw
 sw_status sw_scene_wire_beam(sw_scene *scene, sw_handle wire, sw_beam *out, sw_error *err);
 sw_status sw_scene_wire_at(sw_scene *scene, sw_handle wire, double s, sw_point_state *out,
                            sw_error *err);
+/* The same; only position, tangent and velocity are valid. Cheaper after forces were added. */
+sw_status sw_scene_wire_motion(sw_scene *scene, sw_handle wire, double s, sw_point_state *out,
+                               sw_error *err);
 /* Copies node positions (n x 3), arc lengths (n) and velocities (n x 3); each may be NULL. */
 sw_status sw_scene_wire_copy(sw_scene *scene, sw_handle wire, double *positions, double *s,
                              double *velocities, sw_error *err);

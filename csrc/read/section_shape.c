@@ -85,7 +85,7 @@ static void torsion(const spot *p, sw_section_shape *out) {
   sw_vec t = sw_strand_facing(w, p->x, start), u = sw_perpendicular(t);
   double before = sw_strand_turned(w, p->x, start, t, u), sum = 0, ends[2] = {0, 0},
          rate[2] = {0, 0};
-  u = sw_madd(sw_scale(u, cos(before)), sw_cross(t, u), sin(before));
+  u = sw_turned(u, t, before);
   before = 0;
   sw_vec carried = u;
   for (size_t r = start + 1; r <= last && r < w->rings && sw_web_is_ring(w, r); r++) {
@@ -103,8 +103,7 @@ static void torsion(const spot *p, sw_section_shape *out) {
   out->turn = ends[0] + p->f * (ends[1] - ends[0]);
   out->twist_rate = rate[0] + p->between * (rate[1] - rate[0]);
   carried = sw_carry_unit(carried, sw_strand_facing(w, p->x, p->ring), out->tangent);
-  out->axis =
-      sw_madd(sw_scale(carried, cos(out->turn)), sw_cross(out->tangent, carried), sin(out->turn));
+  out->axis = sw_turned(carried, out->tangent, out->turn);
 }
 
 /* --- strain ------------------------------------------------------------------------- */

@@ -7,7 +7,6 @@
 #include "remodel/remodel.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/alloc.h"
 #include "body/build.h"

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "body/build.h"
 #include "body/hold.h"
 #include "body/touching.h"
 #include "link/joint.h"
@@ -154,6 +155,7 @@ sw_status sw_scene_save(sw_scene *s, const void *note, size_t note_size, unsigne
   sw_error why = {""};
   SW_TRY(sw_scene_ready(s, err));
   SW_TRY(check_functions(s, err));
+  if (s->waiting) SW_TRY(sw_scene_unbuild(s));
   if (s->built) sw_scene_undo_holds(s);
   sw_tape t = sw_tape_writer(&why);
   write_all(&t, s, note, note_size);

@@ -62,14 +62,10 @@ void sw_tape_beam_of(sw_tape *t, sw_scene_wire *x) {
 }
 
 void sw_tape_wire(sw_tape *t, sw_scene_wire *x, int placed) {
-  char word[SW_NAME_SIZE];
   SW_TAPE_STRUCT(t, sw_scene_wire, 1160);
   SW_TAPE_STRUCT(t, sw_twisted, 24);
   UINT32(generation), SIZE(number), NAME(name);
-  if (!sw_tape_address(t, &x->cls)) {
-    const char *model = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
-    if (sw_tape_reads(t)) x->cls = sw_scene_body_class(model);
-  }
+  SW_TAPE_CLASS(t, x->cls, sw_scene_body_class);
   sw_tape_expect(t, x->cls != NULL, "a wire of an unknown model");
   sw_tape_beam_of(t, x);
   sw_tape_mesh(t, &x->mesh, placed);
@@ -107,13 +103,9 @@ static void tape_sums(sw_tape *t, sw_hold_sums *x) {
 }
 
 void sw_tape_hold(sw_tape *t, sw_scene *s, sw_hold *x) {
-  char word[SW_NAME_SIZE];
   SW_TAPE_STRUCT(t, sw_hold, 1632); /* node, number and rail are set when it is built */
   UINT32(generation), INT(alive), NAME(name);
-  if (!sw_tape_address(t, &x->cls)) {
-    const char *kind = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
-    if (sw_tape_reads(t)) x->cls = sw_link_find(kind);
-  }
+  SW_TAPE_CLASS(t, x->cls, sw_link_find);
   sw_tape_expect(t, x->cls && x->cls->hold, "a clamp of an unknown kind");
   SIZE(wire), DOUBLE(scale), UINT32(shape), INT(formed), DOUBLE(s1), DOUBLE(s2);
   sw_tape_hold_args(t, &x->args);
@@ -180,13 +172,9 @@ static void tape_force_args(sw_tape *t, sw_scene_force *x) {
 }
 
 void sw_tape_force(sw_tape *t, sw_scene_force *x) {
-  char word[SW_NAME_SIZE];
   SW_TAPE_STRUCT(t, sw_scene_force, 248);
   UINT32(generation), INT(alive), NAME(name), sw_tape_long(t, &x->wire), DOUBLE(scale);
-  if (!sw_tape_address(t, &x->cls)) {
-    const char *kind = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
-    if (sw_tape_reads(t)) x->cls = sw_force_find(kind);
-  }
+  SW_TAPE_CLASS(t, x->cls, sw_force_find);
   sw_tape_expect(t, x->cls != NULL, "a force of an unknown kind");
   sw_tape_expect(t, isfinite(x->scale) && x->scale > 0, "a force without scale");
   if (x->cls) tape_force_args(t, x);

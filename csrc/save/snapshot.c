@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Snapshots: the scene on a tape that stays in the process. Restoring gives the same bits as if
  * nothing had happened in between. */
-#include <string.h>
 
 #include "base/alloc.h"
 #include "body/build.h"
@@ -111,7 +110,7 @@ sw_status sw_scene_snapshot(sw_scene *s, sw_snapshot **out, sw_error *err) {
 /* 1 if the built system is still the snapshot's. A feed moves its nodes, so with a feed it is
  * not. */
 static int same_system(const sw_scene *s, const sw_snapshot *p) {
-  if (!s->built || s->build != p->build || s->hold_count != p->holds) return 0;
+  if (!sw_scene_is_built(s) || s->build != p->build || s->hold_count != p->holds) return 0;
   SW_EACH(hold, h, s)
     if (h->alive && sw_hold_passes(h)) return 0;
   return s->obstacle_count == p->obstacles && s->tool_count == p->tools &&

@@ -65,6 +65,8 @@ sw_mutual *sw_scene_pairs(const sw_scene *scene);
 sw_mutual *sw_scene_grains(const sw_scene *scene);
 sw_crowd *sw_scene_crowd(const sw_scene *scene);
 int sw_scene_is_built(const sw_scene *scene); /* 1: the system is valid and holds the state */
+/* The same, but forces may be missing in it: nodes are where they are. */
+int sw_scene_is_placed(const sw_scene *scene);
 
 /* The scene's steps, energy, events, and the lists of lists.h. */
 sw_course *sw_scene_course(const sw_scene *scene);

@@ -39,6 +39,7 @@ struct sw_scene {
   double part;              /* share of their way [-] */
 
   int built;     /* system is valid and holds the state */
+  int waiting;   /* 1: built, but forces have been added that the system does not have */
   size_t build;  /* number of the system; a copy of it has the same */
   size_t builds; /* numbers given so far */
   int running;   /* above 0 inside a step or a user's function: edits are refused */

@@ -196,15 +196,8 @@ static void release_web(void *web) { sw_web_release(web); }
 void sw_tape_web(sw_tape *t, sw_web **web, size_t shape_size) {
   static const sw_sharing sharing = {retain_web, release_web};
   if (sw_tape_share(t, web, &sharing)) return;
-  if (sw_tape_reads(t)) {
-    *web = sw_tape_good(t) ? sw_alloc(1, sizeof **web) : NULL;
-    if (!*web) {
-      sw_tape_fail(t, SW_ENOMEM);
-      return;
-    }
-    (*web)->references = 1;
-  }
-  if (!*web) return;
+  if (!sw_tape_object(t, web, sizeof **web)) return;
+  if (sw_tape_reads(t)) (*web)->references = 1;
   SW_TAPE_STRUCT(t, sw_web_link, 24);
   SW_TAPE_STRUCT(t, sw_web_fold, 32);
   SW_TAPE_STRUCT(t, sw_web_solid, 40);
@@ -247,14 +240,8 @@ static void release_plan(void *plan) { sw_plan_release(plan); }
 void sw_tape_plan(sw_tape *t, sw_plan **plan, sw_web *own, size_t shape_size) {
   static const sw_sharing sharing = {retain_plan, release_plan};
   if (sw_tape_share(t, plan, &sharing)) return;
-  if (sw_tape_reads(t)) {
-    *plan = sw_tape_good(t) ? sw_alloc(1, sizeof **plan) : NULL;
-    if (!*plan) {
-      sw_tape_fail(t, SW_ENOMEM);
-      return;
-    }
-    (*plan)->references = 1;
-  }
+  if (!sw_tape_object(t, plan, sizeof **plan)) return;
+  if (sw_tape_reads(t)) (*plan)->references = 1;
   sw_plan *x = *plan;
   SW_TAPE_STRUCT(t, sw_plan, 240);
   SW_TAPE_STRUCT(t, sw_clamp_hinge, 48);

@@ -48,18 +48,27 @@ static sw_vec way(double x, double y, sw_vec u, sw_vec v) {
   return sw_unit_or(sw_madd(sw_scale(u, x), v, y), u);
 }
 
-/* Returns the widths of points given in axes u and v, and sorts these; hull: room for 2 n. */
+/* From this many corners on a hull is that of a smooth curve. */
+enum { MANY = 64 };
+
+/* Returns the widths of points given in axes u and v, and sorts these; hull: room for 2 n. Round a
+ * smooth hull the corner farthest from a side goes on from side to side. Of a few corners all are
+ * looked at, since on flat sides rounding makes some stand out. */
 static sw_widths widths(point *p, size_t count, point *hull, sw_vec u, sw_vec v) {
   sw_widths out = {.least = HUGE_VAL, .least_way = u, .largest_way = u};
-  const size_t n = hull_of(p, count, hull);
+  const size_t n = hull_of(p, count, hull), ahead = n < MANY ? n : 2;
   double largest2 = 0;
-  for (size_t i = 0; i < n; i++) {
+  for (size_t i = 0, far = 1; i < n; i++) {
     const point a = hull[i], b = hull[(i + 1) % n];
     const double side = hypot(b.x - a.x, b.y - a.y);
-    double wide = 0;
-    for (size_t k = 0; k < n; k++) {
-      const double dx = hull[k].x - a.x, dy = hull[k].y - a.y, far2 = dx * dx + dy * dy;
-      wide = fmax(wide, turn(a, b, hull[k]));
+    const size_t first = ahead == n ? 0 : far - 1;
+    double wide = turn(a, b, hull[far % n]);
+    for (size_t k = far + 1; k <= far + ahead; k++) {
+      const double more = turn(a, b, hull[k % n]);
+      if (more > wide) wide = more, far = k;
+    }
+    for (size_t k = first; k < (ahead == n ? n : far + 2); k++) {
+      const double dx = hull[k % n].x - a.x, dy = hull[k % n].y - a.y, far2 = dx * dx + dy * dy;
       if (far2 <= largest2) continue;
       largest2 = far2;
       out.largest_way = way(dx, dy, u, v);
@@ -127,7 +136,7 @@ static size_t even(size_t n) { return n + n % 2; }
 double sw_outline_ovalisation(const sw_web *w, const double *outline, sw_vec tangent) {
   point p[SW_OUTLINE], fine[FINE + 2 * SW_OUTLINE], hull[2 * (FINE + 2 * SW_OUTLINE)];
   const sw_vec u = sw_perpendicular(tangent), v = sw_cross(tangent, u);
-  const size_t n = w->around_count, times = is_round(w) ? even((FINE + n - 1) / n) : 1;
+  const size_t n = w->around_count, times = n && is_round(w) ? even((FINE + n - 1) / n) : 1;
   flatten(outline, n, u, v, p);
   const size_t all = smooth(p, n, times, fine);
   const sw_widths wide = widths(fine, all, hull, u, v);
@@ -136,8 +145,7 @@ double sw_outline_ovalisation(const sw_web *w, const double *outline, sw_vec tan
   return fmax(0.0, wide.largest - least) / (wide.largest + least + 4.0 * (w->skin - w->proud));
 }
 
-/* Returns the second harmonic of the section over the first: approximately the ovalisation, at
- * little cost. */
+/* Returns the second harmonic of the section over the first: approximately the ovalisation. */
 static double out_of_round(const sw_web *w, const double *outline, sw_vec tangent) {
   point p[SW_OUTLINE];
   const sw_vec u = sw_perpendicular(tangent), v = sw_cross(tangent, u);
@@ -153,7 +161,35 @@ static double out_of_round(const sw_web *w, const double *outline, sw_vec tangen
   return hypot(mirrored[0], mirrored[1]) / hypot(same[0], same[1]);
 }
 
-sw_extreme sw_strand_ovalisation(const sw_web *w, const double *x) {
+/* Returns the amplitude of a harmonic of n points; roots: powers of the n-th root of 1. */
+static double amplitude(const point *p, size_t n, size_t harmonic, const point *roots) {
+  point sum = {0, 0};
+  for (size_t k = 0; k < n; k++) {
+    const point c = roots[harmonic * k % n];
+    sum.x += p[k].x * c.x + p[k].y * c.y, sum.y += p[k].y * c.x - p[k].x * c.y;
+  }
+  return hypot(sum.x, sum.y) / (double)n;
+}
+
+/* More than 1 / cos(pi / FINE), for sides of the smooth curve are chords [-]. */
+static const double CHORDS = 1.001;
+
+/* Returns an upper bound of the ovalisation of a section that is round at rest, at little cost:
+ * each harmonic of its smooth curve changes the circle's widths by twice its amplitude at most. */
+static double bound_of(const sw_web *w, const double *outline, sw_vec tangent, const point *roots) {
+  point p[SW_OUTLINE];
+  const sw_vec u = sw_perpendicular(tangent);
+  const size_t n = w->around_count;
+  double others = 0;
+  flatten(outline, n, u, sw_cross(tangent, u), p);
+  const double circle = amplitude(p, n, 1, roots);
+  for (size_t h = 2; h < n; h++) others += amplitude(p, n, h, roots);
+  others *= CHORDS;
+  return others < circle ? others / (circle + w->skin - w->proud) : HUGE_VAL;
+}
+
+/* Returns the ring that is likely to be the most oval. */
+static size_t likely_ring(const sw_web *w, const double *x) {
   double outline[3 * SW_OUTLINE], most = -1;
   size_t ring = 0;
   for (size_t r = 0; r < w->rings; r++) {
@@ -162,9 +198,33 @@ sw_extreme sw_strand_ovalisation(const sw_web *w, const double *x) {
     const double now = out_of_round(w, outline, sw_strand_facing(w, x, r));
     if (now > most) most = now, ring = r;
   }
-  sw_strand_outline(w, x, ring, outline);
-  return (sw_extreme){.value = sw_outline_ovalisation(w, outline, sw_strand_facing(w, x, ring)),
-                      .s = w->s[w->first[ring]]};
+  return ring;
+}
+
+/* Ovalisations that differ by less are equal: rounding makes them in round sections [-]. */
+static const double SAME = 1e-9;
+
+sw_extreme sw_strand_ovalisation(const sw_web *w, const double *x) {
+  double outline[3 * SW_OUTLINE];
+  point roots[SW_OUTLINE];
+  const size_t n = w->around_count, likely = likely_ring(w, x);
+  const int round = is_round(w);
+  for (size_t k = 0; k < n; k++) {
+    const double angle = 2 * M_PI * (double)k / (double)n;
+    roots[k] = (point){cos(angle), sin(angle)};
+  }
+  sw_strand_outline(w, x, likely, outline);
+  sw_extreme most = {.value = sw_outline_ovalisation(w, outline, sw_strand_facing(w, x, likely)),
+                     .s = w->s[w->first[likely]]};
+  for (size_t r = 0; r < w->rings; r++) {
+    if (r == likely || !sw_web_is_ring(w, r)) continue;
+    const sw_vec tangent = sw_strand_facing(w, x, r);
+    sw_strand_outline(w, x, r, outline);
+    if (round && bound_of(w, outline, tangent, roots) <= most.value + SAME) continue;
+    const double now = sw_outline_ovalisation(w, outline, tangent);
+    if (now > most.value + SAME) most = (sw_extreme){.value = now, .s = w->s[w->first[r]]};
+  }
+  return most;
 }
 
 /* Returns the distance of p from the side a-b [m]. */

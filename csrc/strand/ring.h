@@ -25,8 +25,7 @@ typedef struct sw_widths {
 } sw_widths;
 enum { SW_OUTLINE = SW_CELL_PARTICLES }; /* most points of an outline [-] */
 sw_widths sw_outline_widths(const double *outline, size_t count, sw_vec tangent);
-/* Ovalisation, see sw_section_shape: of one outline, and of the ring of a wire that is most out of
- * round [-]. */
+/* Ovalisation, see sw_section_shape: of one outline, and of a wire's most oval ring [-]. */
 double sw_outline_ovalisation(const sw_web *web, const double *outline, sw_vec tangent);
 sw_extreme sw_strand_ovalisation(const sw_web *web, const double *x);
 /* For a hollow section of one layer at s: returns the least distance of facing walls, 0 if they

@@ -14,14 +14,8 @@ static void tape_calibrated(sw_tape *t, sw_strand_calibrated **calibrated) {
   SW_TAPE_STRUCT(t, sw_strand_calibrated, 1296);
   sw_tape_int(t, &there);
   if (!there) return;
-  if (sw_tape_reads(t)) {
-    *calibrated = sw_tape_good(t) ? sw_alloc(1, sizeof **calibrated) : NULL;
-    if (!*calibrated) {
-      sw_tape_fail(t, SW_ENOMEM);
-      return;
-    }
-    (*calibrated)->references = 1;
-  }
+  if (!sw_tape_object(t, calibrated, sizeof **calibrated)) return;
+  if (sw_tape_reads(t)) (*calibrated)->references = 1;
   sw_tape_calibration(t, &(*calibrated)->calibration);
 }
 

@@ -8,7 +8,6 @@
 #include "base/each.h"
 #include "body/hold.h"
 #include "body/obstacle_log.h"
-#include "edit/forces.h"
 #include "grip/tool.h"
 #include "link/hold.h"
 #include "link/joint.h"

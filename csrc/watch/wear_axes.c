@@ -6,10 +6,6 @@
 #include "state/hinge.h"
 #include "watch/wear.h"
 
-static sw_vec turned(sw_vec u, sw_vec t, double angle) {
-  return sw_madd(sw_scale(u, cos(angle)), sw_cross(t, u), sin(angle));
-}
-
 /* Returns a direction that moves with the hold, carried to the edge beside it. */
 static sw_vec from_hold(const sw_system *s, const sw_body *b, const sw_clamp_hinge *c) {
   const size_t at = sw_clamp_place(c);
@@ -44,7 +40,7 @@ static void twist_spans(const sw_system *s, const sw_body *b, sw_vec *across) {
     for (size_t e = span->first; e <= span->last && length > 0; e++) {
       const double share = (0.5 * (p->s[e] + p->s[e + 1]) - from) / length;
       across[e] =
-          turned(across[e], sw_field_tangent(&b->field, e), share * s->twist[b->first_span + k]);
+          sw_turned(across[e], sw_field_tangent(&b->field, e), share * s->twist[b->first_span + k]);
     }
   }
 }

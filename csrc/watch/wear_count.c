@@ -22,7 +22,7 @@ static void turn_place(sw_wear_place *x, sw_vec tangent, sw_vec across, int anew
     x->turn = angle_from(across, was, tangent);
   }
   x->seen = 1, x->tangent = tangent;
-  x->across = sw_madd(sw_scale(across, cos(x->turn)), sw_cross(tangent, across), sin(x->turn));
+  x->across = sw_turned(across, tangent, x->turn);
 }
 
 static void count_place(sw_cycles *c, const sw_wear_place *x, double tension, sw_vec bend) {

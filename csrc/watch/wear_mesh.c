@@ -17,8 +17,7 @@
 
 static sw_vec section_axis(const sw_web *w, const double *x, size_t r) {
   const sw_vec t = sw_strand_facing(w, x, r), u = sw_perpendicular(t);
-  const double turn = sw_strand_turned(w, x, r, t, u);
-  return sw_madd(sw_scale(u, cos(turn)), sw_cross(t, u), sin(turn));
+  return sw_turned(u, t, sw_strand_turned(w, x, r, t, u));
 }
 
 static void carry(const sw_web *w, const double *x, size_t from, size_t to, sw_vec *across) {

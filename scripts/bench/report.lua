@@ -8,9 +8,9 @@ local report = {}
 
 report.aims = { size = 2.5e6, write = 1.5, picture = 1.5, tube = 1e-3 } -- [B], [s], [s], [s]
 
---- Runs a wire of 500 nodes that is drawn over three walls, with so many frames and 13 or more series.
-function report.run(frames)
-  local scene = sw.scene{ name = "report" }
+--- Returns a scene with a table, three walls, a wire of 500 nodes and a gripper.
+function report.scene(name)
+  local scene = sw.scene{ name = name }
   scene:obstacle{ name = "table", shape = "plane", friction = 0.3 }
   for i, x in ipairs{ 0.15, 0.45, 0.75 } do
     scene:obstacle{ name = "wall " .. i, shape = "box", size = { 0.01, 1, 0.1 }, at = { x, 0, 0.05 },
@@ -19,7 +19,12 @@ function report.run(frames)
   local wire = scene:wire{ name = "wire", E = 50e6, density = 1500, radius = 0.0025, segments = 499,
     from = { 0, 0, 0.0025 }, to = { -1.25, 0, 0.0025 } }
   scene:force{ kind = "damping", on = wire, stiffness = 5e-3 }
-  local hand = scene:gripper{ name = "hand" }
+  return scene, wire, scene:gripper{ name = "hand" }
+end
+
+--- Runs a wire that is drawn over the walls, with so many frames and 13 or more series.
+function report.run(frames)
+  local scene, wire, hand = report.scene "report"
   scene:process(function(p)
     hand:grasp(wire, { s = 0.03 })
     hand:move{ by = { 0.1, 0, 0.15 }, speed = 0.25 }

@@ -2,24 +2,16 @@
 --- Cost of a live view for a run: CPU time of the whole program, with its server's threads, without a view,
 -- with a view that no page opens, and with one page that takes 30 frames a second.
 -- @module bench.view
+local report = require "bench.report"
 local sw = require "softworld"
 
 local view = {}
 
 view.aim = 0.03 -- extra CPU time with one page over the run's [-]
 
--- Returns a scene in which a wire of 500 nodes is drawn over three walls, for some seconds of CPU time.
+-- Returns a scene in which a wire is drawn over three walls, for some seconds of CPU time.
 local function scene_of()
-  local scene = sw.scene{ name = "view" }
-  scene:obstacle{ name = "table", shape = "plane", friction = 0.3 }
-  for i, x in ipairs{ 0.15, 0.45, 0.75 } do
-    scene:obstacle{ name = "wall " .. i, shape = "box", size = { 0.01, 1, 0.1 }, at = { x, 0, 0.05 },
-      friction = 0.3 }
-  end
-  local wire = scene:wire{ name = "wire", E = 50e6, density = 1500, radius = 0.0025, segments = 499,
-    from = { 0, 0, 0.0025 }, to = { -1.25, 0, 0.0025 } }
-  scene:force{ kind = "damping", on = wire, stiffness = 5e-3 }
-  local hand = scene:gripper{ name = "hand" }
+  local scene, wire, hand = report.scene "view"
   scene:process(function()
     hand:grasp(wire, { s = 0.03 })
     hand:move{ by = { 0.1, 0, 0.15 }, speed = 0.25 }

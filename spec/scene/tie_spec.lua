@@ -26,6 +26,52 @@ describe("a tie to a point", function()
     assert.is_true(run.ok or #run.reason > 20)
   end)
 
+  -- A reading of forces between two ties makes the scene's system anew, a reading of places does not. The
+  -- ties, a save and a snapshot between them do not depend on that.
+  it("is the same whether or not something was read before the next one", function()
+    local function hung(between)
+      local scene = sw.scene{}
+      local wire, ties, kept = rod(scene), {}, nil
+      scene:obstacle{ shape = "plane", at = { 0, 0, -0.005 } }
+      t.fine(scene:run{ duration = 0.02, dt = 5e-3 })
+      for k = 1, 12 do
+        ties[k] = scene:tie(wire, { s = k / 31, slack = k % 3 == 0 and 0.001 or nil })
+        if k == 6 then kept = scene:snapshot() end
+        between(scene, wire, k)
+      end
+      t.fine(scene:run{ duration = 0.02, dt = 5e-3 })
+      local at, pull = wire:positions(), {}
+      for k, tie in ipairs(ties) do pull[k] = tie:tension() end
+      scene:restore(kept)
+      t.fine(scene:run{ duration = 0.02, dt = 5e-3 })
+      return { at, pull, (wire:positions()) }
+    end
+    local plain = hung(function() end)
+    assert.same(plain, hung(function(scene) scene:energy() end))
+    assert.same(plain, hung(function(_, wire) wire:tension(0.1) end))
+    assert.same(plain, hung(function(scene, wire, k)
+      if k == 4 then assert.equal(0, scene:contacts()) end
+      if k == 8 then
+        local path = os.tmpname()
+        scene:save(path)
+        os.remove(path)
+      end
+      wire:velocity(0.1)
+    end))
+  end)
+
+  -- 48 times the time if each tie has the others built in anew.
+  it("takes as long as any other, however many there are", function()
+    local function seconds(count)
+      local scene = sw.scene{}
+      local wire, start = rod(scene, { segments = 200 }), os.clock()
+      for k = 1, count do scene:tie(wire, { s = 0.4 * (k - 0.5) / count }) end
+      return os.clock() - start
+    end
+    local few, many = seconds(250), seconds(1000)
+    assert(many < 16 * few, ("%.3g s for 250 ties, %.3g s for 1000"):format(few, many))
+  end)
+
   -- Two ties at its quarters hang a rod up. Each bears half of m g and stretches by that over its
   -- stiffness. Each s lies between nodes, which must not matter.
   for _, model in ipairs{ "string", "rod" } do
