@@ -50,7 +50,8 @@ static int is_squeezed(const sw_mutual *m, const sw_system *s, const sw_met *met
   return met->kept.normal_force > 0 || met->kept.left > 0;
 }
 
-double sw_meet_axial(const sw_system *s, const sw_meet *t) {
+/* Axial stiffness of the softer of both edges [N/m]. */
+static double axial_of(const sw_system *s, const sw_meet *t) {
   return fmin(sw_contact_edge_stiffness(s, t->of.body[0], t->of.node[0]),
               sw_contact_edge_stiffness(s, t->of.body[1], t->of.node[1]));
 }
@@ -154,6 +155,19 @@ void sw_meet_add(sw_mutual *m, const sw_system *s, const double *y, sw_meet *t, 
   m->touch_count++;
 }
 
+sw_met sw_meet_remember(const sw_system *s, const sw_meet *t) {
+  const double deepest = sw_meet_deepest(t);
+  sw_met out = {.of = t->of,
+                .kind = t->kind,
+                .at = {t->at[0], t->at[1]},
+                .kept = sw_press_keep(&t->press, t->usual, t->stiffer, deepest),
+                .normal = t->press.normal,
+                .emerges = t->let_out > 0 || (t->emerges && t->forgiven > 0)};
+  out.kept.left = t->left;
+  if (t->squeezed) sw_kept_harden(&out.kept, axial_of(s, t), deepest);
+  return out;
+}
+
 /* Axes further apart than this share of the sum of radii did not pass each other in this iteration.
  * The limit is needed because in a knot normals turn by more than a right angle within two segments
  * [-]. */
@@ -205,7 +219,7 @@ static int stiffen(sw_mutual *m, const sw_system *s) {
     double before = fmax(0.0, t->reach - sw_dot(t->square, sw_bows_apart(s->x, t->bow)));
     before = t->squeezed ? sw_press_squeezed(t->forgiven, before, deepest) : small ? before : -1.0;
     t->stiffer =
-        sw_press_stiffer(&t->press, t->usual, sw_meet_axial(s, t), deepest, t->forgiven, before);
+        sw_press_stiffer(&t->press, t->usual, axial_of(s, t), deepest, t->forgiven, before);
     any |= t->stiffer > t->press.k;
   }
   return any;

@@ -56,9 +56,6 @@ static inline double sw_meet_deepest(const sw_meet *t) {
   return sw_depth_for(SW_DEEPEST, 0.5 * t->reach);
 }
 
-/* Axial stiffness of the softer of both edges [N/m]. */
-double sw_meet_axial(const sw_system *system, const sw_meet *touch);
-
 /* Memory of a touch between steps. */
 typedef struct sw_met {
   sw_ends of;
@@ -69,6 +66,9 @@ typedef struct sw_met {
   int emerges;
   int smooth; /* 1: smooth curves met there */
 } sw_met;
+
+/* Makes the memory of a touch at a step's end. */
+sw_met sw_meet_remember(const sw_system *system, const sw_meet *touch);
 
 /* A touch that pressed at the end of a stage and may have struck. */
 typedef struct sw_hit {

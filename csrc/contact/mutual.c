@@ -209,14 +209,7 @@ void sw_mutual_commit(sw_mutual *m, sw_system *s) {
                 sizeof *m->next_memory) != SW_OK)
       break; /* a lost anchor just begins again */
     sw_met *out = &m->next_memory[m->next_count++];
-    *out = (sw_met){.of = t->of,
-                    .kind = t->kind,
-                    .at = {t->at[0], t->at[1]},
-                    .kept = sw_press_keep(&t->press, t->usual, t->stiffer, sw_meet_deepest(t)),
-                    .normal = t->press.normal,
-                    .emerges = t->let_out > 0 || (t->emerges && t->forgiven > 0)};
-    out->kept.left = t->left;
-    if (t->squeezed) sw_kept_harden(&out->kept, sw_meet_axial(s, t), sw_meet_deepest(t));
+    *out = sw_meet_remember(s, t);
     if (m->finder->note) m->finder->note(m, s, t, out);
   }
   SW_SWAP(m->memory, m->next_memory);
