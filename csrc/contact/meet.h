@@ -51,7 +51,7 @@ typedef struct sw_meet {
   sw_press press;  /* its normal points towards the first thing */
 } sw_meet;
 
-/* Depth that the touch may have [m]. */
+/* Depth that the touch may have within a step [m]. */
 static inline double sw_meet_deepest(const sw_meet *t) {
   return sw_depth_for(SW_DEEPEST, 0.5 * t->reach);
 }

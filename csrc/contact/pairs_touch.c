@@ -135,17 +135,41 @@ static double along(const double *y, uint32_t e, sw_vec q) {
  * point is the middle of a circle that the wire goes round. */
 static const double AT_JOINT = 0.25;
 
-/* Finds the place along segment e of a wire nearest to point q. Returns 1 if it belongs to this
- * segment: beside it, at its first node if the segment before does not reach it, or beyond the
- * wire's end. */
-static int beside(const sw_system *s, uint32_t body, uint32_t e, const double *y, sw_vec q,
-                  double *at) {
-  const double here = along(y, e, q);
-  *at = fmin(1.0, fmax(0.0, here));
+/* 1 if the place along segment e nearest to point q belongs to this segment: beside it, at its
+ * first node if the segment before does not reach it, or beyond the wire's end. */
+static int belongs(const sw_system *s, uint32_t body, uint32_t e, const double *y, sw_vec q,
+                   double here) {
   if (here >= 1) return is_last(s, body, e);
   if (here >= AT_JOINT || e == s->bodies[body].first_node) return 1;
   const double before = along(y, e - 1, q);
   return before >= 1 || (here > 0 && before < 1 - AT_JOINT);
+}
+
+/* A place this near to a joint, of a node that goes by less than SLOW beside it in the step, stays
+ * on the segment that it began on: passed from iterate to iterate between both, its depth would
+ * jump to and fro. Shares of an edge [-]. */
+static const double STAYS = 0.1, SLOW = 0.02;
+
+/* 1 if the place of node i, at `here` of segment e, stays on its segment. */
+static int stays(const sw_system *s, uint32_t body, uint32_t e, const double *y, uint32_t i,
+                 double here) {
+  const uint32_t joint = here > 0.5 ? e + 1 : e;
+  if (fabs(here - (double)(joint - e)) >= STAYS) return 0;
+  const sw_vec now = sw_sub(sw_vec_at(y, i), sw_vec_at(y, joint));
+  const sw_vec before = sw_sub(sw_vec_at(s->x, i), sw_vec_at(s->x, joint));
+  const sw_body *b = &s->bodies[body];
+  return sw_dist(now, before) < SLOW * b->plan->length / (double)b->plan->edges;
+}
+
+/* Finds the place along segment e of a wire nearest to node i. Returns 1 if it belongs to this
+ * segment. */
+static int beside(const sw_system *s, uint32_t body, uint32_t e, const double *y, uint32_t i,
+                  double *at) {
+  const sw_vec q = sw_vec_at(y, i), q0 = sw_vec_at(s->x, i);
+  const double here = along(y, e, q);
+  *at = fmin(1.0, fmax(0.0, here));
+  if (!stays(s, body, e, y, i, here)) return belongs(s, body, e, y, q, here);
+  return belongs(s, body, e, s->x, q0, along(s->x, e, q0));
 }
 
 /* Adds the touches of parallel segments: each segment's first node against the other one, and at a
@@ -156,12 +180,12 @@ static sw_status touch_parallel(sw_pairs *p, const sw_system *s, const sw_pair *
                             1u + (uint32_t)is_last(s, k->body[1], k->two)};
   double at[2];
   for (uint32_t end = 0; end < ends[0]; end++)
-    if (beside(s, k->body[1], k->two, y, sw_vec_at(y, k->one + end), &at[1])) {
+    if (beside(s, k->body[1], k->two, y, k->one + end, &at[1])) {
       at[0] = end;
       SW_TRY(touch_at(p, s, k, y, SW_NODE_OF_ONE, at, 0, at[1] > 0 && at[1] < 1));
     }
   for (uint32_t end = 0; end < ends[1]; end++)
-    if (beside(s, k->body[0], k->one, y, sw_vec_at(y, k->two + end), &at[0])) {
+    if (beside(s, k->body[0], k->one, y, k->two + end, &at[0])) {
       at[1] = end;
       SW_TRY(touch_at(p, s, k, y, SW_NODE_OF_TWO, at, at[0] > 0 && at[0] < 1, 0));
     }
