@@ -54,8 +54,9 @@ sw_status sw_broad_place(sw_contact *c, double t, sw_contact_at *out, sw_error *
  * start. Returns SW_ENOMEM or SW_EINTR on failure. */
 sw_status sw_broad_update(sw_contact *c);
 
-/* Returns the obstacles within reach of the box; their own motion in the step is added to the reach. The list is in the order of obstacles and valid until the next search. Adds
- * the number of boxes looked at to *looks. */
+/* Returns the obstacles within reach of the box; their own motion in the step is added to the
+ * reach. The list is in the order of obstacles and valid until the next search. Adds the number of
+ * boxes looked at to *looks. */
 const int *sw_broad_near(sw_broad *broad, const sw_bounds *box, double reach, size_t *count,
                          size_t *looks);
 

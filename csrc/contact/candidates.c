@@ -7,8 +7,8 @@
 #include "base/interrupt.h"
 #include "contact/round.h"
 
-/* A wire at rest sinks in by this much, or less if it is thin, if one touch carries its whole weight
- * [m]. */
+/* A wire at rest sinks in by this much, or less if it is thin, if one touch carries its whole
+ * weight [m]. */
 static const double ALLOWED_PENETRATION = 20e-6;
 /* Stiffness over mass/hbar^2 in implicit steps. It is far above what the step resolves, so that the
  * gap closes to a thousandth of the free fall [-]. */

@@ -69,8 +69,9 @@ typedef struct sw_kept {
 #define SW_DEEPEST 50e-6
 #define SW_SHALLOW 0.004
 
-/* Allowed depths are those of wires at least this thick. Thinner ones are less deep, by the ratio of
- * their radius to this one: a wire of 0.05 mm radius would lie in the table by a tenth of it [m]. */
+/* Allowed depths are those of wires at least this thick. Thinner ones are less deep, by the ratio
+ * of their radius to this one: a wire of 0.05 mm radius would lie in the table by a tenth of it
+ * [m]. */
 #define SW_THIN 1e-3
 static inline double sw_depth_for(double depth, double radius) {
   return radius < SW_THIN ? depth * (radius / SW_THIN) : depth;

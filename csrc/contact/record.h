@@ -50,7 +50,7 @@ typedef struct sw_touch {
   double steady;   /* steady normal force [N] */
   sw_vec point;    /* on the obstacle, world [m] */
   sw_vec local;    /* the same in the obstacle's coordinates [m] */
-  sw_vec acts;     /* where the force acts: on the axis, or on a rolling wire's surface, world [m] */
+  sw_vec acts;     /* where the force acts: the axis, or a rolling surface, world [m] */
   double forgiven; /* part of the true depth that this step leaves alone [m] */
   double left;     /* part of forgiven that is left since the touch was made stiffer [m] */
   double let_out;  /* unexplained part of the true depth that this step removes [m] */

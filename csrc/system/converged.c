@@ -9,7 +9,8 @@
 #include "system/part.h"
 #include "system/rail.h"
 
-/* As fmax for numbers, without its call: these loops see each number of a wire in each iteration. */
+/* As fmax for numbers, without its call: these loops see each number of a wire in each iteration.
+ */
 static inline double larger(double most, double x) { return x > most ? x : most; }
 
 static double largest_shift(const sw_system *s) {
