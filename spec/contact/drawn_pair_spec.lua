@@ -8,8 +8,8 @@ local t = require "spec.physics.tools"
 
 local LENGTH, PULL = 0.2, 0.02 -- over the radius in mm [m]; of the length [-]
 
--- Returns the mean pull over EA times the stretch, the run's ledger, and the distance of the first two axes in
--- the middle over the radius.
+-- Returns the mean pull over EA times the stretch, the run's ledger, and the distance of the first two axes
+-- in the middle over the radius.
 local function drawn(r, strands, turns, segments, dt)
   local scene, k = sw.scene{}, r / 1e-3
   local L, wires, ends = LENGTH * k, {}, {}
@@ -38,9 +38,10 @@ local function drawn(r, strands, turns, segments, dt)
 end
 
 describe("twisted wires that are drawn taut", function()
-  for _, case in ipairs{ { 1.2e-3, 2, 3 }, { 1.2e-3, 2, 5 }, { 1.2e-3, 2, 8 }, { 1e-4, 2, 4 }, { 1e-3, 3, 3 } } do
+  for _, case in ipairs{ { 1.2e-3, 2, 3 }, { 1.2e-3, 2, 5 }, { 1.2e-3, 2, 8 }, { 1e-4, 2, 4 },
+    { 1e-3, 3, 3 } } do
     local r, strands, turns = table.unpack(case)
-    it(("need one pull at all steps and meshes: %d of %g mm radius, %d turns"):format(strands, r * 1e3, turns),
+    it(("need one pull at all steps and meshes: %d of %g mm, %d turns"):format(strands, r * 1e3, turns),
       function()
         local fine = drawn(r, strands, turns, 160, 0.002)
         for _, how in ipairs{ { 80, 0.01 }, { 120, 0.01 }, { 120, 0.002 }, { 80, 0.0005 } } do
