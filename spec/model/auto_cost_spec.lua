@@ -24,21 +24,11 @@ describe("model = 'auto', where poses of fine edges need many iterations,", func
   end)
 end)
 
--- Two wires hang one above the other and sag, so near that only touches show whether they meet. The
--- quantity differs from level to level, so that its bar is never short; computing touches changes it by
--- `change`.
+-- Two wires hang one above the other. The quantity differs from level to level, so that its bar is never
+-- short; computing touches changes it by `change`.
 local function beside(change)
   local scene = sw.scene { name = "beside" }
-  scene:force { kind = "damping", mass = 5 }
-  local a
-  for k, name in ipairs { "a", "b" } do
-    local z = 2.2 * rod.radius * (k - 1)
-    local w = rod.wire(scene, { name = name, from = { 0, 0, z }, to = { 0.6, 0, z } })
-    a = a or w
-    scene:clamp(w, { s = 0 })
-    scene:clamp(w, { s = 0.6 }):follow { relative = true, duration = 0.5,
-      points = { { 0, 0, 0 }, { -0.1, 0, 0 } } }
-  end
+  local a = rod.beside(scene, { relative = true, points = { { 0, 0, 0 }, { -0.1, 0, 0 } }, duration = 0.5 })
   local function odd()
     local level = math.tointeger(math.log(sw.core.segments(a) / 6, 2) // 1)
     return 1 + 0.02 * (level % 2) + (sw.core.data(scene).touching and change or 0)

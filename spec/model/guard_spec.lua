@@ -115,16 +115,8 @@ describe("a run that chose its model", function()
   -- depends on touches only if wires roll.
   it("decides the other choices again where one is given up", function()
     local scene, count = sw.scene { name = "both" }, 0
-    scene:force { kind = "damping", mass = 5 }
-    local a
-    for k, name in ipairs { "a", "b" } do
-      local z = 2.2 * rod.radius * (k - 1)
-      local w = rod.wire(scene, { name = name, from = { 0, 0, z }, to = { 0.6, 0, z } })
-      a = a or w
-      scene:clamp(w, { s = 0 })
-      scene:clamp(w, { s = 0.6 }):follow { relative = true, points = { { 0, 0, 0 }, { -0.1, 0, 0 } },
-        duration = 4, turn = { axis = { 1, 0, 0 }, angle = 1 } }
-    end
+    local a = rod.beside(scene, { relative = true, points = { { 0, 0, 0 }, { -0.1, 0, 0 } }, duration = 4,
+      turn = { axis = { 1, 0, 0 }, angle = 1 } })
     local table_ = scene:obstacle { name = "table", shape = "plane", friction = 0.3, at = { 0, 0, -0.3 } }
     scene:process(function(p)
       count = count + 1
