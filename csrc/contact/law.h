@@ -61,11 +61,12 @@ typedef struct sw_kept {
 } sw_kept;
 
 /* Depth that a touch may have [m]. A deeper touch is made stiffer until it is not deeper. Lines in
- * motion, and taut lines in statics, are less deep in obstacles, SW_SHALLOW of the radius [-]: with
- * SW_DEEPEST a stiff wire drawn through a narrow eyelet has a tension 10 % too low, with this 2 %;
- * with half of it the laying S3 costs 15 % more (spec/contact/eyelet_spec). Meshes and pads are
- * softer than that. In other statics and between wires a fifth of SW_DEEPEST would cost iterations,
- * and keep overlapping wires from coming out smoothly. */
+ * motion, and taut lines in statics, are less deep in obstacles, SW_SHALLOW of the radius [-], and
+ * so become lines that go on to press each other: with SW_DEEPEST a stiff wire drawn through a
+ * narrow eyelet has a tension 10 % too low, with this 2 %; with half of it the laying S3 costs 15 %
+ * more (spec/contact/eyelet_spec). Meshes and pads are softer than that. In other statics, and
+ * within a step between wires, a fifth of SW_DEEPEST would cost iterations, and keep overlapping
+ * wires from coming out smoothly. */
 #define SW_DEEPEST 50e-6
 #define SW_SHALLOW 0.004
 

@@ -3,6 +3,7 @@
  * an edge, and a taut wire, which cannot bend as much as it should, is stretched instead. */
 #include <math.h>
 
+#include "base/halving.h"
 #include "scene/events.h"
 #include "scene/parts.h"
 #include "scene/values.h"
@@ -17,9 +18,9 @@ static const double LONG = 0.8, FINE = 0.4;
 
 /* Returns the length of the edge at s [m]. */
 static double edge_at(const sw_plan *plan, double s) {
-  size_t e = 0;
-  while (e + 1 < plan->edges && plan->s[e + 1] <= s) e++;
-  return plan->rest[e];
+  size_t after;
+  SW_FIRST_NOT(plan->s[after] <= s, after, 1, plan->edges);
+  return plan->rest[after - 1];
 }
 
 void sw_scene_watch_edges(sw_scene *s, size_t wire, const sw_wire_extremes *now) {
