@@ -5,11 +5,10 @@
 
 #include "base/alloc.h"
 #include "base/interrupt.h"
+#include "contact/pads.h"
 #include "contact/round.h"
+#include "contact/same.h"
 
-/* A wire at rest sinks in by this much, or less if it is thin, if one touch carries its whole
- * weight [m]. */
-static const double ALLOWED_PENETRATION = 20e-6;
 /* Stiffness over mass/hbar^2 in implicit steps. It is far above what the step resolves, so that the
  * gap closes to a thousandth of the free fall [-]. */
 static const double IMPLICIT_SHARE = 1000.0;
@@ -109,22 +108,6 @@ static size_t other_end(const sw_plan *p, size_t i, int k) {
   return at < w->side_first[i + 1] ? w->side[at] : i;
 }
 
-/* If particles lie close enough, only particles meet a pad, not the edges between them. These edges
- * would leave and enter the pad's edges one by one, and the pad's force would jump. */
-static const double CLOSE = 3.0; /* least rings along the pad's face, its x and z [-] */
-
-/* The same for a line. A node at the edge of a pad comes and goes, and with it the force of a whole
- * segment. So a pad with faces has evenly spread samples, this many along its width, which fade out
- * at its edges. Pins touch at the nearest place. */
-static const double SAMPLES = 12.0; /* [-] */
-enum { LEAST_SAMPLES = 2 };         /* least samples of a segment [-] */
-
-/* Number of a pad's samples on segment i of a line; 0: none. */
-static int samples_of(const sw_plan *p, size_t i, double spaced) {
-  if (!(spaced > 0)) return 0;
-  return (int)fmin(SW_SAMPLES_MOST, fmax(LEAST_SAMPLES, ceil(p->rest[i] / spaced)));
-}
-
 static sw_status segment_candidates(sw_contact *c, const sw_system *s, size_t body, size_t i,
                                     size_t o, double reach) {
   const sw_body *b = &s->bodies[body];
@@ -138,24 +121,10 @@ static sw_status segment_candidates(sw_contact *c, const sw_system *s, size_t bo
     if (outside(&c->bounds[o], sw_sub(low_of(x, y), w), sw_add(high_of(x, y), w))) continue;
     SW_TRY(add_candidate(c, s, body, node, other, (int)o, k));
     sw_candidate *own = &c->candidates[c->candidate_count - 1];
-    own->samples = samples_of(b->plan, i, c->spaced[o]);
+    own->samples = sw_pad_samples(c, b->plan, i, o);
     if (own->samples) own->smooth = own->round = 0;
   }
   return SW_OK;
-}
-
-static void look_at_pads(sw_contact *c, const sw_plan *p) {
-  double widest = 0;
-  const int rings = p->web && p->web->per_ring && c->pad_count;
-  for (size_t i = 0; rings && i < p->nodes; i++) widest = fmax(widest, p->web->along[i]);
-  for (size_t k = 0; k < c->pad_count; k++) {
-    const int o = c->pads[k];
-    const sw_bounds b = sw_shape_bounds(c->obstacles[o].shape);
-    const double width = fmin(b.max.x - b.min.x, b.max.z - b.min.z);
-    c->dense[o] = rings && width > CLOSE * widest;
-    c->spaced[o] =
-        !p->web && sw_shape_is(c->obstacles[o].shape, SW_SHAPE_FACED) ? width / SAMPLES : 0.0;
-  }
 }
 
 /* A node and the other ends of its segments. */
@@ -233,7 +202,7 @@ static void match_memory(sw_contact *c) {
 
 void sw_contact_stiffness(sw_contact_regime regime, const sw_plan *p, double force, double nominal,
                           double *base, double *rate2) {
-  *base = force / sw_depth_for(ALLOWED_PENETRATION, p->web ? SW_THIN : p->beam.radius);
+  *base = force / sw_depth_for(SW_ALLOWED_DEPTH, p->web ? SW_THIN : p->beam.radius);
   *rate2 = 0;
   if (regime == SW_CONTACT_IMPLICIT)
     *rate2 = IMPLICIT_SHARE / (STAGE_SHARE * STAGE_SHARE * nominal * nominal);
@@ -269,34 +238,7 @@ static double usual_force(const sw_plan *p, double weight) {
   if (!p->web || L >= SLICE * r) return fmax(weight, p->beam.EI / (L * L));
   const double solid = HARDER * p->beam.EA * L / (M_PI * r * r);
   const double ring = HARDER_WALL * p->web->wall * L / (r * r * r);
-  return fmax(weight, ALLOWED_PENETRATION * (ring > 0 ? ring : solid));
-}
-
-/* Line stiffness of one side of a round section between plates, over its mean modulus: a solid
- * cylinder has F/(E R) = 0.084 at an approach of a tenth of its diameter (plane strain, finite
- * elements) [-]. */
-static const double SECTION = 2.0 * 0.084 / 0.2;
-
-/* Depth of a pad's samples at the wanted force [m]. */
-static const double PRESSED_IN = 5e-6;
-
-/* A pad's touch on a particle of a mesh has this multiple of the section's stiffness. With 1, the
- * touch would be made stiffer during a squeeze, and its force would jump [-]. */
-static const double STIFFER = 3.0;
-
-static double mesh_pad_stiffness(const sw_plan *p, size_t particle) {
-  const double r = p->beam.radius;
-  if (!p->web->per_ring) return 0;
-  return STIFFER * SECTION * p->beam.EA / (M_PI * r * r) * p->web->along[particle];
-}
-
-/* Stiffness of a pad's touch on a wire without a section: as soft as a section would be, and no
- * stiffer than its force needs. Between rigid things no force could be set [N/m]. */
-static double pad_stiffness(const sw_plan *p, const sw_candidate *k, size_t edge, double grips) {
-  const double r = p->beam.radius;
-  const double section = SECTION * p->beam.EA / (M_PI * r * r);
-  if (!k->samples) return fmin(section * p->length / (double)p->edges, grips / ALLOWED_PENETRATION);
-  return fmin(section * p->rest[edge] / k->samples, grips / (SAMPLES * PRESSED_IN));
+  return fmax(weight, SW_ALLOWED_DEPTH * (ring > 0 ? ring : solid));
 }
 
 /* Stiffness of the touches of a wire wound on something thick and round: at least EA/R. Where the
@@ -328,12 +270,12 @@ static void set_stiffness(sw_contact *c, const sw_system *s, size_t body, size_t
     const double grips = c->obstacles[k->obstacle].grips;
     k->squeezing = squeezing;
     k->usual = fmax(fmax(base, rate2 * k->mass), round_stiffness(c, &s->bodies[body], k));
-    if (k->samples) k->usual *= LEAST_SAMPLES / (double)k->samples;
+    if (k->samples) k->usual *= SW_LEAST_SAMPLES / (double)k->samples;
     if (!(grips > 0)) continue;
     if (p->web && c->regime != SW_CONTACT_EXPLICIT)
-      k->usual = fmax(k->usual, mesh_pad_stiffness(p, k->node - s->bodies[body].first_node));
+      k->usual = fmax(k->usual, sw_pad_mesh_stiffness(p, k->node - s->bodies[body].first_node));
     if (p->web) continue;
-    const double soft = pad_stiffness(p, k, k->node - s->bodies[body].first_node, grips);
+    const double soft = sw_pad_stiffness(c, p, k, k->node - s->bodies[body].first_node);
     k->given = c->regime != SW_CONTACT_EXPLICIT;
     k->usual = k->given ? soft : fmin(soft, k->usual); /* else explicit steps may be unstable */
   }
@@ -357,7 +299,7 @@ sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err)
   for (size_t b = 0; b < s->body_count && status == SW_OK; b++) {
     const size_t first = c->candidate_count;
     const sw_web *web = s->bodies[b].plan->web;
-    look_at_pads(c, s->bodies[b].plan);
+    sw_pads_look(c, s->bodies[b].plan);
     sw_contact_find_wound(c, s, b);
     reach_out(c, s, &s->bodies[b]);
     for (size_t i = 0; i < s->bodies[b].plan->nodes && status == SW_OK; i++)

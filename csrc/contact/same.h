@@ -36,6 +36,10 @@
 /* A step may bring two things this much deeper into each other; share of the sum of radii [-]. */
 #define SW_DEEPER 0.05
 
+/* A wire at rest sinks in by this much, or less if it is thin, if one touch carries its whole
+ * weight. A round pad presses as deep at its force [m]. */
+#define SW_ALLOWED_DEPTH 20e-6
+
 /* Steps shorter than this share of the nominal one may end at any depth [-]. */
 #define SW_SMALLEST_CARE (1.0 / 64)
 

@@ -206,7 +206,7 @@ sw_vec sw_levers_brake(const sw_beam *beam, const sw_levers *l, sw_vec slide, do
 void sw_levers_kick(const sw_plan *p, const sw_levers *l, sw_vec impulse, double *rates);
 
 /* Most samples of a candidate; place of sample number k along its segment [-]. */
-enum { SW_SAMPLES_MOST = 64 };
+enum { SW_SAMPLES_MOST = 128 };
 static inline double sw_sample_at(const sw_candidate *candidate, int k) {
   return ((double)k + 0.5) / (double)candidate->samples;
 }

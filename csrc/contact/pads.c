@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "contact/pads.h"
+
+#include <math.h>
+
+#include "contact/same.h"
+
+/* If particles lie close enough, only particles meet a pad, not the edges between them. These edges
+ * would leave and enter the pad's edges one by one, and the pad's force would jump. */
+static const double CLOSE = 3.0; /* least rings along the pad's face, its x and z [-] */
+
+/* The same for a line. A node at the edge of a pad comes and goes, and with it the force of a whole
+ * segment. So a pad with faces has evenly spread samples, this many along its width, which fade out
+ * at its edges [-]. */
+static const double SAMPLES = 12.0;
+
+/* A round pad presses along a short length, shorter across the wire than along it. There too the
+ * line has samples, this many along the length that presses where they cross at a right angle. With
+ * the nearest place instead, two places of a wire that turns press at once where they meet: up to
+ * half of its energy came from nowhere. Twice as many samples shift where it comes to rest by up to
+ * 5 mm of 200, half as many by 30 (spec/contact/round_pad_spec) [-]. */
+static const double IN_CONTACT = 4.5;
+
+/* Line stiffness of one side of a round section between plates, over its mean modulus: a solid
+ * cylinder has F/(E R) = 0.084 at an approach of a tenth of its diameter (plane strain, finite
+ * elements) [-]. */
+static const double SECTION = 2.0 * 0.084 / 0.2;
+
+/* Depth of the samples on a pad with faces, at the wanted force [m]. */
+static const double PRESSED_IN = 5e-6;
+
+/* A pad's touch on a particle of a mesh has this multiple of the section's stiffness. With 1, the
+ * touch would be made stiffer during a squeeze, and its force would jump [-]. */
+static const double STIFFER = 3.0;
+
+/* Line stiffness of a wire's section [N/m2]. */
+static double section_of(const sw_plan *p) {
+  const double r = p->beam.radius;
+  return SECTION * p->beam.EA / (M_PI * r * r);
+}
+
+/* How a line presses on a round pad. */
+typedef struct round_pad {
+  double line; /* stiffness per length of the line [N/m2] */
+  double half; /* half of the length that presses, where they cross at a right angle [m] */
+} round_pad;
+
+/* Of a line at depth d the length 2 z presses, with z^2 = 2 R d and R the sum of both radii; its
+ * depth falls as a parabola, so F = 4/3 line d z. The depth at the wanted force is
+ * SW_ALLOWED_DEPTH, or that of the section if it is softer. Returns 0 if the obstacle is no round
+ * pad. */
+static int find_round(const sw_contact *c, const sw_plan *p, size_t o, round_pad *out) {
+  const double grips = c->obstacles[o].grips;
+  sw_vec q, along;
+  if (p->web || !(grips > 0)) return 0;
+  const double pad = sw_shape_middle(c->obstacles[o].shape, sw_v(0, 0, 0), &q, &along);
+  if (!(pad > 0)) return 0;
+  const double twice = 2.0 * (pad + p->beam.radius), section = section_of(p);
+  const double soft = cbrt(pow(0.75 * grips / section, 2) / twice);
+  const double depth = fmax(soft, SW_ALLOWED_DEPTH);
+  out->half = sqrt(twice * depth);
+  out->line = 0.75 * grips / (depth * out->half);
+  return 1;
+}
+
+void sw_pads_look(sw_contact *c, const sw_plan *p) {
+  double widest = 0;
+  const int rings = p->web && p->web->per_ring && c->pad_count;
+  for (size_t i = 0; rings && i < p->nodes; i++) widest = fmax(widest, p->web->along[i]);
+  for (size_t k = 0; k < c->pad_count; k++) {
+    const int o = c->pads[k];
+    const sw_bounds b = sw_shape_bounds(c->obstacles[o].shape);
+    const double width = fmin(b.max.x - b.min.x, b.max.z - b.min.z);
+    round_pad pad;
+    c->dense[o] = rings && width > CLOSE * widest;
+    c->spaced[o] = 0;
+    if (!p->web && sw_shape_is(c->obstacles[o].shape, SW_SHAPE_FACED))
+      c->spaced[o] = width / SAMPLES;
+    else if (find_round(c, p, (size_t)o, &pad))
+      c->spaced[o] = 2.0 * pad.half / IN_CONTACT;
+  }
+}
+
+int sw_pad_samples(const sw_contact *c, const sw_plan *p, size_t i, size_t o) {
+  if (!(c->spaced[o] > 0)) return 0;
+  const double samples = ceil(p->rest[i] / c->spaced[o]);
+  return (int)fmin(SW_SAMPLES_MOST, fmax(SW_LEAST_SAMPLES, samples));
+}
+
+double sw_pad_stiffness(const sw_contact *c, const sw_plan *p, const sw_candidate *k, size_t edge) {
+  const double grips = c->obstacles[k->obstacle].grips, section = section_of(p);
+  round_pad pad;
+  if (!k->samples) return fmin(section * p->length / (double)p->edges, grips / SW_ALLOWED_DEPTH);
+  const double length = p->rest[edge] / k->samples;
+  if (find_round(c, p, (size_t)k->obstacle, &pad)) return pad.line * length;
+  return fmin(section * length, grips / (SAMPLES * PRESSED_IN));
+}
+
+double sw_pad_mesh_stiffness(const sw_plan *p, size_t particle) {
+  if (!p->web->per_ring) return 0;
+  return STIFFER * section_of(p) * p->web->along[particle];
+}

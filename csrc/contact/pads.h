@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Pads of grippers: where a wire touches them, and how stiff these touches are. */
+#ifndef SW_CONTACT_PADS_H
+#define SW_CONTACT_PADS_H
+
+#include "contact/touch.h"
+
+enum { SW_LEAST_SAMPLES = 2 }; /* least samples of a segment [-] */
+
+/* Finds, for a body, the distance of samples along each pad (spaced), and which pads only its
+ * particles meet (dense). */
+void sw_pads_look(sw_contact *c, const sw_plan *p);
+
+/* Number of samples of segment i on obstacle o; 0: none [-]. */
+int sw_pad_samples(const sw_contact *c, const sw_plan *p, size_t i, size_t o);
+
+/* Stiffness of a pad's touch on a wire without a section: as soft as a section would be, and no
+ * stiffer than its force needs. Between rigid things no force could be set [N/m]. */
+double sw_pad_stiffness(const sw_contact *c, const sw_plan *p, const sw_candidate *k, size_t edge);
+/* Stiffness of a pad's touch on a particle of a mesh [N/m]. */
+double sw_pad_mesh_stiffness(const sw_plan *p, size_t particle);
+
+#endif
