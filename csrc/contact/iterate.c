@@ -48,47 +48,6 @@ static int is_marked(const sw_touch *t, const sw_mark *m) {
          sw_norm2(sw_sub(m->normal, t->press.normal)) < TURNED * TURNED;
 }
 
-/* Share of a segment, from its end, in which its touch hands its stiffness to the node. Where a
- * wire bends round a pad even slightly, its node and both segments beside touch the pad at one
- * place, where before only the node did. Touches of given stiffness would press three times as
- * hard, and the pads would hop. So at the segment's end the node has all the stiffness, and at this
- * share from it the segment has all. Half and twice this value hold the same grips [-]. */
-static const double SHARED = 0.25;
-static const double LEAST_SHARE = 1e-3; /* least share of its stiffness that a touch keeps [-] */
-
-/* Nearness of a segment's touch to the node: 1 at the node, 0 from SHARED on [-]. */
-static double nearness(const sw_touch *segment, size_t node) {
-  const double away = segment->node == node ? segment->at : 1.0 - segment->at;
-  return fmax(0.0, 1.0 - away / SHARED);
-}
-
-/* Returns the nearness of the nearest touch beside t: of a segment to a node's touch t, or of a
- * node to a segment's touch t. *any = 0: there is none beside [-]. */
-static double nearest_beside(const sw_contact *c, const sw_touch *t, int *any) {
-  double nearest = 0;
-  *any = 0;
-  for (int by = -1; by <= 1; by += 2)
-    for (const sw_touch *n = t + by; n >= c->touches && n < c->touches + c->touch_count; n += by) {
-      if (n->body != t->body || n->node + 1 < t->node || n->node > t->node + 1) break;
-      const sw_touch *segment = t->segment ? t : n, *node = t->segment ? n : t;
-      const int beside = node->node == segment->node || node->node == segment->node + 1;
-      if (n->segment == t->segment || n->obstacle != t->obstacle || n->sharp || !beside) continue;
-      nearest = fmax(nearest, nearness(segment, node->node));
-      *any = 1;
-    }
-  return nearest;
-}
-
-static void share(const sw_contact *c, const sw_system *s, sw_touch *t) {
-  const sw_candidate *k = &c->candidates[t->candidate];
-  int any;
-  if (!k->given || k->samples || t->sharp) return;
-  const double near = nearest_beside(c, t, &any);
-  if (!any) return;
-  t->share = fmax(LEAST_SHARE, t->segment ? 1.0 - near : near);
-  t->press.k = t->share * (c->softer ? sw_contact_softer(c, s, k, t->stiffer) : t->stiffer);
-}
-
 /* Finds the touches of an iterate, and adds their forces unless want is 0. */
 static sw_status look(sw_contact *c, sw_system *s, const double *y, unsigned want, sw_error *err) {
   sw_glance at;
@@ -96,10 +55,8 @@ static sw_status look(sw_contact *c, sw_system *s, const double *y, unsigned wan
   if (status != SW_OK) return sw_fail(err, status, "contact: %s", sw_status_text(status));
   for (size_t done = c->parts.touch, found; at.next < at.end;) {
     SW_TRY(sw_contact_look_on(c, s, y, &at, &found, err));
-    for (; done < found; done++) {
-      share(c, s, &c->touches[done]);
+    for (; done < found; done++)
       if (want) apply(c, s, &c->touches[done], want);
-    }
   }
   return SW_OK;
 }
