@@ -6,7 +6,9 @@ local core = require "softworld.core"
 
 local sagged = {}
 
-local COARSE = 60 -- segments; a mesh with twice as many gives the second-order error, which is removed
+-- Segments; a mesh with twice as many gives the second-order error, which is removed. The rest is of fourth
+-- order in the edge over the length (EI / weight)^(1/3) of the bends at the ends [-].
+local COARSE, PER_BEND = { 60, 80, 110, 150, 200, 270, 360, 480 }, 10
 local GRAVITY = 9.81 -- [m/s2]
 local ITERATIONS = 500 -- of an equilibrium beside the arc it starts from; others are no sag
 
@@ -54,15 +56,25 @@ local function place(scene, o, wire)
   return w
 end
 
--- Returns the stations of one mesh.
-local function stations(o, wire, segments)
+-- Returns the segments of the coarser mesh: the number goes up in steps, so that it does not change between
+-- the neighbours of which a fit takes a difference.
+local function segments_of(o, EI, mass_per_length)
+  local wanted = PER_BEND * o.length * (GRAVITY * mass_per_length / EI) ^ (1 / 3)
+  for _, n in ipairs(COARSE) do
+    if n >= wanted then return n end
+  end
+  return COARSE[#COARSE]
+end
+
+-- Returns the stations of one mesh, count of them and the first.
+local function stations(o, wire, segments, count)
   local scene = core.scene { gravity = { 0, 0, -GRAVITY } }
   wire.segments = segments
   local w = place(scene, o, wire)
   local rest, list = scene:settle{ max_iterations = ITERATIONS }, {}
   if not rest.ok then error("no equilibrium: " .. rest.reason, 0) end
-  for k = 0, COARSE do
-    local s = w.length * k / COARSE
+  for k = 0, count do
+    local s = w.length * k / count
     local x, t = w:position(s), w:tangent(s)
     list[k + 1] = { x[1], x[3], t[1], t[3] }
   end
@@ -75,7 +87,8 @@ end
 -- Raises an error if there is none.
 function sagged.curve(o, EI, EA, mass_per_length)
   local wire = { EI = EI, EA = EA, GJ = EI, mass_per_length = mass_per_length, radius = o.radius }
-  local coarse, fine = stations(o, wire, COARSE), stations(o, wire, 2 * COARSE)
+  local n = segments_of(o, EI, mass_per_length)
+  local coarse, fine = stations(o, wire, n, n), stations(o, wire, 2 * n, n)
   for k, at in ipairs(fine) do
     for i = 1, 4 do at[i] = (4 * at[i] - coarse[k][i]) / 3 end
   end
