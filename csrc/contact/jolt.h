@@ -19,6 +19,9 @@ double sw_contact_jolt_of(double size, double usual, double h);
  * striking wire's weight or bending force. 0: none [-]. followed: 1 if a blow that is followed in
  * parts goes on. */
 double sw_contact_jolt(sw_contact *contact, const sw_system *system, int followed);
+/* Longest part in which the end of a wire that is pushed onto an obstacle may be followed; HUGE_VAL
+ * if no wire is [s]. */
+double sw_contact_push_part(const sw_contact *contact, const sw_system *system);
 /* Like sw_contact_jolt, for few wires that strike each other. dull: 1 if the trial used implicit
  * Euler. *hardest: the hardest blow so far, which includes this one unless a blow is followed
  * [N]. */

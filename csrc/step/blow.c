@@ -15,14 +15,15 @@
 /* A step as long as a blow smears it: the force then follows from the step, not from the stiffness,
  * and a wire that is pushed buckles at once instead of bearing the push for a while. A blow harder
  * than all before is followed in parts for BLOW [s], in at most MOST_PARTS of them a step (rounded
- * up to a power of two) [-], none shorter than SHORTEST_PART [s]. */
-static const double BLOW = 0.01, MOST_PARTS = 100, SHORTEST_PART = 1e-4;
+ * up to a power of two) [-], none shorter than SHORTEST_PART [s]. A wire that is pushed by its end
+ * has parts of its own, none shorter than SHORTEST_PUSH [s]. */
+static const double BLOW = 0.01, MOST_PARTS = 100, SHORTEST_PART = 1e-4, SHORTEST_PUSH = 1e-5;
 /* A blow that lasts longer is a rattle, which costs too much to follow [s]. */
 static const double LONGEST_BLOW = 0.03;
 
 double sw_blow_part(const sw_scene *s, double h) {
   return sw_scene_time(s) < sw_scene_course(s)->blow_until
-             ? fmin(h, fmax(sw_scene_course(s)->blow_part, SHORTEST_PART))
+             ? fmin(h, fmax(sw_scene_course(s)->blow_part, SHORTEST_PUSH))
              : h;
 }
 
@@ -34,6 +35,13 @@ static const double REFUSED = 1.0 / 16, RATTLES = 2.0;
 /* When a part below this share of the blow's part is refused, the blow is followed no further:
  * contact would accept the depth only in far smaller parts [-]. */
 static const double SMALLEST_FOLLOWED = 1.0 / 16;
+/* Smallest part that is tried while a blow is followed; share of the blow's part [-]. */
+static const double SMALLEST_TRIED = 1.0 / 32;
+
+double sw_blow_smallest(const sw_scene *s) {
+  const sw_course *course = sw_scene_course(s);
+  return sw_scene_time(s) < course->blow_until ? SMALLEST_TRIED * course->blow_part : HUGE_VAL;
+}
 
 void sw_blow_refused(sw_scene *s, double part) {
   sw_course *course = sw_scene_course(s);
@@ -89,17 +97,27 @@ static double jolt_of(sw_scene *s, int followed) {
   return jolt;
 }
 
+/* Longest part for a blow with this jolt in a step of h [s]. */
+static double part_for(const sw_scene *s, double jolt, double h) {
+  const sw_contact *contact = sw_scene_contact(s);
+  const double push = contact ? sw_contact_push_part(contact, sw_scene_system(s)) : HUGE_VAL;
+  const double part = fmax(SHORTEST_PART, h / parts_for(jolt));
+  return push < part ? fmax(SHORTEST_PUSH, push) : part;
+}
+
 int sw_blow_begins(sw_scene *s, double h) {
   sw_course *course = sw_scene_course(s);
   const int followed = sw_scene_time(s) < course->blow_until;
   if (sw_scene_wire_slots(s) > MOST_WIRES || sw_coarse_is_bundle(s) || sw_scene_grains(s) ||
-      (!followed && !(h > 1.01 * SHORTEST_PART)) || any_gives_way(s))
+      (!followed && !(h > 1.01 * SHORTEST_PUSH)) || any_gives_way(s))
     return 0;
   const double jolt = jolt_of(s, followed);
   if (!(jolt > 0)) return 0;
+  const double part = followed ? course->blow_part : part_for(s, jolt, h);
+  if (!followed && !(h > 1.01 * part)) return 0;
   if (!followed) course->blow_since = sw_scene_time(s);
   course->blow_until =
       fmin(sw_scene_time(s) + fmax(BLOW, h), course->blow_since + fmax(LONGEST_BLOW, h));
-  if (!followed) course->blow_part = fmax(SHORTEST_PART, h / parts_for(jolt));
+  course->blow_part = part;
   return !followed;
 }

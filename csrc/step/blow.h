@@ -8,6 +8,8 @@
 
 /* Returns the step to take instead of h: shorter while a blow is followed [s]. */
 double sw_blow_part(const sw_scene *scene, double h);
+/* Smallest part that is tried while a blow is followed; HUGE_VAL if none is [s]. */
+double sw_blow_smallest(const sw_scene *scene);
 /* 1 if a converged trial of size h contains a new blow and must be redone in shorter parts. */
 int sw_blow_begins(sw_scene *scene, double h);
 /* Call when a part was refused or made energy; shortens the time for which the blow is followed.

@@ -28,6 +28,7 @@ typedef struct parts {
   double done, part; /* time done; part to try next [s] */
   double whole;      /* part to try, were it not cut at the step's end [s] */
   double longest;    /* longest part taken [s] */
+  double least;      /* smallest part that is tried [s] */
   int refused;       /* number of refused parts */
   double doubted;    /* coarse part for which a shorter one is tried instead; 0: none [s] */
   double struck;     /* part with a blow, while no part that follows the blow has converged; 0: none
@@ -44,6 +45,7 @@ typedef struct parts {
 static sw_status begin(sw_ladder *p, parts *k, sw_error *err) {
   const double left = k->h - k->done;
   k->part = k->whole = sw_blow_part(p->s, k->part);
+  k->least = fmin(k->least, sw_blow_smallest(p->s));
   if (k->part > left * (1 - ROUNDING)) k->part = left;
   /* there may be many parts */
   if (k->done > 0 && p->interrupted && p->interrupted()) return SW_EINTR;
@@ -150,7 +152,7 @@ static sw_status refuse(sw_ladder *p, parts *k, sw_status status, const sw_error
     return SW_OK;
   }
   k->part = k->cut ? p->soonest : 0.5 * k->part;
-  return k->part < SW_SMALLEST_SHARE * k->h ? status : SW_OK;
+  return k->part < k->least ? status : SW_OK;
 }
 
 /* Sets the part for the next step of a bundle. A bundle that falls or is pressed converges badly
@@ -168,6 +170,7 @@ static void remember(sw_scene *s, const parts *k) {
 
 sw_status sw_step_fixed(sw_ladder *p, double h, double t1, sw_error *err) {
   parts k = {.h = h, .t0 = sw_scene_time(p->s), .t1 = t1, .part = first_part(p->s, h)};
+  k.least = SW_SMALLEST_SHARE * h;
   p->asked = k.part;
   k.starts = sw_scene_course(p->s)->next && sw_slip_any(p->s);
   if (k.starts) k.part = FIRST_SLIP * h;
@@ -177,7 +180,7 @@ sw_status sw_step_fixed(sw_ladder *p, double h, double t1, sw_error *err) {
   while (k.done < h) {
     int may_grow = 1;
     SW_TRY(begin(p, &k, err));
-    const int smallest = 0.5 * k.part < SW_SMALLEST_SHARE * h;
+    const int smallest = 0.5 * k.part < k.least;
     const sw_retries redone = sw_scene_books(p->s)->sums.redone;
     const sw_status status = sw_ladder_try(p, k.part, smallest, err);
     if (status == SW_OK && is_too_long(p, &k, &may_grow)) {
