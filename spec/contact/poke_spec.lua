@@ -12,7 +12,8 @@ local function poked(seed, dt)
   local draw = t.random(seed)
   local function random() return (draw() + 1) / 2 end -- in [0, 1]
   local function pick(list) return list[math.min(#list, 1 + math.floor(random() * #list))] end
-  local cable, kind = pick{ "GXL 1.5", "FLRY-B 2.5", "H07V-K 4", "FLRY-B 0.5" }, pick{ "ball", "wall", "drum" }
+  local cable = pick{ "GXL 1.5", "FLRY-B 2.5", "H07V-K 4", "FLRY-B 0.5" }
+  local kind = pick{ "ball", "wall", "drum" }
   local free, speed, off = 0.03 + 0.12 * random(), 0.05 + 0.25 * random(), 0.3 * (2 * random() - 1)
   local scene, R = sw.scene{}, 0.02
   local wire = scene:wire{ cable = cable, from = { 0, 0, 0 }, to = { free, 0, 0 },
@@ -37,9 +38,9 @@ local function poked(seed, dt)
 end
 
 describe("cables poked at balls, walls and drums", function()
-  -- Regression: parts of 0.1 ms and more. A quarter of such pokes had peaks that were 10 to 50 % off, without
-  -- a word, at all steps above 0.05 ms; some slipped off that should have buckled. What is left are ends
-  -- that are about to slip, where a little decides.
+  -- Regression: parts of 0.1 ms and more. A quarter of such pokes had peaks that were 10 to 50 % off,
+  -- without a word, at all steps above 0.05 ms; some slipped off that should have buckled.
+  -- What is left are ends that are about to slip, where a little decides.
   it("bear the same peak force at every step", function()
     local off, scenes = 0, 40
     for seed = 1, scenes do
@@ -61,7 +62,8 @@ describe("cables poked at balls, walls and drums", function()
       local s, tilt, free, back = sw.scene{}, 0.25, 0.06, 0.03
       local n = { -math.cos(tilt), 0, math.sin(tilt) }
       local wall = s:obstacle{ shape = "box", size = { 0.02, 0.4, 0.4 }, friction = 0.3,
-        at = { free + 0.0035 - 0.01 * n[1], 0, -0.01 * n[3] }, rotation = { axis = { 0, 1, 0 }, angle = tilt } }
+        at = { free + 0.0035 - 0.01 * n[1], 0, -0.01 * n[3] },
+        rotation = { axis = { 0, 1, 0 }, angle = tilt } }
       local w = s:wire{ cable = "GXL 1.5", from = { -back, 0, 0 }, to = { free, 0, 0 }, segments = 18 }
       s:force{ kind = "damping", on = w, stiffness = 1e-3 }
       local g = s:gripper{}
