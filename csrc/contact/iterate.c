@@ -55,8 +55,7 @@ static sw_status look(sw_contact *c, sw_system *s, const double *y, unsigned wan
   if (status != SW_OK) return sw_fail(err, status, "contact: %s", sw_status_text(status));
   for (size_t done = c->parts.touch, found; at.next < at.end;) {
     SW_TRY(sw_contact_look_on(c, s, y, &at, &found, err));
-    for (; done < found; done++)
-      if (want) apply(c, s, &c->touches[done], want);
+    for (; want && done < found; done++) apply(c, s, &c->touches[done], want);
   }
   return SW_OK;
 }

@@ -63,11 +63,10 @@ double sw_contact_push_part(const sw_contact *c, const sw_system *s) {
   for (size_t i = 0; i < c->touch_count; i++) {
     const sw_touch *t = &c->touches[i];
     if (!(t->press.normal_force > 0) || c->obstacles[t->obstacle].grips > 0) continue;
-    if (!is_end_on(s, t)) continue;
+    const sw_body *b = &s->bodies[t->body];
+    if (!is_end_on(s, t) || !(b->plan->beam.EI > 0)) continue; /* a string bends at once */
     const double speed = speed_of(c, s, t);
-    if (speed > 0)
-      shortest =
-          fmin(shortest, SHARE * straight_for(&s->bodies[t->body], free_length(s, t), speed));
+    if (speed > 0) shortest = fmin(shortest, SHARE * straight_for(b, free_length(s, t), speed));
   }
   return shortest;
 }
