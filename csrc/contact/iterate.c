@@ -9,6 +9,38 @@
 #include "contact/same.h"
 #include "contact/touch.h"
 
+/* Chords that meet a round side at a smaller angle with its middle line roll little on it: sine
+ * squared [-]. */
+static const double ACROSS2 = 0.25;
+
+/* Adds the stiffness of a chord that rolls on a round side. If it tilts by phi, its touch moves on
+ * by R phi, and the normal force N there turns it back with N R phi. For a wire that goes round
+ * with the tension T that is as much as T itself does, and three times as much where only each
+ * third chord presses: without it each update went too far, by up to more than its size, and
+ * statics never came to rest. The solution does not depend on it. */
+static void add_rolling(const sw_contact *c, sw_system *s, const sw_touch *t) {
+  const sw_press *p = &t->press;
+  const double round = c->round[t->obstacle];
+  if (!(round > 0) || !(p->normal_force > 0) || !t->segment || t->sharp || t->spot.count != 2)
+    return;
+  sw_body *b = &s->bodies[t->body];
+  if (b->plan->web || !(t->at > 0) || !(t->at < 1)) return;
+  const sw_vec n = p->normal;
+  const size_t e = t->node - b->first_node;
+  const double l = b->field.length[e], R = round + c->candidates[t->candidate].skin;
+  sw_vec q, axis;
+  (void)sw_shape_middle(c->obstacles[t->obstacle].shape, t->local, &q, &axis);
+  const sw_vec chord = sw_v(b->field.tangent[0][e], b->field.tangent[1][e], b->field.tangent[2][e]);
+  const double along = sw_dot(sw_rotate(c->now[t->obstacle].pose.q, axis), chord);
+  if (1.0 - along * along < ACROSS2) return;
+  const double f = p->normal_force * R / (l * l);
+  const double K[6] = {f * n.x * n.x, f * n.x * n.y, f * n.x * n.z,
+                       f * n.y * n.y, f * n.y * n.z, f * n.z * n.z};
+  sw_mean tilt = t->spot;
+  tilt.w[0] = -1.0, tilt.w[1] = 1.0;
+  sw_meet_push_one(b, &tilt, sw_v(0, 0, 0), K);
+}
+
 static void apply(sw_contact *c, sw_system *s, sw_touch *t, unsigned want) {
   double K[6];
   t->press.normal_force = 0;
@@ -16,6 +48,7 @@ static void apply(sw_contact *c, sw_system *s, sw_touch *t, unsigned want) {
   if (!t->press.active) return;
   const sw_vec f = sw_press_eval(&t->press, t->friction, c->regime != SW_CONTACT_EXPLICIT, K);
   sw_meet_push_one(&s->bodies[t->body], &t->spot, f, want & SW_WANT_STIFFNESS ? K : NULL);
+  if ((want & SW_WANT_STIFFNESS)) add_rolling(c, s, t);
   if (s->rolls) sw_levers_push(s, t, K, want);
 }
 
