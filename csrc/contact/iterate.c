@@ -48,7 +48,7 @@ static void apply(sw_contact *c, sw_system *s, sw_touch *t, unsigned want) {
   if (!t->press.active) return;
   const sw_vec f = sw_press_eval(&t->press, t->friction, c->regime != SW_CONTACT_EXPLICIT, K);
   sw_meet_push_one(&s->bodies[t->body], &t->spot, f, want & SW_WANT_STIFFNESS ? K : NULL);
-  if ((want & SW_WANT_STIFFNESS)) add_rolling(c, s, t);
+  if (want & SW_WANT_STIFFNESS) add_rolling(c, s, t);
   if (s->rolls) sw_levers_push(s, t, K, want);
 }
 
