@@ -17,11 +17,14 @@ static const double ACROSS2 = 0.25;
  * by R phi, and the normal force N there turns it back with N R phi. For a wire that goes round
  * with the tension T that is as much as T itself does, and three times as much where only each
  * third chord presses: without it each update went too far, by up to more than its size, and
- * statics never came to rest. The solution does not depend on it. */
+ * statics never came to rest. The solution does not depend on it. Steps, and poses without
+ * friction, converge without it; with it limp wires make energy in steps (spec/contact/taut_spec).
+ */
 static void add_rolling(const sw_contact *c, sw_system *s, const sw_touch *t) {
   const sw_press *p = &t->press;
   const double round = c->round[t->obstacle];
-  if (!(round > 0) || !(p->normal_force > 0) || !t->segment || t->sharp || t->spot.count != 2)
+  if (!(round > 0) || !(t->friction > 0) || !(p->normal_force > 0) || !t->segment || t->sharp ||
+      t->spot.count != 2)
     return;
   sw_body *b = &s->bodies[t->body];
   if (b->plan->web || !(t->at > 0) || !(t->at < 1)) return;
@@ -48,7 +51,7 @@ static void apply(sw_contact *c, sw_system *s, sw_touch *t, unsigned want) {
   if (!t->press.active) return;
   const sw_vec f = sw_press_eval(&t->press, t->friction, c->regime != SW_CONTACT_EXPLICIT, K);
   sw_meet_push_one(&s->bodies[t->body], &t->spot, f, want & SW_WANT_STIFFNESS ? K : NULL);
-  if (want & SW_WANT_STIFFNESS) add_rolling(c, s, t);
+  if (want & SW_WANT_STIFFNESS && c->regime == SW_CONTACT_STATIC) add_rolling(c, s, t);
   if (s->rolls) sw_levers_push(s, t, K, want);
 }
 

@@ -231,11 +231,12 @@ static sw_vec without_rounding(sw_vec u, sw_vec normal, sw_vec place) {
   return sw_norm2(sw_madd(u, normal, -away)) <= most * most ? sw_scale(normal, away) : u;
 }
 
-/* 1 if a touch without memory has not slid so far in this step: it closed where it is. If it did
- * slide in the previous iterate, it goes on, although the last solve left a gap. Its friction would
- * else be on in every other iterate, and open that gap in between. */
-static int closed_here(const sw_press *press, const sw_touch *last) {
-  return press->gap >= 0 && press->active && !(last && sw_norm2(last->press.trial) > 0);
+/* 1 if a touch without memory has not slid so far in this step: it closed where it is. If a mesh's
+ * particle did slide in the previous iterate, it goes on, although the last solve left a gap. Its
+ * friction would else be on in every other iterate, and open that gap in between. */
+static int closed_here(const sw_web *web, const sw_press *press, const sw_touch *last) {
+  const int slid = web && last && sw_norm2(last->press.trial) > 0;
+  return press->gap >= 0 && press->active && !slid;
 }
 
 /* Begins friction of a touch. A new touch has moved freely, so it slides first. For a wire that
@@ -247,7 +248,7 @@ static void begin_friction(const sw_contact *c, const sw_system *s, const sw_mem
   sw_vec u = shift_since(c, s, t, y);
   if (m)
     u = sw_add(u, sw_rotate(c->now[t->obstacle].pose.q, m->kept.elastic));
-  else if (closed_here(press, last))
+  else if (closed_here(s->bodies[t->body].plan->web, press, last))
     u = sw_v(0, 0, 0);
   else
     u = without_rounding(u, press->normal, t->point);
