@@ -15,9 +15,9 @@
 /* A step as long as a blow smears it: the force then follows from the step, not from the stiffness,
  * and a wire that is pushed buckles at once instead of bearing the push for a while. A blow harder
  * than all before is followed in parts for BLOW [s], in at most MOST_PARTS of them a step (rounded
- * up to a power of two) [-], none shorter than SHORTEST_PART [s]. A wire that is pushed by its end
+ * up to a power of two) [-], none shorter than SW_SHORTEST_PART. A wire that is pushed by its end
  * has parts of its own, none shorter than SHORTEST_PUSH [s]. */
-static const double BLOW = 0.01, MOST_PARTS = 100, SHORTEST_PART = 1e-4, SHORTEST_PUSH = 1e-5;
+static const double BLOW = 0.01, MOST_PARTS = 100, SHORTEST_PUSH = 1e-5;
 /* A blow that lasts longer is a rattle, which costs too much to follow [s]. */
 static const double LONGEST_BLOW = 0.03;
 
@@ -101,7 +101,7 @@ static double jolt_of(sw_scene *s, int followed) {
 static double part_for(const sw_scene *s, double jolt, double h) {
   const sw_contact *contact = sw_scene_contact(s);
   const double push = contact ? sw_contact_push_part(contact, sw_scene_system(s)) : HUGE_VAL;
-  const double part = fmax(SHORTEST_PART, h / parts_for(jolt));
+  const double part = fmax(SW_SHORTEST_PART, h / parts_for(jolt));
   return push < part ? fmax(SHORTEST_PUSH, push) : part;
 }
 

@@ -6,6 +6,9 @@
 
 #include "scene/scene.h"
 
+/* Shortest part of a blow, unless a wire is pushed by its end [s]. */
+#define SW_SHORTEST_PART 1e-4
+
 /* Returns the step to take instead of h: shorter while a blow is followed [s]. */
 double sw_blow_part(const sw_scene *scene, double h);
 /* Smallest part that is tried while a blow is followed; HUGE_VAL if none is [s]. */

@@ -164,7 +164,7 @@ static void remember(sw_scene *s, const parts *k) {
                                                                         shorter */
   if (!sw_coarse_is_bundle(s) || !(k->refused || shorter)) return;
   const double part = k->refused > 1 ? k->longest : 2 * (k->refused ? k->longest : c->blow_part);
-  c->blow_part = part;
+  c->blow_part = fmax(part, SW_SHORTEST_PART);
   c->blow_until = part < k->h ? sw_scene_time(s) + 0.5 * k->h : 0.0;
 }
 
