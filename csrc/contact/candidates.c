@@ -5,6 +5,7 @@
 
 #include "base/alloc.h"
 #include "base/interrupt.h"
+#include "contact/arc.h"
 #include "contact/pads.h"
 #include "contact/round.h"
 #include "contact/same.h"
@@ -95,7 +96,9 @@ static sw_status add_candidate(sw_contact *c, const sw_system *s, size_t body, s
                      .radius = b->plan->beam.radius,
                      .skin = sw_plan_skin(b->plan, node - b->first_node),
                      .mass = 0.5 * (masses[node - b->first_node] + masses[other - b->first_node])};
-  find_smooth(c, s, &c->candidates[c->candidate_count - 1]);
+  sw_candidate *k = &c->candidates[c->candidate_count - 1];
+  find_smooth(c, s, k);
+  k->arcs = sw_contact_arcs(c, s, k);
   return SW_OK;
 }
 
@@ -122,7 +125,7 @@ static sw_status segment_candidates(sw_contact *c, const sw_system *s, size_t bo
     SW_TRY(add_candidate(c, s, body, node, other, (int)o, k));
     sw_candidate *own = &c->candidates[c->candidate_count - 1];
     own->samples = sw_pad_samples(c, b->plan, i, o);
-    if (own->samples) own->smooth = own->round = 0;
+    if (own->samples) own->smooth = own->round = own->arcs = 0;
   }
   return SW_OK;
 }

@@ -226,6 +226,15 @@ double sw_contact_hardened(const sw_contact *c) {
   return sum;
 }
 
+/* A wire round an obstacle that bends less than at the step's start: its arc comes nearer to its
+ * chord (contact/arc.h). While it bent more, the wire did that work. */
+double sw_contact_unbent(const sw_contact *c) {
+  double sum = 0;
+  for (size_t i = 0; i < c->touch_count; i++)
+    sum += c->touches[i].fallen * c->touches[i].press.normal_force;
+  return sum;
+}
+
 double sw_contact_fastest(const sw_contact *c) {
   double fastest = 0;
   for (size_t k = 0; k < c->broad.mover_count; k++)

@@ -212,6 +212,7 @@ int sw_contact_poses(const sw_contact *contact, int id, sw_pose *from, sw_pose *
 int sw_contact_steady(const sw_contact *contact);
 /* Largest energy that touches gain by a higher stiffness (sw_kept_hardened) [J]. */
 double sw_contact_hardened(const sw_contact *contact);
+double sw_contact_unbent(const sw_contact *contact); /* work of arcs that get flatter [J] */
 double sw_contact_fastest(const sw_contact *contact); /* fastest obstacle at the step's end [m/s] */
 /* 1: in this step wires come out of obstacles that they began in */
 int sw_contact_emerges(const sw_contact *contact);

@@ -206,7 +206,7 @@ static encounter encounter_of(const sw_contact *c, const sw_system *s, const sw_
   const sw_vec plane = sw_pose_point(c->start[t->obstacle].pose, t->local);
   const double aslant = sw_contact_aslant(c, t->node, t->other, t->at, t->normal);
   e.at = levers->count ? sw_madd(x, t->normal, -radius) : x;
-  e.gap = fmax(0.0, sw_dot(t->normal, sw_sub(x, plane)) + aslant - radius);
+  e.gap = fmax(0.0, sw_dot(t->normal, sw_sub(x, plane)) + aslant + t->rise - radius);
   e.wall = striking_velocity(c, t, e.at, e.gap, &e.slow);
   e.speed = sw_sub(sw_mean_of(s->v, 0, &t->spot), e.wall);
   e.approach = -sw_dot(e.speed, t->normal);
@@ -274,6 +274,7 @@ sw_pressed sw_contact_pressed(const sw_touch *t) {
                       .sharp = t->sharp,
                       .at = t->at,
                       .spot = t->spot,
+                      .rise = t->rise,
                       .local = t->local,
                       .normal = t->press.normal,
                       .let_out = t->let_out};

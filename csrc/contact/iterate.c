@@ -6,52 +6,19 @@
 #include "base/alloc.h"
 #include "contact/depth.h"
 #include "contact/meet.h"
+#include "contact/rolling.h"
 #include "contact/same.h"
 #include "contact/touch.h"
 
-/* Chords that meet a round side at a smaller angle with its middle line roll little on it: sine
- * squared [-]. */
-static const double ACROSS2 = 0.25;
-
-/* Adds the stiffness of a chord that rolls on a round side. If it tilts by phi, its touch moves on
- * by R phi, and the normal force N there turns it back with N R phi. For a wire that goes round
- * with the tension T that is as much as T itself does, and three times as much where only each
- * third chord presses: without it each update went too far, by up to more than its size, and
- * statics never came to rest. The solution does not depend on it. Steps, and poses without
- * friction, converge without it; with it limp wires make energy in steps (spec/contact/taut_spec).
- */
-static void add_rolling(const sw_contact *c, sw_system *s, const sw_touch *t) {
-  const sw_press *p = &t->press;
-  const double round = c->round[t->obstacle];
-  if (!(round > 0) || !(t->friction > 0) || !(p->normal_force > 0) || !t->segment || t->sharp ||
-      t->spot.count != 2)
-    return;
-  sw_body *b = &s->bodies[t->body];
-  if (b->plan->web || !(t->at > 0) || !(t->at < 1)) return;
-  const sw_vec n = p->normal;
-  const size_t e = t->node - b->first_node;
-  const double l = b->field.length[e], R = round + c->candidates[t->candidate].skin;
-  sw_vec q, axis;
-  (void)sw_shape_middle(c->obstacles[t->obstacle].shape, t->local, &q, &axis);
-  const sw_vec chord = sw_v(b->field.tangent[0][e], b->field.tangent[1][e], b->field.tangent[2][e]);
-  const double along = sw_dot(sw_rotate(c->now[t->obstacle].pose.q, axis), chord);
-  if (1.0 - along * along < ACROSS2) return;
-  const double f = p->normal_force * R / (l * l);
-  const double K[6] = {f * n.x * n.x, f * n.x * n.y, f * n.x * n.z,
-                       f * n.y * n.y, f * n.y * n.z, f * n.z * n.z};
-  sw_mean tilt = t->spot;
-  tilt.w[0] = -1.0, tilt.w[1] = 1.0;
-  sw_meet_push_one(b, &tilt, sw_v(0, 0, 0), K);
-}
-
-static void apply(sw_contact *c, sw_system *s, sw_touch *t, unsigned want) {
+static void apply(sw_contact *c, sw_system *s, sw_touch *t, const double *y, unsigned want) {
   double K[6];
   t->press.normal_force = 0;
   t->press.tangential = t->press.slip = sw_v(0, 0, 0);
   if (!t->press.active) return;
   const sw_vec f = sw_press_eval(&t->press, t->friction, c->regime != SW_CONTACT_EXPLICIT, K);
   sw_meet_push_one(&s->bodies[t->body], &t->spot, f, want & SW_WANT_STIFFNESS ? K : NULL);
-  if (want & SW_WANT_STIFFNESS && c->regime == SW_CONTACT_STATIC) add_rolling(c, s, t);
+  if (want & SW_WANT_STIFFNESS && c->regime == SW_CONTACT_STATIC)
+    sw_contact_add_rolling(c, s, t, y);
   if (s->rolls) sw_levers_push(s, t, K, want);
 }
 
@@ -91,7 +58,7 @@ static sw_status look(sw_contact *c, sw_system *s, const double *y, unsigned wan
   if (status != SW_OK) return sw_fail(err, status, "contact: %s", sw_status_text(status));
   for (size_t done = c->parts.touch, found; at.next < at.end;) {
     SW_TRY(sw_contact_look_on(c, s, y, &at, &found, err));
-    for (; want && done < found; done++) apply(c, s, &c->touches[done], want);
+    for (; want && done < found; done++) apply(c, s, &c->touches[done], y, want);
   }
   return SW_OK;
 }
@@ -135,7 +102,7 @@ sw_status sw_contact_eval(void *contact, sw_system *s, double time, double hbar,
   if (status != SW_OK) return status;
   if (s->rough < SW_NOT_MADE) c->ahead_count = 0, c->passes = c->softer = 0;
   if (c->looked)
-    for (size_t i = c->parts.touch; i < c->touch_count; i++) apply(c, s, &c->touches[i], want);
+    for (size_t i = c->parts.touch; i < c->touch_count; i++) apply(c, s, &c->touches[i], y, want);
   else
     SW_TRY(look(c, s, y, want, err));
   c->looked = 0;

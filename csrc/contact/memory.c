@@ -32,6 +32,7 @@ static sw_status remember(sw_contact *c, const sw_system *s, const sw_touch *t) 
                    .node = t->node,
                    .feature = t->feature,
                    .at = t->at,
+                   .rise = t->rise,
                    .kept = sw_press_keep(&t->press, t->usual, t->stiffer, deepest),
                    .normal = sw_rotate(back, t->press.normal),
                    .point = t->local,

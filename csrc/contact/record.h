@@ -26,6 +26,7 @@ typedef struct sw_candidate {
   int given;                 /* 1: it keeps this stiffness, however deep it gets */
   int smooth;                /* 1: the wire touches by its smooth curve there, not by its chords */
   int round;                 /* 1: by its curve at a thin round obstacle, elsewhere by chords */
+  int arcs;                  /* 1: it meets a round side by its arc, see contact/arc.h */
   double squeezing; /* from this force on, its touch cannot come out; 0: no such force [N] */
   double firm; /* at a round obstacle: how firmly a touch keeps to the middle of its edge [-] */
   double firm_beside[2]; /* firmness on the edges before and after it [-] */
@@ -55,6 +56,8 @@ typedef struct sw_touch {
   double left;     /* part of forgiven that is left since the touch was made stiffer [m] */
   double let_out;  /* unexplained part of the true depth that this step removes [m] */
   double hardened; /* energy gained by a higher stiffness [J] */
+  double rise;     /* how much further out the wire's arc is, in the gap [m] */
+  double fallen;   /* how much less that is than at the step's start; 0: not less [m] */
   double usual;    /* stiffness of a new touch here [N/m] */
   double stiffer;  /* full stiffness from the next iterate on [N/m] */
   double share;    /* its share of that stiffness, below 1 near a place of the edge beside [-] */
@@ -83,7 +86,7 @@ typedef struct sw_pressed {
   double at;
   sw_mean spot;
   sw_vec local, normal;
-  double let_out;
+  double let_out, rise;
 } sw_pressed;
 
 /* Memory of a touch between steps, in the obstacle's coordinates. */
@@ -95,6 +98,7 @@ typedef struct sw_memory {
   sw_vec normal, point; /* the side that the wire is on: local [-], [m] */
   sw_kept kept;         /* its vectors are local too */
   sw_vec seen;          /* the wire's position then, local [m] */
+  double rise;          /* how much further out than its chord its arc was [m] */
   double slid;          /* sliding way since the touch began to press [m] */
 } sw_memory;
 

@@ -2,6 +2,7 @@
 /* Reviews a trial step against obstacles: it is accepted, redone, or made smaller. */
 #include <math.h>
 
+#include "contact/arc.h"
 #include "contact/curve.h"
 #include "contact/same.h"
 
@@ -27,11 +28,12 @@ static const double DEEPER = 1e-4;
 static const double SQUEEZED = 0.2;
 
 /* Depth of a place of the candidate's wire [m]. */
-static double depth_of(const sw_contact *c, const sw_candidate *k, const sw_contact_at *at,
-                       const sw_place *place) {
+static double depth_of(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                       const sw_contact_at *at, const double *x, const sw_place *place) {
   const sw_vec normal = sw_rotate(at[k->obstacle].pose.q, place->near.normal);
   const double aslant = sw_contact_aslant(c, k->node, k->other, place->near.at, normal);
-  return k->skin - place->near.gap - (place->sharp ? 0.0 : aslant);
+  const double rise = sw_contact_arc_rise(c, s, k, place, x, normal);
+  return k->skin - place->near.gap - rise - (place->sharp ? 0.0 : aslant);
 }
 
 /* Finds where the candidate's wire is deepest with positions x. 0: it is not in the obstacle. */
@@ -41,7 +43,7 @@ static int find_deepest(const sw_contact *c, const sw_system *s, const sw_candid
   *depth = 0;
   sw_contact_near(c, s, k, at, x, k->skin, &list);
   for (size_t i = 0; i < list.count; i++) {
-    const double deep = depth_of(c, k, at, &list.place[i]);
+    const double deep = depth_of(c, s, k, at, x, &list.place[i]);
     if (deep > *depth) *depth = deep, *out = list.place[i];
   }
   return *depth > 0;
@@ -63,7 +65,7 @@ static double depth_before(const sw_contact *c, const sw_system *s, const sw_can
   before.sharp = SW_SHARP_NOT;
   if (!sw_shape_point(c->obstacles[k->obstacle].shape, p, k->skin, &before.near)) return deepest;
   before.near.at = at;
-  return fmax(deepest, depth_of(c, k, c->start, &before));
+  return fmax(deepest, depth_of(c, s, k, c->start, s->x, &before));
 }
 
 /* 1 if the wire moved far enough in the step to be deeper by this much. If not, a node has come

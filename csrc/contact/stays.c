@@ -70,7 +70,7 @@ int sw_contact_stays(const sw_contact *c, const sw_system *s, const sw_touch *t,
   if (near.gap < 0) return 0; /* inside, the side must be found again */
   const sw_vec normal = sw_contact_leaning(c, s, k, &place, t->steady);
   const double aslant = sw_contact_aslant(c, t->node, t->other, near.at, normal);
-  const double gap = near.gap - k->skin + aslant + t->forgiven;
+  const double gap = near.gap - k->skin + t->rise + aslant + t->forgiven;
   if (!p->active) return gap >= 0;
   const double stiff = t->sharp ? p->k * sw_place_share(&place) / t->share : p->k;
   return fabs(near.at - t->at) < MOVED &&

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "contact/arc.h"
 #include "contact/curve.h"
 #include "contact/depth.h"
 #include "contact/same.h"
@@ -342,6 +343,15 @@ static void activate(const sw_contact *c, const sw_system *s, const sw_candidate
   press->active = sw_press_lies(press); /* this touch may be all that carries the wire */
 }
 
+/* Sets how much further out than its chord or smooth curve the wire's arc is. */
+static void rise(const sw_contact *c, const sw_system *s, const sw_candidate *k, const sw_memory *m,
+                 const double *y, const sw_place *place, sw_touch *t) {
+  if (!k->arcs || t->feature == SW_BEHIND_BARRIER) return;
+  t->rise = sw_contact_arc_rise(c, s, k, place, y, t->press.normal);
+  if (c->regime == SW_CONTACT_IMPLICIT && !t->sharp) t->rise = sw_contact_arc_mean(k, m, t->rise);
+  if (m) t->fallen = fmax(0.0, m->rise - t->rise);
+}
+
 sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candidate *k,
                                const double *y, const sw_place *place) {
   const sw_closest *near = &place->near;
@@ -358,7 +368,8 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
   t->usual = end_stiffness(c, s, k, y, out);
   t->stiffer = stiffness_of(c, k, m, last, t->usual);
   press->normal = sw_contact_leaning(c, s, k, place, place->sharp ? t->steady : 0.0);
-  press->gap = near->gap - k->skin;
+  rise(c, s, k, m, y, place, t);
+  press->gap = near->gap - k->skin + t->rise;
   t->share = sw_place_share(place);
   press->k = t->share * (c->softer ? sw_contact_softer(c, s, k, t->stiffer) : t->stiffer);
   press->by_place = goes_by_place(c, s, k);

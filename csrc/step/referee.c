@@ -74,7 +74,7 @@ static void judge_touches(sw_scene *s, double h, sw_step_energy *step) {
     impacts += sw_contact_impacts(contact);
     step->steady &= sw_contact_steady(contact);
     step->obstacles += sw_contact_struck(contact);
-    step->let_out = sw_contact_hardened(contact);
+    step->let_out = sw_contact_hardened(contact) + sw_contact_unbent(contact);
     if (sw_contact_emerges(contact))
       step->let_out += sw_contact_emerged(contact) +
                        b->mass * (THROWN * THROWN + LET_OUT * h * sw_norm(sw_scene_gravity(s)));

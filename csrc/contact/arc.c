@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "contact/arc.h"
+
+#include <math.h>
+
+#include "contact/same.h"
+
+/* An arc of curvature K stands off its chord's middle by this share of K h^2, if the nodes lie so
+ * far outside it that the chord is as long as the arc [-]. */
+static const double OFF = 1.0 / 12.0;
+/* Factors on that for the first edges from a clamp. A clamp is on the arc itself, and its hinge
+ * wants the next node twice as far outside as the nodes further on. So the curvature is within 2 %
+ * at the clamp and beside it; with factors of 1 it alternates by 17 % [-]. */
+static const double FROM_CLAMP[] = {1.0, 5.0 / 8.0, 7.0 / 8.0};
+enum { FAR = sizeof FROM_CLAMP / sizeof *FROM_CLAMP };
+
+/* Edges up to FINE radii get the whole shift, edges from COARSE radii on none. The pull of a wire
+ * drawn over a cylinder depends on which part of a coarse edge is on it; with the shift the mean of
+ * that is 1 % too small for edges of R/2 and 10 % for R, without it 0.1 and 4 %
+ * (spec/contact/capstan_spec) [-]. */
+static const double FINE = 0.35, COARSE = 0.5;
+/* An arc begins where curvature times radius is SW_GOES_ROUND, and is whole from BENT on [-]. */
+static const double BENT = 0.9;
+/* In steps the shift of a chord is a mean over this many of them. Without that a cable that begins
+ * to be wound beside a clamp shakes: pulls up to twice the brake's force
+ * (spec/contact/winding_spec) [-]. */
+static const double MEAN_STEPS = 4.0;
+
+static double from_clamp(const sw_plan *p, size_t e) {
+  size_t nearest = FAR;
+  for (size_t i = 0; i < p->clamp_count; i++) {
+    const size_t node = p->clamps[i].node, away = e >= node ? e - node : node - 1 - e;
+    if (away < nearest) nearest = away;
+  }
+  return nearest < FAR ? FROM_CLAMP[nearest] : 1.0;
+}
+
+/* Curvature at an inner node, towards its centre; 0 at the wire's ends [1/m]. */
+static sw_vec curvature_at(const sw_body *b, size_t i, const double *x) {
+  const double *at = x + 3 * (b->first_node + i), *rest = b->plan->rest;
+  if (i == 0 || i + 1 == b->plan->nodes) return sw_v(0, 0, 0);
+  const sw_vec here = sw_load(at), before = sw_sub(here, sw_load(at - 3));
+  const sw_vec turn = sw_sub(sw_scale(sw_sub(sw_load(at + 3), here), 1.0 / rest[i]),
+                             sw_scale(before, 1.0 / rest[i - 1]));
+  return sw_scale(turn, 2.0 / (rest[i - 1] + rest[i]));
+}
+
+/* Curvature of an edge as far as it is that of an arc of radius R: the mean of its nodes, at the
+ * wire's ends that of the inner node [1/m]. */
+static sw_vec round_on(const sw_body *b, size_t e, double R, const double *x) {
+  const int first = e == 0, last = e + 2 >= b->plan->nodes;
+  const sw_vec one = curvature_at(b, e, x), two = curvature_at(b, e + 1, x);
+  const double round = R * sqrt(fmax(sw_norm2(one), sw_norm2(two)));
+  const double begun = sw_limit((round - SW_GOES_ROUND) / (BENT - SW_GOES_ROUND), 0.0, 1.0);
+  return sw_scale(sw_add(one, two), first == last ? 0.5 * begun : begun);
+}
+
+/* The shift of an edge's chord [m]. */
+static sw_vec shift_on(const sw_body *b, size_t e, double R, const double *x) {
+  const double edge = b->plan->rest[e];
+  const double fine = sw_limit((COARSE - edge / R) / (COARSE - FINE), 0.0, 1.0);
+  if (!(fine > 0)) return sw_v(0, 0, 0);
+  const double size = fine * from_clamp(b->plan, e) * OFF * edge * edge;
+  return sw_scale(round_on(b, e, R, x), -size);
+}
+
+int sw_contact_arcs(const sw_contact *c, const sw_system *s, const sw_candidate *k) {
+  return k->segment && c->round[k->obstacle] > 0 && !s->bodies[k->body].plan->web;
+}
+
+double sw_contact_arc_rise(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                           const sw_place *place, const double *y, sw_vec normal) {
+  const int curved = place->sharp == SW_SHARP_ROUND, still = c->regime == SW_CONTACT_STATIC;
+  if (!k->arcs || (place->sharp && !curved)) return 0;
+  const sw_body *b = &s->bodies[k->body];
+  const size_t e = k->node - b->first_node;
+  const double R = c->round[k->obstacle] + k->skin, *x = still ? y : s->x;
+  const double off = curved ? place->near.at - 0.5 : 0.0; /* from the middle of the edge */
+  const size_t beside = off < 0 ? (e > 0 ? e - 1 : e) : e + 1 < b->plan->edges ? e + 1 : e;
+  sw_vec shift = shift_on(b, e, R, x);
+  if (off != 0) shift = sw_lerp(shift, shift_on(b, beside, R, x), fabs(off));
+  if (!still && c->broad.moves[k->obstacle])
+    shift = sw_rotate(c->now[k->obstacle].pose.q, sw_unrotate(c->start[k->obstacle].pose.q, shift));
+  return sw_dot(normal, shift);
+}
+
+double sw_contact_arc_mean(const sw_candidate *k, const sw_memory *m, double rise) {
+  if (!m || m->node != k->node || m->segment != k->segment) return rise;
+  return m->rise + (rise - m->rise) / MEAN_STEPS;
+}
