@@ -254,22 +254,23 @@ static int meth_max_stress(lua_State *L) {
   return push_extreme(L, x.value * modulus(L), &x);
 }
 
-/* Largest torsion M_t / GJ of a wire that is no mesh [rad/m], where [m], when [s]. */
+/* Largest torsion M_t / GJ [rad/m], where [m], when [s]. */
 static int meth_max_torsion(lua_State *L) {
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   const sw_extreme x = read_extremes(L).torsion;
-  if (!sw_scene_wire_calibration(w.scene, w.id)) return push_extreme(L, x.value, &x);
+  if (isfinite(x.value)) return push_extreme(L, x.value, &x);
   return luaL_error(L,
-                    "wire:max_torsion: wire '%s' is a %s; the torsion of a mesh of particles is "
-                    "not kept; frames have its twist_moment",
+                    "wire:max_torsion: wire '%s' is a %s without GJ or without sections, so its "
+                    "torsion is not known",
                     sw_scene_wire_name(w.scene, w.id), sw_scene_wire_model(w.scene, w.id));
 }
 
-/* Largest ovalisation of a section of a mesh [-], where [m], when [s]. */
+/* Largest ovalisation of a section while the wire was a mesh [-], where [m], when [s]. */
 static int meth_max_ovalisation(lua_State *L) {
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   const sw_extreme x = read_extremes(L).ovalisation;
-  if (sw_scene_wire_calibration(w.scene, w.id)) return push_extreme(L, x.value, &x);
+  if (sw_scene_wire_calibration(w.scene, w.id) || isfinite(x.value))
+    return push_extreme(L, x.value, &x);
   return luaL_error(L,
                     "wire:max_ovalisation: wire '%s' is a %s, whose section does not change; this "
                     "is for meshes of particles",

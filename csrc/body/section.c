@@ -119,7 +119,7 @@ void sw_strand_extremes(const sw_scene *s, size_t wire, double *tension, sw_wire
   const sw_body *b = &system->bodies[wire];
   const sw_web *w = b->plan->web;
   const double *x = system->x + 3 * b->first_node, *T = sw_system_elastic(system, b);
-  const double EA = b->plan->beam.EA;
+  const double EA = b->plan->beam.EA, GJ = b->plan->beam.GJ;
   const sw_extreme least = {.value = -HUGE_VAL};
   *now = (sw_wire_extremes){least, least, least, least, least, least, least, 0};
   if (!w->rings) return; /* an object of particles */
@@ -133,6 +133,8 @@ void sw_strand_extremes(const sw_scene *s, size_t wire, double *tension, sw_wire
     if (at.tension > now->tension.value)
       now->tension = (sw_extreme){.value = at.tension, .s = place};
     if (strain > now->strain.value) now->strain = (sw_extreme){.value = strain, .s = place};
+    if (GJ > 0 && fabs(at.twist_moment) / GJ > now->torsion.value)
+      now->torsion = (sw_extreme){.value = fabs(at.twist_moment) / GJ, .s = place};
   }
   now->ovalisation = sw_strand_ovalisation(w, x);
   now->folding = sw_strand_folding(w, x);

@@ -143,7 +143,7 @@ static void wire_now(sw_scene *s, size_t w, double *tension, sw_wire_extremes *n
     sw_strand_extremes(s, w, tension, now);
     now->curvature.time = now->tension.time = now->strain.time = sw_scene_time(s);
     now->ovalisation.time = now->folding.time = sw_scene_time(s);
-    now->torsion = (sw_extreme){.value = -HUGE_VAL};
+    now->torsion.time = sw_scene_time(s);
     return;
   }
   curvature_extreme(system, &system->bodies[w], &now->curvature);

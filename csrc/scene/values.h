@@ -20,7 +20,7 @@ typedef struct sw_wire_extremes {
   sw_extreme curvature, tension, strain; /* [1/m], [N], outermost fibre [-] */
   sw_extreme folding;     /* of a section of springs; above 0 it has folded through itself [-] */
   sw_extreme ovalisation; /* of a mesh of particles; see sw_section_shape [-] */
-  sw_extreme torsion;     /* of a line, M_t / GJ [rad/m] */
+  sw_extreme torsion;     /* M_t / GJ [rad/m] */
   sw_extreme raw;         /* tension of a single step; `tension` is that of means over the window
                              [N] */
   double raw_span;        /* size of that step; 0: it was an equilibrium [s] */

@@ -37,7 +37,7 @@ rows.calls{
   { "wire:min_bend_radius", "{ now = }", "smallest of the run", "radius [m], s [m], t [s]" },
   { "wire:max_strain", "{ now = }", "largest of a fibre in the run", "strain, s [m], t [s]" },
   { "wire:max_stress", "{ now = }", "largest of a fibre in the run", "stress [Pa], s [m], t [s]" },
-  { "wire:max_torsion", "{ now = }", "largest of the run; not of meshes", "torsion [rad/m], s [m], t [s]" },
+  { "wire:max_torsion", "{ now = }", "largest of the run", "torsion [rad/m], s [m], t [s]" },
   { "wire:bend_limit", "{ use =, now = }", "whether the allowed bend radius is kept",
     "{ ok, radius, limit [m], s [m], t [s] }" },
   -- sections of meshes

@@ -100,9 +100,13 @@ local function histories(context, entry)
   return same and count and list or nil, places, count
 end
 
+local REMOVED = "a wire was removed, and frames cannot tell wires apart then"
+local CHANGED = "the wire's nodes are not the same in all frames"
+
 local function of_frames(entry, context, strength, given)
   local list, places, count = histories(context, entry)
-  if not list then return { value = 0 / 0, note = "the wire's nodes are not the same in all frames" } end
+  if not count then return worn.at_least({ value = 0, note = REMOVED }, worn.HOW) end
+  if not list then return worn.at_least({ value = 0, note = CHANGED }, worn.HOW) end
   local best = { value = 0 }
   for k, history in ipairs(list) do
     local sum, range = repeated(rainflow.flat(history), history, given, given.curve, strength)

@@ -1,11 +1,16 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Largest ovalisation of all steps, of wires that are meshes.
+--- Largest ovalisation of all steps in which the wire was a mesh.
 -- @module softworld.check.ovalisation
+local checks = require "softworld.checks"
+
 return { name = "max_ovalisation", unit = "-", side = "max", on = "wire", asked = true,
   label = "largest ovalisation of a section", missing = "allowed ovalisation",
   value = function(entry)
-    if entry.object.model == "rod" or entry.object.model == "string" then return nil end
-    local value, s, time = entry.object:max_ovalisation()
+    local known, value, s, time = pcall(entry.object.max_ovalisation, entry.object)
+    if not known then
+      if checks.is_interrupt(value) then error(value, 0) end
+      return nil -- it has been a line in the whole run
+    end
     return { value = value, s = s, time = time }
   end,
   reference = function() return 0.1 end }
