@@ -20,7 +20,8 @@ return { name = "min_bend_radius", unit = "m", side = "min", on = "wire", edges 
   missing = "bend (its wire has no entry of the catalogue)",
   value = function(entry)
     local radius, s, time = entry.object:min_bend_radius()
-    return { value = radius - entry.object.radius, s = s, time = time }
+    local skin = entry.object.radius
+    return { value = radius - skin, inside = skin, s = s, time = time }
   end,
   limit = limit,
   reference = function(entry) return 8 * entry.object.radius end }

@@ -13,7 +13,8 @@ return { name = "end_bend_radius", unit = "m", side = "min", on = "wire", edges 
   wanted = function(context) return context.use ~= nil and context.use ~= USE end,
   value = function(entry, context)
     local radius, s = entry.object:min_bend_radius{ now = true }
-    return { value = radius - entry.object.radius, s = s, time = context.run.time }
+    local skin = entry.object.radius
+    return { value = radius - skin, inside = skin, s = s, time = context.run.time }
   end,
   limit = function(entry)
     local known = entry.object:cable()

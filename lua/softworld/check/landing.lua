@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Landing error: the largest distance of the wire's centre line from a wanted path, at the end of the run.
--- Path and wire are polylines; the distance is measured at the wire's nodes.
+-- Path and wire are polylines; the distance is measured at the wire's nodes and at the ends of its part that
+-- must lie there. A path may go on beyond the wire; the row says how far.
 -- @module softworld.check.landing
 local vec = require "softworld.vec"
 
@@ -22,27 +23,69 @@ local function from_path(p, path)
   return least
 end
 
+-- Returns the part of the wire's line from arc length `from` to `to`: points, and their arc lengths [m].
+local function part_of(x, from, to)
+  local points, places, before, s = {}, {}, nil, 0
+  local function add(p, at) points[#points + 1], places[#places + 1] = p, at end
+  for i = 1, #x, 3 do
+    local p = { x[i], x[i + 1], x[i + 2] }
+    local way = before and vec.sub(p, before) or p
+    local long = before and vec.norm(way) or 0
+    for _, at in ipairs(to > from and { from, to } or { from }) do
+      if s < at and at < s + long then add(vec.add(before, vec.scale(way, (at - s) / long)), at) end
+    end
+    s, before = s + long, p
+    if s >= from and s <= to then add(p, s) end
+  end
+  return points, places
+end
+
+-- Returns the length of a wire's line [m].
+local function length_of(x)
+  local sum = 0
+  for i = 4, #x, 3 do
+    sum = sum + vec.norm{ x[i] - x[i - 3], x[i + 1] - x[i - 2], x[i + 2] - x[i - 1] }
+  end
+  return sum
+end
+
+-- Returns how far the farthest of these points is from a line, and its number.
+local function farthest(points, line)
+  local most, number = 0, nil
+  for i, p in ipairs(points) do
+    local far = from_path(p, line)
+    if far > most then most, number = far, i end
+  end
+  return most, number
+end
+
+-- Returns a note if the wire as a whole does not reach all of the path.
+local function uncovered(wanted, points, far, radius)
+  if wanted.from or wanted.to then return nil end
+  local beyond, corner = farthest(wanted.path, points)
+  if beyond <= far + radius then return nil end
+  return ("point %d of the path is %.4g m from the wire, which is not counted"):format(corner, beyond)
+end
+
+local function value(entry, context)
+  local wanted, wire = context.landing, entry.object
+  if not wanted then
+    return { value = 0 / 0, note = "the wanted path is missing; give landing = { path = points }" }
+  end
+  if wanted.wire and wanted.wire ~= entry.name then return nil end
+  local x, from = wire:positions(), wanted.from or 0
+  local long = length_of(x)
+  if from > math.max(long, wire.length) + SLACK then
+    return { value = 0 / 0, note = ("landing.from = %g m is beyond the wire's end at %g m"):format(from,
+      wire.length) }
+  end
+  local points, places = part_of(x, math.min(from, long - SLACK), wanted.to or math.huge)
+  local far, number = farthest(points, wanted.path)
+  return { value = far, s = places[number], time = context.run.time,
+    note = uncovered(wanted, points, far, wire.radius) }
+end
+
 return { name = "landing_error", unit = "m", side = "max", on = "wire", asked = true,
   label = "largest distance from the wanted path at the end", missing = "allowed landing error",
-  wanted = function(context) return context.landing ~= nil end,
-  value = function(entry, context)
-    local wanted = context.landing
-    if not wanted then
-      return { value = 0 / 0, note = "the wanted path is missing; give landing = { path = points }" }
-    end
-    if wanted.wire and wanted.wire ~= entry.name then return nil end
-    local x, best, s = entry.object:positions(), { value = 0, time = context.run.time }, 0
-    local from, to = wanted.from or 0, wanted.to or math.huge
-    local before, seen
-    for i = 1, #x, 3 do
-      local p = { x[i], x[i + 1], x[i + 2] }
-      if before then s = s + vec.norm(vec.sub(p, before)) end
-      before = p
-      local within = s >= from - SLACK and s <= to + SLACK
-      local far = within and from_path(p, wanted.path) or 0
-      seen = seen or within
-      if far > best.value then best.value, best.s = far, s end
-    end
-    return seen and best or { value = 0 / 0, note = "no node of the wire is between from and to" }
-  end,
+  wanted = function(context) return context.landing ~= nil end, value = value,
   reference = function(entry) return entry.object.length / 100 end }

@@ -6,6 +6,24 @@ local core = require "softworld.core"
 
 local worse = { max = function(a, b) return a > b end, min = function(a, b) return a < b end }
 
+-- Widens the value by the zones that the wire may have entered between steps. Of several, the worst counts.
+local function perhaps(entry, side, best)
+  local way, sure = side == "max" and "high" or "low", best ~= nil
+  for _, zone in ipairs(core.zones(entry.object)) do
+    local maybe = zone.temperature and zone.gap and zone.gap >= 0 and zone.between < 0
+    if maybe and not best then
+      best = { value = zone.temperature, low = -math.huge, high = math.huge }
+      best[way] = zone.temperature
+      best.note = ("perhaps in zone '%s' between steps"):format(zone.name)
+    elseif maybe and worse[side](zone.temperature, best[way] or best.value) then
+      best[way] = zone.temperature
+      if not sure then best.value = zone.temperature end
+      best.note = ("%s; perhaps in zone '%s' between steps"):format(best.note, zone.name)
+    end
+  end
+  return best
+end
+
 -- Returns the worst temperature of the zones that the wire entered, and of those it may have entered.
 local function exposed(entry, side)
   local best
@@ -16,16 +34,7 @@ local function exposed(entry, side)
         note = ("zone '%s', in it for %.4g s"):format(zone.name, zone.inside) }
     end
   end
-  for _, zone in ipairs(core.zones(entry.object)) do
-    local perhaps = zone.temperature and zone.gap and zone.gap >= 0 and zone.between < 0
-    if perhaps and (not best or worse[side](zone.temperature, best.value)) then
-      best = best or { value = zone.temperature, low = -math.huge, high = math.huge }
-      best[side == "max" and "high" or "low"] = zone.temperature
-      best.note = ("%sperhaps in zone '%s' between steps"):format(best.note and best.note .. "; " or "",
-        zone.name)
-    end
-  end
-  return best
+  return perhaps(entry, side, best)
 end
 
 --- Returns the check of one side: "max" or "min".
