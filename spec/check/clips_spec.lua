@@ -43,6 +43,9 @@ describe("run:check of a clip", function()
     check = scene:run{ duration = 0.02, dt = 0.005 }:check{ limits = { insertion_force = 7 } }
     assert.equal("OPEN", check:row "insertion_force".verdict)
     assert.equal("PASS", check:row "clip.seated".verdict)
+    -- but the clip keeps its largest pull, and the row says so
+    local words = ("since the wire went in at t = %.4g s, before this run"):format(into.time)
+    assert.equal(words, check:row "retention_used".note)
   end)
 
   it("fails where the wire is not seated at the end", function()

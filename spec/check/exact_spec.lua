@@ -98,3 +98,21 @@ describe("run:check of the landing error", function()
     assert.truthy(r.note:find("landing.from = 0.3 m is beyond the wire's end at 0.2 m", 1, true), r.note)
   end)
 end)
+
+describe("run:check of events that had no room", function()
+  -- A run keeps 512 events. The clamp is driven into the table after 600 others.
+  it("is open, because a crash may be among them", function()
+    for _, case in ipairs{ { 600, "OPEN" }, { 6, "FAIL" } } do
+      local scene, _, clamp = still()
+      scene:obstacle{ name = "table", shape = "plane", at = { 0, 0, -0.05 } }
+      scene:process(function(p)
+        for k = 1, case[1] do scene:tell{ kind = "note", text = "a note", object = "part" .. k } end
+        clamp:follow{ points = { { 0, 0, 0 }, { 0, 0, -0.06 } }, relative = true, duration = 0.1 }
+        p:wait(0.1)
+      end)
+      local row = scene:run{ dt = 0.01 }:check{}:row "events"
+      assert.equal(case[2], row.verdict)
+      assert.equal(case[2] == "OPEN", row.note:find("had no room in the record", 1, true) ~= nil)
+    end
+  end)
+end)

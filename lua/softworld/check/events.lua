@@ -14,6 +14,11 @@ return function(kinds)
         if v.value == 1 then v.s, v.time, v.note = e.s, e.first or e.time, e.text end
       end
     end
+    local _, lost = context.scene:events()
+    if lost > 0 then -- of any kind
+      v.low, v.high = v.value, math.huge
+      v.note = ("%s%d events had no room in the record"):format(v.note and v.note .. "; " or "", lost)
+    end
     return v
   end
 end

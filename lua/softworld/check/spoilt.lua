@@ -30,6 +30,7 @@ local function value(_, context)
       v.s, v.time = v.s or s, v.time or time
     end
   end
+  if v.low then v.low = v.value end
   return v
 end
 
