@@ -75,16 +75,21 @@ local function add_up(m, list, o)
   m.impulse_size = vec.norm(m.impulse)
 end
 
+-- True if a row tells of the time from o.t1 to o.t2. A step that ends at t1 is before that time.
+local function is_within(r, o)
+  return r.t <= o.t2 and (r.t > o.t1 or r.t == o.t1 and (r.span == 0 or o.t1 == o.t2))
+end
+
 --- Returns measures of such a list. o: t1, t2 [s]; width of the window [s]; at: point for moments, or nil;
 -- forces_only: no moments; is_gap(t): true if nothing was held at that time; each(r, t0): called for each row
 -- between t1 and t2; the row holds from t0 on [s].
 -- @treturn table of gripper:over, without what pads have
 function loads.over(list, o)
   local m = { impulse = { 0, 0, 0 }, duration = 0, window = o.width }
-  local forces, moments, last = {}, {}, -math.huge
+  local forces, moments, last = {}, {}, o.t1 < o.t2 and o.t1 or -math.huge
   for _, r in ipairs(list) do
     r.moment = moment_about(r, o.at)
-    if r.t >= o.t1 and r.t <= o.t2 then
+    if is_within(r, o) then
       local t0 = math.max(r.t - math.abs(r.span), math.min(last, r.t))
       forces[#forces + 1] = { t0 = t0, t1 = r.t, r[1], r[2], r[3] }
       moments[#moments + 1] = { t0 = t0, t1 = r.t, table.unpack(r.moment) }

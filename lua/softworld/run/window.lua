@@ -222,7 +222,9 @@ function core.class.obstacle.over(obstacle, t1, t2, options)
     local b = 5 * i
     local t, span = rows[b + 1], rows[b + 5]
     local s = { t0 = t - span, t1 = t, rows[b + 2], rows[b + 3], rows[b + 4] }
-    if t >= t1 and t <= t2 then steps[#steps + 1] = s end
+    if t <= t2 and (t > t1 or t == t1 and (span == 0 or t1 == t2)) then
+      steps[#steps + 1] = { t0 = t1 < t2 and math.max(s.t0, t1) or s.t0, t1 = t, s[1], s[2], s[3] }
+    end
     add(math.min(t, t2) - math.max(s.t0, t1), s)
     if span == 0 and before then -- equilibria: linear between them
       local h = 0.5 * (math.min(t, t2) - math.max(before.t1, t1))
