@@ -103,6 +103,14 @@ describe("run:check", function()
     end
   end)
 
+  it("is open where a limit of the run applies to nothing: penetration without obstacles", function()
+    local bare = sw.scene{ gravity = { 0, 0, 0 } }
+    bare:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.2, 0, 0 } }
+    local row = bare:run{ duration = 0.01 }:check{ limits = { penetration = 1e-4 } }:row "penetration"
+    assert.equal("OPEN", row.verdict)
+    assert.is_nil(row.value)
+  end)
+
   it("is open where a limit applies to nothing in the run", function()
     for name, limit in pairs{ peak_margin = 0.5, max_ovalisation = 0.1 } do -- no pads squeeze, no mesh
       local row = run:check{ limits = { [name] = limit } }:row(name)

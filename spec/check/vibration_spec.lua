@@ -65,6 +65,29 @@ describe("run:check of natural frequencies", function()
     assert.equal("PASS", r.verdict)
   end)
 
+  -- Two halves of 0.5 m are clamped and joined in the middle. Each by itself is clamped at both ends. The
+  -- joint bends as half an edge more: 2 x 2.5 mm / 0.5 m = 1 %.
+  it("needs alone = true for joined wires, and then gives each with the others fixed", function()
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local ends = {}
+    for k, name in ipairs{ "a", "b" } do
+      local wire = scene:wire{ name = name, EA = 1e5, EI = EI, mass_per_length = MASS, radius = 0.002,
+        segments = 100, from = { 0.5 * k - 0.5, 0, 0 }, to = { 0.5 * k, 0, 0 } }
+      scene:clamp(wire, { s = 0.5 * k - 0.5 })
+      ends[k] = { wire, s = 1 - 0.5 * k }
+    end
+    scene:join{ ends = ends }
+    local joined = scene:run{ duration = 0.02, dt = 0.01 }
+    local function row_of(alone)
+      return joined:check{ vibration = { bands = { { 1, 2 } }, alone = alone } }:row "a.frequency_gap"
+    end
+    assert.equal("FAIL", row_of().verdict)
+    assert.truthy(row_of().note:find("give vibration = { alone = true }", 1, true), row_of().note)
+    local f = 4 * frequency(1)
+    assert.is_near(f, 2 * (1 + row_of(true).value), 0.015 * f)
+    assert.truthy(row_of(true).note:find("the other wires stay fixed", 1, true), row_of(true).note)
+  end)
+
   it("fails for a wire that still moves", function()
     local r = beam{ gravity = { 0, 0, -9.81 }, free = true }:check{ vibration = { bands = { { 1, 2 } } } }
       :row "frequency_gap"

@@ -171,7 +171,7 @@ local function judge_one(self, member, entry, context, list)
     return
   end
   if not value then
-    if not (given and list[full]) then return end
+    if not (given and entry.name and list[full]) then return end
     value = { value = 0 / 0, note = "this run has no such value" } -- asked for by its full name
   end
   with_error(value, error_bar(self.run, entry.name, member.name))

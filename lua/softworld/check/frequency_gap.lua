@@ -40,6 +40,7 @@ return { name = "frequency_gap", unit = "-", side = "min", on = "wire", asked = 
     local found, whole = swings.up_to(entry.object, highest, given)
     if found.unstable > 0 then return { value = 0 / 0, note = found.note } end
     local value = least(found, given.bands)
+    value.note = (value.note or "no natural frequency") .. swings.note(given)
     if not whole then
       value.low, value.high = -math.huge, value.value
       value.note = ("%s; %d modes reach up to %.4g Hz only"):format(value.note, #found, found[#found])

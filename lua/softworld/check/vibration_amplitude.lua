@@ -65,7 +65,8 @@ return { name = "vibration_amplitude", unit = "m", side = "max", on = "wire", as
       return { value = 0 / 0, note = "it needs vibration = { spectrum = { { f [Hz], W [(m/s2)2/Hz] } }, "
         .. "damping = }" }
     end
-    local args = { shapes = true, modes = given.modes, tolerance = given.tolerance }
+    local args = { shapes = true, modes = given.modes, tolerance = given.tolerance,
+      alone = given.alone }
     local found, whole = swings.up_to(entry.object, given.spectrum[#given.spectrum][1], args)
     if found.unstable > 0 then return { value = 0 / 0, note = found.note } end
     local mass, places = masses(entry.object)
@@ -74,7 +75,8 @@ return { name = "vibration_amplitude", unit = "m", side = "max", on = "wire", as
       local now = SIGMAS * math.sqrt(variance)
       if now > best.value then best = { value = now, s = places[i] } end
     end
-    best.note = ("%d modes up to %.4g Hz, damping ratio %g"):format(#found, found[#found], given.damping)
+    best.note = ("%d modes up to %.4g Hz, damping ratio %g%s"):format(#found, found[#found], given.damping,
+      swings.note(given))
     if not whole then best.low, best.high = best.value, math.huge end
     return best
   end,

@@ -49,6 +49,8 @@ wanted.vibration = rows.list{
   { "direction", "vector", "-", "of the acceleration", usual = "the worst of each mode" },
   { "modes", "integer", "-", "number of the lowest modes that are judged", min = 1, max = 200,
     usual = "all up to the highest frequency" },
+  { "alone", "boolean", "-", "true: joined wires count each by itself, while the others stay fixed",
+    usual = "joined wires have no value" },
   { "tolerance", "number", "-", "how far from rest the wire may be, as a share of its length", min = 0,
     above = true, usual = 1e-4 },
 }
