@@ -98,8 +98,7 @@ sw_widths sw_outline_widths(const double *outline, size_t count, sw_vec tangent)
 
 enum { FINE = 128 }; /* least points of the smooth curve: 1 - cos(pi / 128) is 3e-4 [-] */
 
-/* 1 if the undeformed outline is a regular polygon. */
-static int is_round(const sw_web *w) {
+int sw_outline_is_round(const sw_web *w) {
   const size_t n = w->around_count;
   const double *p = w->section + 2 * (size_t)w->around[0], r = hypot(p[0], p[1]);
   const double c = cos(2 * M_PI / (double)n), s = sin(2 * M_PI / (double)n);
@@ -136,7 +135,8 @@ static size_t even(size_t n) { return n + n % 2; }
 double sw_outline_ovalisation(const sw_web *w, const double *outline, sw_vec tangent) {
   point p[SW_OUTLINE], fine[FINE + 2 * SW_OUTLINE], hull[2 * (FINE + 2 * SW_OUTLINE)];
   const sw_vec u = sw_perpendicular(tangent), v = sw_cross(tangent, u);
-  const size_t n = w->around_count, times = n && is_round(w) ? even((FINE + n - 1) / n) : 1;
+  const size_t n = w->around_count,
+               times = n && sw_outline_is_round(w) ? even((FINE + n - 1) / n) : 1;
   flatten(outline, n, u, v, p);
   const size_t all = smooth(p, n, times, fine);
   const sw_widths wide = widths(fine, all, hull, u, v);
@@ -208,7 +208,7 @@ sw_extreme sw_strand_ovalisation(const sw_web *w, const double *x) {
   double outline[3 * SW_OUTLINE];
   point roots[SW_OUTLINE];
   const size_t n = w->around_count, likely = likely_ring(w, x);
-  const int round = is_round(w);
+  const int round = sw_outline_is_round(w);
   for (size_t k = 0; k < n; k++) {
     const double angle = 2 * M_PI * (double)k / (double)n;
     roots[k] = (point){cos(angle), sin(angle)};

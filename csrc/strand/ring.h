@@ -34,6 +34,8 @@ double sw_strand_walls_apart(const sw_web *web, const double *x, double s);
 /* Returns, over all faces of the sections, the largest value of minus the area over the area at
  * rest: above 0 if a face is turned over [-]. */
 sw_extreme sw_strand_folding(const sw_web *web, const double *x);
+/* 1 if the undeformed outline is a regular polygon. */
+int sw_outline_is_round(const sw_web *web);
 /* Moves the points of the outline (count x 3) outwards by skin. */
 void sw_outline_widen(const double *outline, size_t count, sw_vec tangent, double skin,
                       double *out);

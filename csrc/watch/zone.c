@@ -13,6 +13,7 @@
 #include "scene/parts.h"
 #include "scene/wire.h"
 #include "system/system.h"
+#include "watch/zone_piece.h"
 
 static const sw_param rows[] = {
     {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_zone_args, name),
@@ -66,9 +67,6 @@ const sw_zone_past *sw_scene_zone_past(const sw_scene *s, sw_handle h, size_t k)
 
 /* --- distances ------------------------------------------------------------------- */
 
-/* Number of pieces of a wire: its edges, or the particles of a mesh. */
-static size_t pieces_of(const sw_plan *p) { return p->web ? p->nodes : p->edges; }
-
 static double gap_at(const sw_shape *shape, sw_vec p) {
   sw_closest at;
   return sw_shape_point(shape, p, HUGE_VAL, &at) ? at.gap : HUGE_VAL;
@@ -85,16 +83,6 @@ static double gap_of(const sw_zone *z, sw_vec a, sw_vec b, double *along) {
   for (int k = 0; k < count; k++)
     if (list[k].gap < least) least = list[k].gap, *along = list[k].at;
   return least;
-}
-
-static void piece(const sw_system *s, const sw_body *b, size_t e, sw_vec *from, sw_vec *to) {
-  *from = sw_vec_at(s->x, b->first_node + e);
-  *to = b->plan->web ? *from : sw_vec_at(s->x, b->first_node + e + 1);
-}
-
-static double place_of(const sw_plan *p, size_t e, double along) {
-  if (p->web) return p->web->s[e];
-  return p->s[e] + along * (p->s[e + 1] - p->s[e]);
 }
 
 /* Returns the larger shift of the piece's ends since the last step's end. */
@@ -158,20 +146,21 @@ static void note_zone(const sw_scene *s, size_t w, size_t k, int same) {
   const sw_zone *zone = &sw_scene_zones_of(s)->list[k];
   const int seen = past->until > -HUGE_VAL;
   const double before = past->last, far = seen && !same ? farthest_from(s, b, zone, past) : 0;
+  const sw_zone_body whole = sw_zone_body_of(system, b);
   double *gaps = watch->gaps + k * watch->edges;
   past->last = HUGE_VAL;
   for (size_t e = 0; e < watch->edges; e++) {
-    sw_vec from, to;
+    const sw_zone_piece p = sw_zone_piece_of(&whole, e);
+    const sw_vec from = p.end[0], to = p.end[1];
     double along;
-    piece(system, b, e, &from, &to);
-    const double gap = gap_of(zone, from, to, &along) - sw_plan_skin(b->plan, e);
+    const double gap = gap_of(zone, from, to, &along) - p.skin;
     /* a place at distance `old` before and `gap` at present was never nearer than this */
     const double way = !same ? far : seen ? passed(zone, past, watch, e, from, to) : 0;
     const double old = same ? gaps[e] : before;
     past->between = fmin(past->between, seen ? fmin(gap, 0.5 * (old + gap - way)) : gap);
     gaps[e] = gap, past->last = fmin(past->last, gap);
     if (gap < past->gap)
-      past->gap = gap, past->s = place_of(b->plan, e, along), past->time = sw_scene_time(s);
+      past->gap = gap, past->s = p.s[0] + along * (p.s[1] - p.s[0]), past->time = sw_scene_time(s);
   }
   if (past->last < 0 && seen) past->inside += sw_scene_time(s) - past->until;
   past->until = sw_scene_time(s), past->before = zone->carrier;
@@ -179,7 +168,8 @@ static void note_zone(const sw_scene *s, size_t w, size_t k, int same) {
 
 static sw_status fit(sw_scene *s, size_t w, int *same) {
   sw_zone_watch *watch = &sw_scene_wire_in(s, w)->zones;
-  const size_t pieces = pieces_of(sw_scene_system(s)->bodies[w].plan);
+  const sw_system *system = sw_scene_system(s);
+  const size_t pieces = sw_zone_body_of(system, &system->bodies[w]).count;
   *same = watch->edges == pieces && watch->zones == sw_scene_zones_of(s)->count;
   if (*same) return SW_OK;
   sw_zone_watch new = {.zones = sw_scene_zones_of(s)->count, .edges = pieces};
@@ -225,10 +215,10 @@ sw_status sw_zones_note(sw_scene *s, size_t w, sw_error *err) {
   sw_zone_watch *watch = &sw_scene_wire_in(s, w)->zones;
   for (size_t k = 0; k < watch->zones; k++)
     if (is_there(s, &sw_scene_zones_of(s)->list[k])) note_zone(s, w, k, same);
+  const sw_zone_body whole = sw_zone_body_of(system, &system->bodies[w]);
   for (size_t e = 0; e < watch->edges; e++) {
-    sw_vec from, to;
-    piece(system, &system->bodies[w], e, &from, &to);
-    sw_store(watch->x + 6 * e, from), sw_store(watch->x + 6 * e + 3, to);
+    const sw_zone_piece p = sw_zone_piece_of(&whole, e);
+    sw_store(watch->x + 6 * e, p.end[0]), sw_store(watch->x + 6 * e + 3, p.end[1]);
   }
   return SW_OK;
 }
