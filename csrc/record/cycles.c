@@ -46,8 +46,8 @@ static int condense(sw_cycle *list, int count) {
 /* Ranges that differ by less than this share are the same [-]. */
 static const double SAME = 1e-12;
 
-static void keep(sw_cycles *c, double a, double b, double count) {
-  const sw_cycle new = {.range = fabs(b - a), .mean = 0.5 * (a + b), .count = count};
+static void keep(sw_cycles *c, sw_cycle new) {
+  const double count = new.count;
   sw_cycle list[SW_CYCLES_KEPT + 1];
   int k = c->count;
   if (!(new.range > 0)) return;
@@ -77,9 +77,38 @@ static void close_cycles(sw_cycles *c) {
   while (c->opened >= 3) {
     const int n = c->opened;
     if (fabs(x[n - 1] - x[n - 2]) < fabs(x[n - 2] - x[n - 3])) return;
-    keep(c, x[n - 3], x[n - 2], n == 3 ? 0.5 : 1.0); /* of three, the history's start is in it */
+    keep(c, (sw_cycle){.range = fabs(x[n - 2] - x[n - 3]),
+                       .mean = 0.5 * (x[n - 3] + x[n - 2]),
+                       .count = n == 3 ? 0.5 : 1.0}); /* of three, the history's start is in it */
     drop(c, n == 3 ? 0 : n - 3, n == 3 ? 1 : 2);
   }
+}
+
+static double cube(double x) { return x * x * x; }
+
+/* Returns the cycle that takes the place of reversals i and i + 1 of those that wait, whose ranges
+ * only fall. Of the ranges r >= s >= t at them, r and t would close later. Without the two,
+ * r - s + t does. The sum of cubes stays; *moved: how much of it moves from r and t to the cycle,
+ * beyond s. Little moves where r, s and t are nearly equal, and where they are small. */
+static sw_cycle instead(const double *x, int i, double *moved) {
+  const double r = fabs(x[i] - x[i - 1]), s = fabs(x[i + 1] - x[i]), t = fabs(x[i + 2] - x[i + 1]);
+  const double missing = cube(r) + cube(t) - cube(r - s + t);
+  *moved = missing - cube(s);
+  return (sw_cycle){
+      .range = cbrt(fmax(missing, cube(t))), .mean = 0.5 * (x[i] + x[i + 1]), .count = 1};
+}
+
+/* Closes a cycle between two of the reversals that wait, those with which the least is moved. The
+ * present value stays. */
+static void make_room(sw_cycles *c) {
+  double least = HUGE_VAL, moved;
+  int best = 1;
+  for (int i = 1; i + 2 < c->opened; i++) {
+    instead(c->open, i, &moved);
+    if (moved < least) least = moved, best = i;
+  }
+  keep(c, instead(c->open, best, &moved));
+  drop(c, best, 2);
 }
 
 void sw_cycles_add(sw_cycles *c, double value) {
@@ -89,10 +118,7 @@ void sw_cycles_add(sw_cycles *c, double value) {
   if (n >= 2 && (x[n - 1] > x[n - 2]) == (value > x[n - 1])) {
     x[n - 1] = value; /* the same direction as before */
   } else {
-    if (n == SW_CYCLES_OPEN) { /* a decaying oscillation: two of its halves are one cycle */
-      keep(c, x[n - 2], x[n - 1], 1.0);
-      drop(c, n - 2, 2);
-    }
+    if (n == SW_CYCLES_OPEN) make_room(c); /* a decaying oscillation */
     x[c->opened++] = value;
   }
   close_cycles(c);

@@ -2,7 +2,8 @@
 /* Rainflow count of the cycles of a load that comes value by value (ASTM E1049-85, 5.4.4), in
  * bounded room. A cycle closes as soon as no later value can change it, so the count is that of the
  * whole history. When room is short, cycles are merged such that they damage at least as much under
- * any S-N curve with a slope up to SW_CYCLES_SLOPE. */
+ * any S-N curve with a slope up to SW_CYCLES_SLOPE, and of too many waiting reversals two are
+ * closed such that they damage as much with a slope of 3. */
 #ifndef SW_RECORD_CYCLES_H
 #define SW_RECORD_CYCLES_H
 
@@ -10,7 +11,7 @@
 
 /* Most reversals that wait for their cycle; most kinds of cycles kept apart; the slope of an S-N
  * curve up to which merged cycles damage at least as much as the original ones [-]. */
-enum { SW_CYCLES_OPEN = 24, SW_CYCLES_KEPT = 56, SW_CYCLES_SLOPE = 8 };
+enum { SW_CYCLES_OPEN = 32, SW_CYCLES_KEPT = 56, SW_CYCLES_SLOPE = 8 };
 
 typedef struct sw_cycle {
   double range; /* from valley to peak [the load's unit] */

@@ -12,7 +12,7 @@ void sw_wear_free(sw_wear *w) {
 }
 
 static void tape_cycles(sw_tape *t, sw_cycles *c) {
-  SW_TAPE_STRUCT(t, sw_cycles, 1544);
+  SW_TAPE_STRUCT(t, sw_cycles, 1608);
   sw_tape_int(t, &c->opened), sw_tape_int(t, &c->count);
   if (sw_tape_reads(t)) {
     const int fine = c->opened >= 0 && c->opened <= SW_CYCLES_OPEN && c->count >= 0 &&

@@ -30,9 +30,16 @@ describe("cycles counted during the run", function()
       return math.sin(i) * math.exp(-0.004 * i) + 0.05 * random()
     end,
     ["a swing that grows"] = function(i) return math.sin(i) * math.exp(0.004 * i) end,
+    ["beats with ripples"] = function(i)
+      return math.sin(0.37 * i) * (1 + 0.5 * math.sin(0.003 * i)) + 0.2 * math.sin(2.1 * i)
+    end,
+    ["a slow decay with ripples"] = function(i)
+      return math.sin(0.37 * i) * math.exp(-0.0005 * i) + 0.1 * math.sin(3.1 * i) * math.sin(0.01 * i)
+    end,
     ["a slow rise with ripples"] = function(i) return 0.01 * i + math.sin(2 * i) end,
   }
-  -- The memory is bounded, so ranges within 4 % of each other may be merged.
+  -- The memory is bounded, so ranges within 4 % of each other may be merged, and of more than 32 reversals
+  -- that wait two are closed: 1 % in these histories, 2 % by the manual.
   for name, of in pairs(histories) do
     it("give the damage of the whole history: " .. name, function()
       for try = 1, 20 do
@@ -40,7 +47,7 @@ describe("cycles counted during the run", function()
         for i = 1, 20 + 70 * try do history[i] = of(i) end
         for _, slope in ipairs{ 3, 5, 8 } do
           local whole, streamed = damage(rainflow.flat(history), slope), damage(core.cycles(history), slope)
-          assert.is_near(whole, streamed, 0.005 * whole)
+          assert.is_near(whole, streamed, 0.01 * whole)
         end
       end
     end)
