@@ -40,6 +40,34 @@ describe("work of friction", function()
     assert.truthy(row.note:find("assumed to be the wire's radius", 1, true), row.note)
   end)
 
+  -- A wire crosses a round post and is drawn along it: the same place of the wire touches all the time. In
+  -- half the edges twice the work per area; the work itself stays (2 %). The row is a lower bound, so it
+  -- cannot pass.
+  it("is a lower bound where a wire touches at a point, because it is spread over an edge", function()
+    local areas, works = {}, {}
+    for k, segments in ipairs{ 20, 40 } do
+      local scene = sw.scene{}
+      scene:obstacle{ name = "post", shape = "cylinder", radius = 0.004, length = 0.2, friction = 0.4,
+        rotation = { axis = { 0, 1, 0 }, angle = math.pi / 2 } }
+      local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, -0.1, 0.0055 },
+        to = { 0, 0.1, 0.0055 }, segments = segments }
+      local clamps = { scene:clamp(wire, { s = 0 }), scene:clamp(wire, { s = 0.2 }) }
+      scene:settle()
+      for _, clamp in ipairs(clamps) do
+        clamp:follow{ points = { { 0, 0, 0 }, { 0, 0, -0.002 }, { 0.05, 0, -0.002 } }, relative = true,
+          duration = 1 }
+      end
+      local run = scene:run{ duration = 1, dt = 0.005, wear = true }
+      local row = run:check{ limits = { friction_work = 1e5 } }:row "friction_work"
+      assert.same({ "OPEN", math.huge }, { row.verdict, row.high })
+      assert.truthy(row.note:find(("spread over %.3g m of edges"):format(0.2 / segments), 1, true), row.note)
+      assert.equal("FAIL", run:check{ limits = { friction_work = 100 } }:row "friction_work".verdict)
+      areas[k], works[k] = row.value, run:ledger().lost.friction
+    end
+    assert.is_near(2, areas[2] / areas[1], 0.04)
+    assert.is_near(1, works[2] / works[1], 0.02)
+  end)
+
   it("is open without a limit or a record, and fails without a coefficient", function()
     local run = bent(wave)
     local row = run:check{ abrasion = { coefficient = 1e-12 } }:row "wear_depth"
