@@ -3,6 +3,20 @@
 local sw = require "softworld"
 
 describe("run:check of a second run", function()
+  -- The wire is removed between the runs, at the time at which the second one starts.
+  it("does not miss a wire that was removed before it", function()
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local wires = {}
+    for k, name in ipairs{ "a", "b" } do
+      wires[k] = scene:wire{ name = name, cable = "GXL 1.5", from = { 0, k, 0 }, to = { 0.2, k, 0 } }
+    end
+    scene:run{ duration = 0.02, dt = 0.01 }
+    scene:remove(wires[1])
+    local check = scene:run{ duration = 0.02, dt = 0.01 }:check{}
+    assert.equal("PASS", check.verdict)
+    assert.has_error(function() check:row "a.removed" end)
+  end)
+
   -- A gripper draws a straight wire by 1 mm of 0.2 m in the first run, to 722 N, and lets it back at once in
   -- the second. Its force is the wire's tension, as in the row of the tension. Windows that begin in the
   -- first run would give 661 N. Tolerance: the tension is read in the middle of an edge, the force at its

@@ -225,7 +225,7 @@ end
 -- Adds an open row for each wire that was removed during the run.
 local function judge_gone(self)
   for _, g in ipairs(build.data(self.scene).gone or {}) do
-    if g.kind == "wire" and g.time >= self.start then
+    if g.kind == "wire" and g.time > self.start then
       local row = start_row(self, "removed", g.label, "removed during the run", "-", { time = g.time })
       row.verdict, row.note = "OPEN", "its values were lost with it; check the run before you remove it"
     end
