@@ -3,6 +3,27 @@
 local sw = require "softworld"
 
 describe("run:check of a second run", function()
+  -- A slip ends the first run, at the time at which the second one starts.
+  it("does not count a slip of the first one", function()
+    local scene = sw.scene{}
+    scene:obstacle{ shape = "plane", friction = 0.3 }
+    local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0.0015 }, segments = 30,
+      to = { 0.3, 0, 0.0015 } }
+    scene:clamp(wire, { s = 0 })
+    local hand = scene:gripper{ name = "hand", at = { 0.28, 0, 0.0015 }, slip_tolerance = 0.0005,
+      pads = { width = 0.02, friction = 0.3, opening = 0.006 } }
+    hand.on_slip = "stop"
+    scene:process(function()
+      hand:grasp(wire, { s = 0.28, approach = "plates", force = 1 })
+      hand:move{ by = { 0.01, 0, 0 }, duration = 0.2 }
+    end)
+    local first = scene:run{ dt = 0.005 }
+    assert.same({ "slip", first.time }, { hand.events[1].kind, hand.events[1].time })
+    hand:open_jaws{ distance = 0.006 }
+    local row = scene:run{ dt = 0.005, duration = 0.3 }:check{}:row "events"
+    assert.same({ 0, "PASS" }, { row.value, row.verdict })
+  end)
+
   -- The wire is removed between the runs, at the time at which the second one starts.
   it("does not miss a wire that was removed before it", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }

@@ -13,7 +13,7 @@ local function value(_, context)
   local run = context.run
   for _, g in ipairs(context.grippers) do
     for _, e in ipairs(g.object.events) do
-      local inside = e.time >= run.start and e.time <= run.time
+      local inside = e.time > run.start and e.time <= run.time -- a slip may end the run before
       if inside and of_gripper[e.kind] then
         v.value = v.value + 1
         if not v.time or e.time < v.time then
