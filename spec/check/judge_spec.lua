@@ -67,4 +67,10 @@ describe("a limit that is probably a mistake", function()
       if case[6] then assert.equal(case[7], suspicious, text) end
     end)
   end
+
+  it("has no unit where the value has none", function()
+    local text = judge.suspicion(0.03, { value = 5 }, "max", "-", nil, 0.01)
+    local words = "the limit of 5 differs by a factor of 500 from what is usual, 0.01000; is it right?"
+    assert.truthy(text:find(words, 1, true), text)
+  end)
 end)

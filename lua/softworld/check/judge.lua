@@ -41,6 +41,8 @@ local function laxer(limit, than, side)
   return side == "max" and limit / than or side == "min" and than / limit
 end
 
+local function shown(value, unit) return number.text(value, unit ~= "-" and unit or nil) end
+
 local function times(x) return ("%.3g"):format(x >= 1 and x or 1 / x) end
 
 --- Returns what is odd about a limit of the user's, or nil; and whether the row must not pass because of it.
@@ -48,7 +50,7 @@ local function times(x) return ("%.3g"):format(x >= 1 and x or 1 / x) end
 function judge.suspicion(value, limit, side, unit, known, reference)
   local usual = known and known.value or reference
   if usual and usual > 0 and side == "min" and limit.value <= 0 then
-    return ("a limit of %s excludes nothing; sure = true keeps it"):format(number.text(limit.value, unit)),
+    return ("a limit of %s excludes nothing; sure = true keeps it"):format(shown(limit.value, unit)),
       true
   end
   local far = laxer(limit.value, usual or value, side)
@@ -57,12 +59,12 @@ function judge.suspicion(value, limit, side, unit, known, reference)
   local strict = far <= 1 / least and not kept(value, limit.value, side)
   if far >= least or strict then
     local what = known and ("the %s's"):format(known.from) or usual and "what is usual" or "the value"
-    return ("the limit of %s differs by a factor of %s from %s, %s; is its unit right (%s)? sure = true "
-      .. "keeps it"):format(
-      number.text(limit.value, unit), times(far), what, number.text(usual or value, unit), unit), far > 1
+    return ("the limit of %s differs by a factor of %s from %s, %s; is %s? sure = true keeps it")
+      :format(shown(limit.value, unit), times(far), what, shown(usual or value, unit),
+        unit ~= "-" and ("its unit right (%s)"):format(unit) or "it right"), far > 1
   end
   if known and far > 1 and known.from ~= "definition" then
-    return ("less strict than the %s's %s"):format(known.from, number.text(known.value, unit)), false
+    return ("less strict than the %s's %s"):format(known.from, shown(known.value, unit)), false
   end
 end
 
