@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Gap between the natural frequencies of a wire, as it lies at the end, and bands of excitation: the least
--- distance over the band's edge, below 0 if a frequency is in a band.
+-- distance over the band's edge, below 0 if a frequency is in a band. Edges make errors of frequencies; where
+-- waves of the bands turn by more than 1 rad in an edge, modes are wrong or missing.
 -- @module softworld.check.frequency_gap
 local swings = require "softworld.check.swings"
 
@@ -10,6 +11,36 @@ local function apart(f, band)
   if f > band[2] then return (f - band[2]) / band[2] end
   local low = band[1] > 0 and (f - band[1]) / band[1] or math.huge
   return -math.min(low, (band[2] - f) / band[2])
+end
+
+local MOST = 1 -- largest phase of an edge in waves of the bands [rad]
+
+-- Returns the least and the largest gap of a frequency known to within an error.
+local function range(f, bar, band)
+  local low, high = apart(f - bar, band), apart(f + bar, band)
+  if low > high then low, high = high, low end
+  local middle = (band[1] + band[2]) / 2 -- the worst frequency lies there, or at an end
+  return math.min(low, apart(math.max(f - bar, math.min(f + bar, middle)), band)), high
+end
+
+-- Widens the value by the errors of edges, and says where they are too long for the bands.
+local function widen(value, found, bands, wire)
+  local errors, edge = swings.errors(wire)
+  local low, high, top = math.huge, math.huge, 0
+  for _, band in ipairs(bands) do
+    top = math.max(top, band[2])
+    for _, f in ipairs(found) do
+      local _, bar = errors(f)
+      local from, to = range(f, bar, band)
+      low, high = math.min(low, from), math.min(high, to)
+    end
+  end
+  local turn = errors(top)
+  value.low, value.high = low, high
+  if turn <= MOST then return end
+  value.low, value.high = -math.huge, math.huge
+  value.note = ("%s; edges of %.3g m are too long for waves of %.4g Hz: segments = %d would do"):format(
+    value.note, edge, top, math.ceil(wire.segments * turn / MOST))
 end
 
 local function least(found, bands)
@@ -41,8 +72,9 @@ return { name = "frequency_gap", unit = "-", side = "min", on = "wire", asked = 
     if found.unstable > 0 then return { value = 0 / 0, note = found.note } end
     local value = least(found, given.bands)
     value.note = (value.note or "no natural frequency") .. swings.note(given)
+    widen(value, found, given.bands, entry.object)
     if not whole then
-      value.low, value.high = -math.huge, value.value
+      value.low = -math.huge
       value.note = ("%s; %d modes reach up to %.4g Hz only"):format(value.note, #found, found[#found])
     end
     return value

@@ -10,6 +10,32 @@ local ALONE = "give vibration = { alone = true }"
 
 local swings = {}
 
+-- Returns the longest edge of a wire and its mean tension, at least 0 [m], [N].
+local function edge_and_tension(wire)
+  local _, s = wire:positions()
+  local longest, sum = 0, 0
+  for i = 2, #s do
+    local edge = s[i] - s[i - 1]
+    longest, sum = math.max(longest, edge), sum + edge * wire:tension((s[i] + s[i - 1]) / 2)
+  end
+  return longest, math.max(0, sum / (s[#s] - s[1]))
+end
+
+--- Returns a function that gives for a frequency [Hz] the phase of an edge in its waves [rad], by
+-- EI k^4 + T k^2 = m (2 pi f)^2 and the longest edge, and the error of a natural frequency [Hz]: about
+-- phase^3 / 20 of it where bending carries the wave, phase^2 / 24 where tension does. Also that edge [m].
+function swings.errors(wire)
+  local beam, h, T = wire.beam, edge_and_tension(wire)
+  return function(f)
+    local push = beam.mass_per_length * (2 * math.pi * f) ^ 2
+    local stiff = T + math.sqrt(T * T + 4 * beam.EI * push)
+    if stiff <= 0 then return math.huge, 0 end
+    local k2 = 2 * push / stiff
+    local tense, phase2 = T / (T + beam.EI * k2), h * h * k2
+    return math.sqrt(phase2), f * (tense * phase2 / 24 + (1 - tense) * phase2 ^ 1.5 / 20)
+  end, h
+end
+
 --- Returns what follows a row's note: the others stay fixed with alone = true.
 function swings.note(args) return args.alone and "; the other wires stay fixed" or "" end
 
