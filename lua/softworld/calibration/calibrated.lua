@@ -4,7 +4,9 @@
 local build = require "softworld.scene.build"
 local cable = require "softworld.cable"
 local checks = require "softworld.checks"
+local doubts = require "softworld.calibration.doubts"
 local entry = require "softworld.calibration.entry"
+local fitwords = require "softworld.study.fitwords"
 local literal = require "softworld.scene.literal"
 local methods = require "softworld.methods"
 local rows = require "softworld.rows"
@@ -54,30 +56,58 @@ end
 
 -- --- remarks -----------------------------------------------------------------------------------
 
--- Adds remarks about values at the ends of their ranges, in words of the bench.
-local function add_hints(own)
-  local said, at_bound = own.said, {}
-  for _, name in ipairs(own.fit.at_bound) do at_bound[name] = true end
-  local EI, group = own.fit.parameters.EI, own.model.sag
-  if group and at_bound.EI then
-    local soft = EI.value < math.sqrt(group.EI[1] * group.EI[2])
-    said[#said + 1] = soft
-      and "the wire hangs like a chain, so EI is too small to be measured; use a shorter wire, or a "
-        .. "cantilever"
-      or "the wire hardly sags, so EI is too large to be measured; use a longer wire"
-  end
-  local t = own.model.twist
-  if t and t.needs_EI then
-    local weight = 9.81 * own.mass_per_length.value * t.options.length
-    local value = EI and EI.value or own.model.constants.EI
-    local gamma = weight * t.options.length ^ 2 / value
-    for _, point in ipairs(t.points) do
-      if gamma > 1 and point[1] < 5 * weight then
-        said[#said + 1] = ("the weight of the twisted wire, %.3g N, is not small against its tension, %.3g "
-          .. "N, and the formula neglects it"):format(weight, point[1])
-        break
-      end
+local SOFT = "the wire hangs like a chain, so EI is too small to be measured; use a shorter wire, or a "
+  .. "cantilever"
+local STIFF = "the wire hardly sags, or hangs between its clamps as any stiff wire does, so EI is too large "
+  .. "to be measured; use a longer wire, or a cantilever"
+
+-- Returns the bound that the data give in words; nil if they give both or none.
+local function bound(q)
+  if not q.profiled or (q.low > 0) == (q.high < math.huge) then return nil end
+  return q.low > 0 and ("above %.4g %s"):format(q.low, q.unit) or ("below %.4g %s"):format(q.high, q.unit)
+end
+
+-- Adds a remark about the weight of the twisted wire.
+local function add_weight(own)
+  local t, EI = own.model.twist, own.fit.parameters.EI
+  if not t or not t.needs_EI then return end
+  local weight = 9.81 * own.mass_per_length.value * t.options.length
+  local gamma = weight * t.options.length ^ 2 / (EI and EI.value or own.model.constants.EI)
+  for _, point in ipairs(t.points) do
+    if gamma > 1 and point[1] < 5 * weight then
+      own.said[#own.said + 1] = ("the weight of the twisted wire, %.3g N, is not small against its tension, "
+        .. "%.3g N, and the formula neglects it"):format(weight, point[1])
+      return
     end
+  end
+end
+
+-- Adds remarks about values that the data do not determine, in words of the bench.
+local function add_hints(own)
+  local said, p = own.said, own.fit.parameters
+  for _, name in ipairs { "EI", "GJ" } do
+    if p[name] and bound(p[name]) then
+      said[#said + 1] = ("the data do not determine %s: it is %s (95 %%)"):format(name, bound(p[name]))
+    end
+  end
+  local EI = p.EI
+  if own.model.sag and EI and EI.profiled then
+    if EI.low == 0 then said[#said + 1] = SOFT end
+    if EI.high == math.huge then said[#said + 1] = STIFF end
+  end
+  add_weight(own)
+end
+
+-- Adds the remarks of the fit, without those on intervals that were replaced.
+local function add_fit(own)
+  local stale = {}
+  for name, q in pairs(own.fit.parameters) do
+    if q.profiled then
+      stale[fitwords.cut(name)], stale[fitwords.at_end(name)], stale[fitwords.NONE_FREE] = true, true, true
+    end
+  end
+  for _, text in ipairs(own.fit.remarks) do
+    if not stale[text] then own.said[#own.said + 1] = text end
   end
 end
 
@@ -86,7 +116,8 @@ end
 function calibrated.new(own)
   own.parameters = own.fit.parameters
   add_hints(own)
-  table.move(own.fit.remarks, 1, #own.fit.remarks, #own.said + 1, own.said)
+  doubts.add(own)
+  add_fit(own)
   return sealed.new(Calibration, own)
 end
 
@@ -151,6 +182,7 @@ end
 local function line_of(own, name)
   local q = own.parameters[name]
   if not q then return nil end
+  if bound(q) then return ("  %-7s not determined: %s (95 %%)"):format(name, bound(q)) end
   if not q.low or q.told == false then return ("  %-7s not determined by the measurements"):format(name) end
   return ("  %-7s %.5g %s, 95 %% interval %.5g to %.5g (-%.2g %%, +%.2g %%)"):format(name, q.value, q.unit,
     q.low, q.high, 100 * (1 - q.low / q.value), 100 * (q.high / q.value - 1))

@@ -11,6 +11,9 @@ local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local entry = require "softworld.calibration.entry"
 local calibrated = require "softworld.calibration.calibrated"
+local core = require "softworld.core"
+local look = require "softworld.calibration.look"
+local profile = require "softworld.calibration.profile"
 local rows = require "softworld.rows"
 local sag = require "softworld.calibration.sag"
 local slope = require "softworld.calibration.slope"
@@ -21,6 +24,8 @@ local calibration = {}
 
 local WHAT = "sw.calibration"
 local WIDE = 8           -- half width of the range of an independently measured value, in its sigma
+local ROUGH = 1e-4       -- tolerance of fits whose sum of squares is wanted only: an error of its square [-]
+local ROUNDS = 3         -- most fits [-]
 local GJ_LEAST, GJ_MOST = 0.02, 20 -- range of GJ over EI
 
 local call = rows.call(WHAT, "{...}", "EA, EI, GJ and section stiffness of a real cable from measurements", {
@@ -131,6 +136,7 @@ local function new_model(o, diameter, mass)
   if model.sag then
     add_known(model, "mass_per_length", mass)
     add_known(model, "length", model.sag.length)
+    model.sag.EA_measured = model.pull ~= nil
     if not model.pull then model.constants.EA = entry.EA(o.like, mass.value) end
   end
   return model
@@ -148,28 +154,97 @@ local function of_group(model, group)
   return names
 end
 
+-- Returns the computed values of groups by name; p: values of fitted parameters; the constants and the held
+-- ones come first.
+local function predicted(model, groups, held, p)
+  local all, results = setmetatable({}, { __index = function(_, key)
+    if held[key] ~= nil then return held[key] end
+    local constant = model.constants[key]
+    return constant ~= nil and constant or p[key]
+  end }), {}
+  for _, group in ipairs(groups) do results[group.name] = group.predict(all) end
+  return results
+end
+
 -- Fits these groups; held: values of parameters that are not fitted.
-local function fit(model, name, groups, parameters, held)
-  local constants, data = {}, {}
-  for key, value in pairs(model.constants) do constants[key] = value end
-  for key, value in pairs(held) do constants[key] = value end
+local function fit(model, name, groups, parameters, held, tolerance)
+  local data = {}
   for _, group in ipairs(groups) do
     local item = table.move(group.values, 1, #group.values, 1, {})
     item.sigma, item.unit = group.sigma, group.unit
     data[group.name] = item
   end
   local s = study.study { name = name, workers = 0, parameters = parameters, evaluate = function(p)
-    local all, results = setmetatable({}, { __index = function(_, key)
-      local constant = constants[key]
-      return constant ~= nil and constant or p[key]
-    end }), {}
-    for _, group in ipairs(groups) do
-      local values = group.predict(all)
-      results[group.name] = #values == 1 and values[1] or values
-    end
+    local results = predicted(model, groups, held, p)
+    for key, values in pairs(results) do results[key] = #values == 1 and values[1] or values end
     return results
   end }
-  return s:fit { data = data, tolerance = 1e-7 }
+  return s:fit { data = data, tolerance = tolerance or 1e-7 }
+end
+
+-- Returns the smallest sum of squares with these held values; math.huge if the wire has no such equilibrium.
+local function smallest(model, groups, parameters, held)
+  local fine, residuals
+  if next(parameters) then
+    fine, residuals = pcall(function()
+      return fit(model, "calibration, interval", groups, parameters, held, ROUGH).residuals
+    end)
+  else
+    fine, residuals = pcall(predicted, model, groups, held, {})
+    for _, group in ipairs(fine and groups or {}) do
+      local list = residuals[group.name]
+      for k, value in ipairs(list) do list[k] = group.values[k] - value end
+    end
+  end
+  return fine and profile.sum(groups, residuals) or math.huge
+end
+
+-- Returns two functions of EI: the sum of squares of all but the twist, with the other parameters of the fit,
+-- and the smallest one over these.
+local function sums_over_EI(model, found, groups, parameters, held)
+  local others, values, rest = {}, {}, {}
+  for key, p in pairs(parameters) do
+    local start = found.parameters[key].value
+    values[key] = start
+    if key ~= "EI" and key ~= "GJ" then others[key] = setmetatable({ start = start }, { __index = p }) end
+  end
+  for _, group in ipairs(groups) do
+    if group ~= model.twist then rest[#rest + 1] = group end
+  end
+  local function with(EI, more)
+    local now = {}
+    for key, v in pairs(more) do now[key] = v end
+    for key, v in pairs(held) do now[key] = v end
+    now.EI = EI
+    return now
+  end
+  return function(EI) return smallest(model, rest, {}, with(EI, values)) end,
+    function(EI) return smallest(model, rest, others, with(EI, {})) end
+end
+
+-- Gives EI and GJ intervals that hold where they are wide. Returns an EI with a smaller sum of squares than
+-- that of the fit, or nil.
+local function widen(model, found, groups, parameters, held)
+  if not model.sag or not parameters.EI then return nil end
+  local t = parameters.GJ and model.twist.needs_EI and model.twist
+  local beside, least = sums_over_EI(model, found, groups, parameters, held)
+  local function with_twist(sum_at)
+    return function(value) return sum_at(value) + (t and t.sum(value) or 0) end
+  end
+  if not profile.is_wide(found, groups, "EI", model.sag.EI, with_twist(beside)) then return nil end
+  local sum_at, sum_over = profile.known(least, t and t.sum)
+  local EI, GJ = found.parameters.EI, found.parameters.GJ
+  sum_at(EI.value)
+  local better = profile.widen(found, groups, "EI", model.sag.EI, with_twist(sum_at))
+  if EI.profiled and not better and not found.ok then -- the model jumps beside the best value
+    found.ok, found.reason = true, "no better EI was found over its interval"
+  end
+  if t and EI.profiled then
+    profile.widen(found, groups, "GJ", parameters.GJ, sum_over)
+    GJ.low, GJ.high = EI.low > 0 and GJ.low or 0, EI.high < math.huge and GJ.high or math.huge
+    GJ.told = GJ.low > 0 and GJ.high < math.huge
+  end
+  return better
 end
 
 -- Returns the middle of a range, or its start value.
@@ -177,22 +252,75 @@ local function middle(p)
   return p.start or p.log and math.sqrt(p[1] * p[2]) or 0.5 * (p[1] + p[2])
 end
 
--- If several things were measured and one has no sigma, estimates it from its own residuals.
+-- Fits one group by itself, the other parameters at their middle values.
+local function alone(model, group)
+  local own, held, names = {}, {}, of_group(model, group)
+  for key, p in pairs(model.parameters) do
+    if names[key] then own[key] = p else held[key] = middle(p) end
+  end
+  local found = fit(model, "calibration, " .. group.name, { group }, own, held)
+  if group == model.sag then widen(model, found, { group }, own, held) end
+  return found
+end
+
+-- If several things were measured and one has no sigma, estimates it from its own residuals: such that the
+-- interval of a normal distribution is that of Student's t for its number of points.
 local function estimate_sigma(model, said)
   if #model.groups == 1 then return end
   for _, group in ipairs(model.groups) do
     if not group.sigma then
-      local own, held = {}, {}
-      local names = of_group(model, group)
-      for key, p in pairs(model.parameters) do
-        if names[key] then own[key] = p else held[key] = middle(p) end
+      local own = alone(model, group)
+      if own.freedom < 1 then
+        fail("%s has %d point%s, too few to estimate its sigma; give sigma, or more points", group.name,
+          #group.values, #group.values == 1 and "" or "s")
       end
-      local alone = fit(model, "calibration, " .. group.name, { group }, own, held)
-      group.sigma = math.max(alone.scatter, 1e-12)
+      local few = core.student(0.975, own.freedom) / core.student(0.975, math.huge)
+      group.sigma = math.max(few * own.scatter, 1e-12)
       said[#said + 1] = ("sigma of %s was not given; %.3g %s is taken, from the scatter of its "
-        .. "points"):format(group.name,
-        group.sigma, group.unit)
+        .. "points"):format(group.name, group.sigma, group.unit)
     end
+  end
+end
+
+-- Begins the fit where a coarse search over EI found the points nearest to the wire.
+local function start_EI(model)
+  local p = setmetatable({}, { __index = function(_, key)
+    return model.constants[key] or model.parameters[key] and middle(model.parameters[key])
+  end })
+  model.parameters.EI.start = look.at(model.sag, p)
+end
+
+-- Keeps EI above the least value with which the wire bears the compression of all readings of the twist.
+local function bear_compression(model)
+  local t = model.twist
+  local k, least = t.compressed()
+  if not k then return end
+  local p, most, why = model.parameters.EI, model.constants.EI, "given"
+  if model.sag then most, why = alone(model, model.sag).parameters.EI.high, "95 % interval of the sag"
+  elseif p then most, why = p[2], ("%d sigma above the given one"):format(WIDE) end
+  if most and least >= most then t.refuse(k, most, why) end
+  if p then
+    p[1] = math.max(p[1], least * (1 + 1e-6))
+    p.start = math.max(middle(p), p[1] * 1.001)
+  end
+end
+
+local function start(model)
+  if model.sag then start_EI(model) end
+  local t = model.twist
+  if not t or not t.needs_EI then return end
+  bear_compression(model)
+  local GJ = model.parameters.GJ
+  GJ.start = math.max(GJ[1], math.min(GJ[2], t.GJ(model.constants.EI or middle(model.parameters.EI))))
+end
+
+-- Fits all groups. It begins again if the interval of EI shows a better place.
+local function fitted(model)
+  for round = 1, ROUNDS do
+    local found = fit(model, "calibration", model.groups, model.parameters, {})
+    local better = widen(model, found, model.groups, model.parameters, {})
+    if not better or round == ROUNDS then return found end
+    model.parameters.EI.start = better
   end
 end
 
@@ -203,8 +331,9 @@ local function make(args)
   if o.sag then o.sag.length = read_uncertain("sag: length", o.sag.length, "m") end
   calibrated.check_like(o.like)
   local model, said = new_model(o, diameter, mass), {}
+  start(model)
   estimate_sigma(model, said)
-  local found = fit(model, "calibration", model.groups, model.parameters, {})
+  local found = fitted(model)
   return calibrated.new { name = o.name or "calibrated", source = o.source or "measured", fit = found,
     model = model, outer_diameter = diameter, mass_per_length = mass, like = o.like, said = said }
 end

@@ -11,8 +11,7 @@ local sag = { name = "sag" }
 
 local WHAT = "sw.calibration: sag"
 local FARTHEST = 1.05 -- farthest point from the wire's start over its length
--- weight length^3 / EI that can be determined; stiffer slack wires between two ends snap to other shapes
-local SOFTEST, STIFFEST, STIFFEST_BETWEEN = 1e5, 0.03, 0.5
+local SOFTEST, STIFFEST = 1e5, 1e-3 -- range of weight length^3 / EI that is searched [-]
 
 sag.rows = rows.list{
   { "file", "text", "-", "CSV with columns x [mm], z [mm], or u [px], v [px] with pixels" },
@@ -111,7 +110,8 @@ local function read_points(o)
 end
 
 --- Reads the sag: a group { name =, sigma =, unit =, values = zeros (distances of the points from the wire),
--- predict(p) -> list, source =, EI = its range, points =, length =, curve(p) }. radius [m], mass [kg/m].
+-- predict(p) -> list, source =, EI = its range, points =, length =, curve(p) }; EA_measured is to be set if
+-- EA is measured too. radius [m], mass [kg/m].
 function sag.read(o, radius, mass)
   ends(o)
   o.radius = radius
@@ -119,15 +119,19 @@ function sag.read(o, radius, mass)
   local size = 9.81 * mass * o.length.value ^ 3
   local group = { name = "sag", sigma = o.sigma, unit = "m", values = {}, points = points, options = o,
     length = o.length, source = ("sag of %d points"):format(#points),
-    EI = { size / SOFTEST, size / (o.ends == "cantilever" and STIFFEST or STIFFEST_BETWEEN) } }
+    EI = { size / SOFTEST, size / STIFFEST } }
   for k = 1, #points do group.values[k] = 0 end
   local key, kept
+  -- Without a measured EA: no cable is stiffer in bending than a solid bar of its radius, EI = EA r^2 / 4.
+  local function EA_of(p)
+    return group.EA_measured and p.EA or math.max(p.EA, 4 * p.EI / radius ^ 2)
+  end
   --- Returns the stations of the wire; the last ones are kept, because GJ and the like do not change them.
   function group.curve(p)
     local now = ("%a %a %a %a"):format(p.EI, p.EA, p.mass_per_length, p.length)
     if now ~= key then
       local at = setmetatable({ length = p.length }, { __index = o })
-      key, kept = now, sagged.curve(at, p.EI, p.EA, p.mass_per_length)
+      key, kept = now, sagged.curve(at, p.EI, EA_of(p), p.mass_per_length)
     end
     return kept
   end

@@ -10,7 +10,7 @@ local sagged = {}
 -- order in the edge over the length (EI / weight)^(1/3) of the bends at the ends [-].
 local COARSE, PER_BEND = { 60, 80, 110, 150, 200, 270, 360, 480 }, 10
 local GRAVITY = 9.81 -- [m/s2]
-local ITERATIONS = 500 -- of an equilibrium beside the arc it starts from; others are no sag
+local ITERATIONS = 5000 -- of an equilibrium; slack wires that are stiff move far from the arc [-]
 
 -- Returns a polygon of n equal edges of a given length, in an arc below the chord between the ends with nodes
 -- at its corners. The half angle a of the arc, sin(a) / (n sin(a / n)) = chord / length, is found by

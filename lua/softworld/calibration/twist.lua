@@ -60,13 +60,48 @@ function twist.read(o)
       fail("%s: the angle is %.4g rad; it must be above 0 and up to %g rad", list.where(k), point[2], MOST)
     end
   end
-  return { name = "twist", sigma = o.sigma, unit = "rad", values = values, points = list, options = o,
-    needs_EI = true, source = ("twist that buckles it, %d reading%s"):format(#list, #list == 1 and "" or "s"),
-    predict = function(p)
-      local angles = {}
-      for k, point in ipairs(list) do angles[k] = twisted.angle(o, point[1], p.EI, p.GJ) end
-      return angles
-    end }
+  local group = { name = "twist", sigma = o.sigma, unit = "rad", values = values, points = list, options = o,
+    needs_EI = true,
+    source = ("twist that buckles it, %d reading%s"):format(#list, #list == 1 and "" or "s") }
+  function group.predict(p)
+    local angles = {}
+    for k, point in ipairs(list) do angles[k] = twisted.angle(o, point[1], p.EI, p.GJ) end
+    return angles
+  end
+  --- Returns the sum of squares of residuals over sigma with an EI, and with a GJ or the best one; math.huge
+  -- if a compression buckles the wire.
+  function group.sum(EI, GJ)
+    local up, down, sum = 0, 0, 0
+    for _, point in ipairs(list) do
+      local fine, angle = pcall(twisted.angle, o, point[1], EI, 1)
+      if not fine then return math.huge end
+      up, down, sum = up + angle * angle, down + angle * point[2], sum + point[2] ^ 2
+    end
+    local x = GJ and 1 / GJ or down / up
+    return (sum - 2 * x * down + x * x * up) / o.sigma ^ 2
+  end
+  --- Returns the GJ of the reading with the largest tension, for an EI.
+  function group.GJ(EI)
+    local most = list[1]
+    for _, point in ipairs(list) do most = point[1] > most[1] and point or most end
+    return twisted.angle(o, most[1], EI, 1) / most[2]
+  end
+  --- Returns the reading with the largest compression, and the EI that just bears it; nil without one.
+  function group.compressed()
+    local which, most = nil, 0
+    for k, point in ipairs(list) do
+      if -point[1] > most then which, most = k, -point[1] end
+    end
+    return which, which and most / twisted.limit(o, 1)
+  end
+  --- Raises an error: this reading's compression buckles a wire of the EI without a twist; why: which EI.
+  function group.refuse(k, EI, why)
+    fail("%s: the compression of %.4g N buckles the wire without a twist: it bears %.4g N = %s pi^2 EI / "
+      .. "length^2, with EI = %.4g N m2 (%s); leave this reading out, or measure with a tension",
+      list.where and list.where(k) or "tension", -list[k][1], twisted.limit(o, EI),
+      o.ends == "hinged" and "1" or "4", EI, why)
+  end
+  return group
 end
 
 return twist

@@ -47,6 +47,9 @@ function twisted.moment(t, hinged)
   return clamped(t)
 end
 
+--- Returns the compression that buckles the wire without a twist [N]; o as in twisted.angle.
+function twisted.limit(o, EI) return (o.ends == "hinged" and 1 or 4) * math.pi ^ 2 * EI / o.length ^ 2 end
+
 --- Returns the angle by which one end is turned at buckling [rad]: o { length =, tension =, ends = }, tension
 -- by point. Raises an error if it buckles untwisted.
 function twisted.angle(o, tension, EI, GJ)

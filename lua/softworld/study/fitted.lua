@@ -143,7 +143,7 @@ local function parameter(own, f, i, u, said)
   q.error, q.low, q.high = error_u * rate, at(p, u - f.times * error_u), at(p, u + f.times * error_u)
   if q.low < p.low or q.high > p.high then
     q.low, q.high = math.max(q.low, p.low), math.min(q.high, p.high)
-    said[#said + 1] = ("the interval of %s reaches an end of its range"):format(p.name)
+    said[#said + 1] = fitwords.cut(p.name)
   end
   return q
 end
@@ -243,7 +243,7 @@ local function judge_end(fit, f, search, said)
         search.reason, left)
     end
   end
-  if not f.C and fit.ok then said[#said + 1] = "no parameter is free, so there are no intervals" end
+  if not f.C and fit.ok then said[#said + 1] = fitwords.NONE_FREE end
 end
 
 --- Returns the fit of the best search.
@@ -264,8 +264,7 @@ function fitted.new(own, search, data)
     fit.parameters[p.name] = parameter(own, f, i, u, said)
     if u <= 0 or u >= 1 then
       fit.at_bound[#fit.at_bound + 1] = p.name
-      said[#said + 1] = ("%s is at the end of its range; intervals of the others treat it as known")
-        :format(p.name)
+      said[#said + 1] = fitwords.at_end(p.name)
     end
   end
   fit.correlation = correlations(own, f, said)

@@ -6,6 +6,17 @@
 -- @module softworld.study.fitwords
 local fitwords = {}
 
+--- Returns the remark on an interval that was cut off at an end of the range of a parameter.
+function fitwords.cut(name) return ("the interval of %s reaches an end of its range"):format(name) end
+
+--- Returns the remark on a parameter whose best value is at an end of its range.
+function fitwords.at_end(name)
+  return ("%s is at the end of its range; intervals of the others treat it as known"):format(name)
+end
+
+--- The remark on a fit whose parameters are all held at ends of their ranges.
+fitwords.NONE_FREE = "no parameter is free, so there are no intervals"
+
 --- Returns the change of a parameter, relative to its value if above 0, for a change of its place by 1.
 function fitwords.rate(p, value)
   if p.log then return math.log(p.high / p.low) end
