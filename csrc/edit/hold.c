@@ -169,10 +169,15 @@ static sw_status become(sw_scene *s, sw_hold *h, sw_hold *new, sw_quat turn) {
   return SW_OK;
 }
 
-sw_status sw_scene_rehold(sw_scene *s, sw_hold *h, sw_pose pose, sw_error *err) {
-  const sw_scene_wire *w = sw_scene_wire_in(s, h->wire);
+sw_hold_args sw_scene_rehold_args(const sw_hold *h) {
   sw_hold_args a = h->args;
   a.s = 0.5 * (h->s1 + h->s2), a.direction = sw_v(NAN, NAN, NAN);
+  return a;
+}
+
+sw_status sw_scene_rehold(sw_scene *s, sw_hold *h, sw_pose pose, sw_error *err) {
+  const sw_scene_wire *w = sw_scene_wire_in(s, h->wire);
+  sw_hold_args a = sw_scene_rehold_args(h);
   sw_hold new = without_places(h);
   h->alive = 0; /* its own places must not be in its way */
   take_directions(&w->mesh, &new, &a);

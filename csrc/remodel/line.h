@@ -26,6 +26,10 @@ typedef struct sw_line {
 sw_status sw_line_read(sw_scene *scene, sw_handle wire, size_t n, const double *at, sw_line *out,
                        sw_error *err);
 void sw_line_free(sw_line *line);
+/* Arc lengths of about `segments` even edges with nodes for the wire's living holds: out (count,
+ * to be freed) [m]. SW_ENOMEM. */
+sw_status sw_line_places(const sw_scene *scene, size_t wire, double length, size_t segments,
+                         double **out, size_t *count);
 /* Puts nodes on the line; for a rod also its twist, edge by edge. SW_ENOMEM. */
 sw_status sw_line_mesh(const sw_scene_wire *wire, const sw_line *line, sw_mesh *out);
 sw_status sw_line_twist(const sw_line *line, sw_scene_wire *out);

@@ -128,7 +128,14 @@ static sw_status read_line(sw_scene *s, sw_handle h, const sw_wire_args *args,
     SW_TRY(sw_strand_slices(plan, &sw_scene_wire_in(s, h.slot)->beam, length, &segments, err));
   if (segments < 2) segments = 50;
   if (cls->mesh) SW_TRY(sw_strand_check_count(plan, segments + 1, 1, err));
-  return sw_line_read(s, h, segments + 1, stations->s, out, err);
+  if (cls->mesh || stations->n) return sw_line_read(s, h, segments + 1, stations->s, out, err);
+  double *places = NULL;
+  size_t count;
+  sw_status status = sw_line_places(s, h.slot, length, segments, &places, &count);
+  if (status != SW_OK) return sw_fail(err, status, "remodel: out of memory");
+  status = sw_line_read(s, h, count, places, out, err);
+  sw_free(places);
+  return status;
 }
 
 enum { USUAL_SEGMENTS = 50 }; /* default for a wire that is a line [-] */
