@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Arc lengths of the nodes of a wire that becomes a line: even, with nodes where its holds will
- * hold it. A node moved there afterwards, on edges that cut the corner at a hold, would be held
- * beside the wire's place. */
+ * hold it and where it is joined. A node moved there afterwards, on edges that cut the corner at a
+ * hold, would be held beside the wire's place. */
 #include <string.h>
 
 #include "base/alloc.h"
 #include "body/body.h"
+#include "body/join.h"
 #include "edit/edit.h"
 #include "link/hold.h"
 #include "remodel/line.h"
@@ -21,11 +22,16 @@ static sw_status place(sw_mesh *m, double s, double *keep, size_t *count) {
   return SW_OK;
 }
 
-/* Places the ends of all living holds of the wire, as they will take hold of the line. */
-static sw_status place_holds(const sw_scene *s, size_t wire, sw_mesh *m) {
+/* Places joins, and the ends of all living holds of the wire, as they will take hold of the line.
+ */
+static sw_status place_links(const sw_scene *s, size_t wire, sw_mesh *m) {
+  const size_t joins = sw_scene_join_places(s, wire, NULL);
   size_t count = 0;
-  double *keep SW_LOCAL = sw_alloc(2 * sw_scene_hold_slots(s) + 1, sizeof *keep);
+  double *keep SW_LOCAL = sw_alloc(2 * (sw_scene_hold_slots(s) + joins) + 1, sizeof *keep);
   if (!keep) return SW_ENOMEM;
+  const double *joined = keep + 2 * sw_scene_hold_slots(s) + joins;
+  sw_scene_join_places(s, wire, keep + 2 * sw_scene_hold_slots(s) + joins);
+  for (size_t k = 0; k < joins; k++) SW_TRY(place(m, joined[k], keep, &count));
   SW_EACH(hold, h, s) {
     if (!h->alive || h->wire != wire) continue;
     double ends[2];
@@ -43,7 +49,7 @@ sw_status sw_line_places(const sw_scene *s, size_t wire, double length, size_t s
   *out = NULL, *count = 0;
   SW_TRY(sw_mesh_along(&m, ends, 2, segments));
   m.EA = 1; /* unstressed edges along the x axis: their arc lengths only */
-  sw_status status = place_holds(s, wire, &m);
+  sw_status status = place_links(s, wire, &m);
   if (status == SW_OK && !(*out = sw_alloc(m.n, sizeof **out))) status = SW_ENOMEM;
   if (status == SW_OK) {
     memcpy(*out, m.s, m.n * sizeof **out);

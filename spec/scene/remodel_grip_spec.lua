@@ -38,6 +38,30 @@ describe("wire:remodel of a wire between grips", function()
     end)
   end
 
+  -- The joined place is a node of the new rod too. The branch was joined to the nearest node, 3.7 mm beside
+  -- it: 25 J came from nowhere, and the branch moved there. The gravity energy of the curve through the nodes
+  -- changes by some uJ.
+  it("keeps a branch where it is joined", function()
+    local function harness(segments)
+      local scene = sw.scene{}
+      local function wire(from, to, n)
+        return scene:wire{ E = 2e7, density = 1200, radius = 0.002, from = from, to = to, segments = n }
+      end
+      local trunk = wire({ 0, 0, 0 }, { 0.3, 0, 0 }, segments)
+      local branch = wire({ 0.15, 0, 0 }, { 0.15, 0.1, 0 }, 15)
+      scene:clamp(trunk, { s = 0 })
+      scene:clamp(trunk, { s = 0.3 })
+      scene:join{ ends = { { trunk, s = 0.15 }, { branch, s = 0 } } }
+      assert.is_true(scene:settle().ok)
+      return scene, trunk, branch
+    end
+    local scene, trunk, branch = harness(30)
+    t.below(1e-5, math.abs(trunk:remodel{ model = "rod", segments = 41 }.energy_change), "energy change")
+    assert.is_true(scene:settle().ok)
+    local _, _, fresh = harness(41)
+    t.near(0, t.distance(fresh:position(0.1), branch:position(0.1)), 1e-7, "end of the branch")
+  end)
+
   -- Rings of the mesh are 1.3 mm apart, and the grips hold whole rings: that shifts them by up to 0.1 mm, a
   -- thousandth of the free length, which the force follows, and the moment with its square. The moment was
   -- 17 % off.
