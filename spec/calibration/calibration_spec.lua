@@ -81,6 +81,9 @@ describe("sw.calibration of independent solutions", function()
       near(twisted.moment(t * (1 - 1e-9)), twisted.moment(t * (1 + 1e-9)), 1e-9)
     end
     near(2000, twisted.moment(1e6), 1e-5)
+    -- q = pi solves 2 q (cos q - cos(m / 2)) = t sin q where m / 2 is an odd multiple k of pi: t = (k^2 - 1)
+    -- pi^2. There it was nil, and a tension was said to be a compression that buckles the wire.
+    for k = 3, 9, 2 do near(2 * k * math.pi, twisted.moment((k * k - 1) * math.pi ^ 2), 1e-9, "k = " .. k) end
   end)
 
   it("finds GJ from the twist of buckling, with a known EI", function()

@@ -16,11 +16,12 @@ local function determinant(q, t)
   return 2 * q * (math.cos(q) - math.cos(math.sqrt(q * q + t))) - t * math.sin(q)
 end
 
--- Returns m at the first q at which the determinant is 0. This q is above pi, and above the root of -t, where
--- m is 0; the determinant does not change its sign up to there.
+-- Returns m at the first q at which the determinant is 0. This q is not below pi, nor the root of -t, where
+-- m is 0; the determinant does not change its sign up to there. At pi it is not above 0, and 0 where t is
+-- 8 pi^2, 24 pi^2, 48 pi^2 and so on: q is pi there.
 local function clamped(t)
   local low = t > 0 and math.pi or math.max(math.pi, math.sqrt(-t))
-  local before = determinant(low + 1e-9, t) > 0
+  local before = t < 0 and determinant(low + 1e-9, t) > 0
   for _ = 1, STEPS do
     local high = low + math.pi / STEPS
     if (determinant(high, t) > 0) ~= before then
