@@ -74,4 +74,21 @@ describe("wire:remodel of a wire between grips", function()
     local _, _, fresh = gripped(60)
     check(fresh, far, 4e-3, 2e-2)
   end)
+
+  -- The lowest corners of a section of solid elements lie 0.24 mm outside of the circle. The clamp holds them
+  -- in the table, which presses with ten times the wire's weight. If the wire was remodelled before the first
+  -- step, nothing said so.
+  it("tells that a clamp pushes the new section into a table", function()
+    local scene = sw.scene{}
+    local wire = scene:wire{ E = 1e7, nu = 0.4, density = 1200, radius = 0.003, from = { 0, 0, 0.003 },
+      to = { L, 0, 0.003 }, segments = 20 }
+    scene:obstacle{ name = "table", shape = "plane" }
+    local clamp = scene:clamp(wire, { s = 0, name = "clamp" })
+    wire:remodel{ model = "radial", body = "solid" }
+    assert.is_true(scene:settle().ok)
+    local run = scene:run{ duration = 0.02, dt = 0.01 }
+    local text = run.events[1] and run.events[1].text or "no event"
+    assert.truthy(text:find("clamp 'clamp' pushes wire 'wire1' 0.2", 1, true), text)
+    assert.equal("table", clamp:crash().obstacle)
+  end)
 end)

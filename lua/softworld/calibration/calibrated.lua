@@ -135,6 +135,7 @@ local function save(self, path)
     error(("calibration:save: the name of a file is wanted, got %s"):format(checks.got(path)), 0)
   end
   local own = fields(self)
+  entry_of(own) -- an entry that cannot be read is not written
   local text = literal.of(entry.fields(own), nil, "cable", "")
   local shape = "-- %s, calibrated by SoftWorld.\nreturn require(\"softworld\").cable.define %s\n"
   return sink.write_file(path, shape:format(own.name:gsub("%c", " "), text))
