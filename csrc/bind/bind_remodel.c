@@ -44,6 +44,7 @@ int lsw_wire_remodel(lua_State *L) {
     return luaL_error(L, "wire:remodel: segments = 1 is not allowed; it must be 2 or more");
   sw_params_default(&sw_section_params, &mesh.section);
   mesh.section.EI2 = (double)NAN;
+  LSW_DO(L, sw_scene_watch_holds, w.scene, w.id);
   LSW_DO(L, sw_scene_remodel, w.scene, w.id, &args, &mesh, isnan(region[0]) ? NULL : region, &r);
   lua_createtable(L, 0, 6);
   lsw_set_number(L, "energy_before", r.energy_before);

@@ -20,7 +20,6 @@
 #include "scene/lookup.h"
 #include "scene/parts.h"
 #include "scene/wire.h"
-#include "watch/observe.h"
 
 static const sw_param rows[] = {
     {"model", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0, "the new model of the wire"},
@@ -62,14 +61,6 @@ static sw_status retake(sw_scene *s, size_t wire, sw_error *err) {
     SW_TRY(sw_drive_eval(s, &h->drive, sw_scene_time(s), &now, err));
     SW_TRY(sw_scene_rehold(s, h, now.pose, err));
   }
-  return SW_OK;
-}
-
-/* Lets holds that no step has watched yet look at obstacles: what they push in from now on comes
- * from the change. */
-static sw_status look_before(sw_scene *s, size_t wire, sw_error *err) {
-  SW_EACH(hold, h, s)
-    if (h->alive && h->wire == wire && !h->watch.looking) SW_TRY(sw_hold_look_out(s, h, err));
   return SW_OK;
 }
 
@@ -220,7 +211,6 @@ sw_status sw_scene_remodel(sw_scene *s, sw_handle h, const sw_wire_args *args,
   const sw_wire_class *cls = sw_wire_all()[args->model];
   SW_TRY(check(s, h.slot, cls, err));
   SW_TRY(sw_scene_build(s, err));
-  SW_TRY(look_before(s, h.slot, err));
   const sw_strand_plan plan = sw_scene_strand_plan(sw_scene_wire_in(s, h.slot), cls, mesh);
   sw_line l = {0};
   sw_scene_wire next = {.cls = cls};

@@ -4,6 +4,7 @@
  * that push or pull harder than any wire bears. */
 #include <math.h>
 
+#include "body/build.h"
 #include "link/hold.h"
 #include "scene/drive.h"
 #include "scene/events.h"
@@ -127,6 +128,15 @@ sw_status sw_hold_look_out(sw_scene *s, sw_hold *h, sw_error *err) {
                 "%s '%s' pushes wire '%s' %.3g mm deep into '%s'; no force can stop that",
                 h->cls->name, h->name, sw_scene_wire_in(s, h->wire)->name, 1e3 * now.depth,
                 sw_scene_obstacle_in(s, now.obstacle)->name);
+  return SW_OK;
+}
+
+sw_status sw_scene_watch_holds(sw_scene *s, sw_handle wire, sw_error *err) {
+  SW_TRY(sw_scene_ready(s, err));
+  if (!sw_scene_find_wire(s, wire, err)) return SW_EDEAD;
+  SW_TRY(sw_scene_build(s, err));
+  SW_EACH(hold, h, s)
+    if (h->alive && h->wire == wire.slot && !h->watch.looking) SW_TRY(sw_hold_look_out(s, h, err));
   return SW_OK;
 }
 
