@@ -161,6 +161,14 @@ describe("sw.calibration refuses", function()
   end)
 end)
 
+-- EI of 1 N m2 with EA of 5e4 N and a radius of 2 mm: EI is at most EA R^2 = 0.2 N m2. The file was written,
+-- and failed when it was run.
+it("a calibration saves no entry that cannot be read", function()
+  local found = calibrate { EI = 1, pull = { length = 0.5,
+    points = { { 1, 1.1e-5 }, { 2, 1.9e-5 }, { 3, 3.2e-5 }, { 4, 3.9e-5 } } } }
+  assert.error_matches(function() found:save(os.tmpname()) end, "which no section has")
+end)
+
 describe("sw.calibration remarks on", function()
   local pull = {}
   for k = 1, 8 do pull[k] = { 4 * k, 0.04 * k } end
