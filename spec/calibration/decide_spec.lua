@@ -166,7 +166,7 @@ end)
 it("a calibration saves no entry that cannot be read", function()
   local found = calibrate { EI = 1, pull = { length = 0.5,
     points = { { 1, 1.1e-5 }, { 2, 1.9e-5 }, { 3, 3.2e-5 }, { 4, 3.9e-5 } } } }
-  assert.error_matches(function() found:save(os.tmpname()) end, "which no section has")
+  assert.error_matches(function() found:save "/dev/null" end, "which no section has")
 end)
 
 describe("sw.calibration remarks on", function()
