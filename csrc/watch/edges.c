@@ -23,11 +23,89 @@ static double edge_at(const sw_plan *plan, double s) {
   return plan->rest[after - 1];
 }
 
+/* --- a taut wire that bends within an edge ------------------------------------------------------
+ */
+
+/* A node is a bend from this turn on; round obstacles allow for smaller ones (contact/arc.h)
+ * [rad]. */
+static const double BEND = 0.35;
+/* A wire is taut between two holds if all other nodes and edges beside bends turn by less than this
+ * share of the bends [-]. */
+static const double LITTLE = 0.2;
+/* The false part of a tension that is told [-]. */
+static const double FALSE_PART = 0.1;
+/* Edges of this share of sqrt(EI/T) resolve a bend under the tension T within 5 % [-]. */
+static const double RESOLVED = 0.7;
+
+static double turn_at(const sw_body *b, const double *x, size_t i) {
+  const double *at = x + 3 * (b->first_node + i);
+  const sw_vec zero = sw_v(0, 0, 0), here = sw_load(at);
+  const sw_vec before = sw_unit_or(sw_sub(here, sw_load(at - 3)), zero);
+  const sw_vec after = sw_unit_or(sw_sub(sw_load(at + 3), here), zero);
+  return sw_dist(before, after);
+}
+
+/* Bends of a stretch of wire between two holds: how much longer they make its path, at most
+ * a^2 h/8 each [m]; their turns, and those of all nodes [rad]. */
+typedef struct bends {
+  double longer, sharp, all;
+} bends;
+
+static bends between(const sw_body *b, const double *x, size_t from, size_t to) {
+  bends sum = {0};
+  int beside = 0;
+  for (size_t i = from + 1; i < to; i++) {
+    const double a = turn_at(b, x, i), h = 0.5 * (b->plan->rest[i - 1] + b->plan->rest[i]);
+    const int sharp = a > BEND;
+    sum.all += a;
+    if (sharp || beside || (i + 1 < to && turn_at(b, x, i + 1) > BEND)) sum.sharp += a;
+    if (sharp) sum.longer += a * a * h / 8.0;
+    beside = sharp;
+  }
+  return sum;
+}
+
+/* Returns the tension that a wire under the tension T has at most too much, because bends within an
+ * edge make its path longer than it should be, where it is taut between two holds; else 0 [N]. */
+static double false_tension(const sw_system *s, const sw_body *b, double T) {
+  const sw_plan *p = b->plan;
+  double most = 0;
+  for (size_t i = 0, from = p->nodes; i < p->nodes; i++) {
+    if (p->held[i] == SW_FREE) continue;
+    if (i > from + 1) {
+      const bends sum = between(b, s->x, from, i);
+      if (sum.all - sum.sharp < LITTLE * sum.sharp)
+        most = fmax(most, b->EA * sum.longer / (p->s[i] - p->s[from]));
+    }
+    from = i;
+  }
+  return fmin(most, T);
+}
+
+static void watch_taut(sw_scene *s, size_t wire, const sw_wire_extremes *now, double edge) {
+  const sw_system *system = sw_scene_system(s);
+  const sw_body *b = &system->bodies[wire];
+  const double T = now->tension.value, EI = b->plan->beam.EI;
+  if (!(T * edge * edge > RESOLVED * RESOLVED * EI)) return;
+  const double more = false_tension(system, b, T);
+  if (!(more > FALSE_PART * T)) return;
+  const sw_scene_wire *w = sw_scene_wire_in(s, wire);
+  const double segments = ceil(b->plan->length / RESOLVED * sqrt(T / EI));
+  const double at = now->curvature.s - w->mesh.s[0];
+  sw_events_go_on(sw_scene_events_of(s), "edges", w->name, sw_scene_time(s));
+  sw_scene_tell(s, "edges", w->name, at, segments,
+                "taut wire '%s' bends within an edge of %.4g mm near s = %.4g m: where only its "
+                "stretch decides the tension, %.3g of its %.3g N may be too much; try segments = "
+                "%.0f",
+                w->name, 1e3 * edge, at, more, T, segments);
+}
+
 void sw_scene_watch_edges(sw_scene *s, size_t wire, const sw_wire_extremes *now) {
   const sw_plan *plan = sw_scene_system(s)->bodies[wire].plan;
   const sw_extreme *bend = &now->curvature;
   if (plan->web || !(plan->beam.EI > 0) || !(bend->value > 0)) return;
   const double edge = edge_at(plan, bend->s);
+  if (edge * bend->value > BEND && edge * bend->value <= LONG) watch_taut(s, wire, now, edge);
   if (!(edge * bend->value > LONG)) return;
   const sw_scene_wire *w = sw_scene_wire_in(s, wire);
   const double segments = ceil(plan->length * bend->value / FINE), at = bend->s - w->mesh.s[0];
