@@ -269,7 +269,7 @@ static int meth_max_torsion(lua_State *L) {
 static int meth_max_ovalisation(lua_State *L) {
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   const sw_extreme x = read_extremes(L).ovalisation;
-  if (sw_scene_wire_calibration(w.scene, w.id) || isfinite(x.value))
+  if (sw_scene_wire_calibration(w.scene, w.id) || x.value > 0)
     return push_extreme(L, x.value, &x);
   return luaL_error(L,
                     "wire:max_ovalisation: wire '%s' is a %s, whose section does not change; this "
