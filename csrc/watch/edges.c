@@ -5,6 +5,7 @@
 
 #include "base/halving.h"
 #include "scene/events.h"
+#include "scene/obstacle.h"
 #include "scene/parts.h"
 #include "scene/values.h"
 #include "scene/wire.h"
@@ -26,9 +27,9 @@ static double edge_at(const sw_plan *plan, double s) {
 /* --- a taut wire that bends within an edge ------------------------------------------------------
  */
 
-/* A node is a bend from this turn on; round obstacles allow for smaller ones (contact/arc.h)
- * [rad]. */
-static const double BEND = 0.35;
+/* A node is a bend from this turn on. Beside a round obstacle smaller turns than ROUND are allowed
+ * for (contact/arc.h) [rad]. */
+static const double BEND = 0.2, ROUND = 0.35;
 /* A wire is taut between two holds if all other nodes and edges beside bends turn by less than this
  * share of the bends [-]. */
 static const double LITTLE = 0.2;
@@ -45,18 +46,36 @@ static double turn_at(const sw_body *b, const double *x, size_t i) {
   return sw_dist(before, after);
 }
 
+/* 1 if a round obstacle presses on the wire beside the node, in the system's numbers. */
+static int is_on_round(const sw_scene *s, size_t node) {
+  const sw_contact *c = sw_scene_contact(s);
+  size_t first = 0, end = 0;
+  sw_contact_push push;
+  sw_pose before, now;
+  sw_vec q, along;
+  if (c) sw_contact_touches_of(c, node > 0 ? node - 1 : 0, node + 2, &first, &end);
+  for (size_t k = first; k < end; k++) {
+    if (!sw_contact_push_at(c, sw_scene_system(s), k, &push)) continue;
+    if (!sw_contact_poses(c, push.obstacle, &before, &now)) continue;
+    const sw_shape *shape = sw_scene_obstacle_in(s, (size_t)push.obstacle)->shape;
+    if (sw_shape_middle(shape, sw_pose_local(now, push.point), &q, &along) > 0) return 1;
+  }
+  return 0;
+}
+
 /* Bends of a stretch of wire between two holds: how much longer they make its path, at most
  * a^2 h/8 each [m]; their turns, and those of all nodes [rad]. */
 typedef struct bends {
   double longer, sharp, all;
 } bends;
 
-static bends between(const sw_body *b, const double *x, size_t from, size_t to) {
+static bends between(const sw_scene *s, const sw_body *b, size_t from, size_t to) {
+  const double *x = sw_scene_system(s)->x;
   bends sum = {0};
   int beside = 0;
   for (size_t i = from + 1; i < to; i++) {
     const double a = turn_at(b, x, i), h = 0.5 * (b->plan->rest[i - 1] + b->plan->rest[i]);
-    const int sharp = a > BEND;
+    const int sharp = a > BEND && (a > ROUND || !is_on_round(s, b->first_node + i));
     sum.all += a;
     if (sharp || beside || (i + 1 < to && turn_at(b, x, i + 1) > BEND)) sum.sharp += a;
     if (sharp) sum.longer += a * a * h / 8.0;
@@ -67,13 +86,13 @@ static bends between(const sw_body *b, const double *x, size_t from, size_t to) 
 
 /* Returns the tension that a wire under the tension T has at most too much, because bends within an
  * edge make its path longer than it should be, where it is taut between two holds; else 0 [N]. */
-static double false_tension(const sw_system *s, const sw_body *b, double T) {
+static double false_tension(const sw_scene *s, const sw_body *b, double T) {
   const sw_plan *p = b->plan;
   double most = 0;
   for (size_t i = 0, from = p->nodes; i < p->nodes; i++) {
     if (p->held[i] == SW_FREE) continue;
     if (i > from + 1) {
-      const bends sum = between(b, s->x, from, i);
+      const bends sum = between(s, b, from, i);
       if (sum.all - sum.sharp < LITTLE * sum.sharp)
         most = fmax(most, b->EA * sum.longer / (p->s[i] - p->s[from]));
     }
@@ -83,11 +102,10 @@ static double false_tension(const sw_system *s, const sw_body *b, double T) {
 }
 
 static void watch_taut(sw_scene *s, size_t wire, const sw_wire_extremes *now, double edge) {
-  const sw_system *system = sw_scene_system(s);
-  const sw_body *b = &system->bodies[wire];
+  const sw_body *b = &sw_scene_system(s)->bodies[wire];
   const double T = now->tension.value, EI = b->plan->beam.EI;
   if (!(T * edge * edge > RESOLVED * RESOLVED * EI)) return;
-  const double more = false_tension(system, b, T);
+  const double more = false_tension(s, b, T);
   if (!(more > FALSE_PART * T)) return;
   const sw_scene_wire *w = sw_scene_wire_in(s, wire);
   const double segments = ceil(b->plan->length / RESOLVED * sqrt(T / EI));

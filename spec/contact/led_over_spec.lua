@@ -37,10 +37,11 @@ end
 
 describe("a cable led over an edge by its ends", function()
   for _, cable in ipairs{ "GXL 1.5", "H07V-K 4" } do
-    for _, moves in ipairs{ false, true } do
-      it(("is told if its bend makes it taut too early: %s, %s"):format(cable, moves and "steps" or "poses"),
-        function()
-          local pull, wire, event = led(cable, 32, moves)
+    for _, case in ipairs{ { 32, false }, { 32, true }, { 65, false } } do
+      local edges, moves = table.unpack(case)
+      it(("is told if its bend makes it taut too early: %s, %d segments, %s"):format(cable, edges,
+        moves and "steps" or "poses"), function()
+          local pull, wire, event = led(cable, edges, moves)
           assert.truthy(event, "no event")
           assert.equal(wire.name, event.object)
           local told = tonumber(event.text:match "tension, ([%d.]+) of its")
