@@ -9,7 +9,8 @@ local t = require "spec.physics.tools"
 -- Length of the wire, side of the box [m]; half of the bend [rad]; stretch at the end [-].
 local L, SIDE, HALF, STRETCH = 0.2344, 0.1, 0.4, 1e-3
 
--- stretch: nil: as far as the wire is taut. Returns the pull [N], the wire and the event "edges" or nil.
+-- moves: steps, not poses; stretch: instead of STRETCH, or nil [-]. Returns the pull [N], the wire and the
+-- event "edges" or nil.
 local function led(cable, segments, moves, stretch)
   local scene = sw.scene{ gravity = { 0, 0, 0 } }
   local r = sw.cable(cable).outer_diameter.value / 2
