@@ -38,7 +38,7 @@ end
 
 describe("a cable led over an edge by its ends", function()
   for _, cable in ipairs{ "GXL 1.5", "H07V-K 4" } do
-    for _, case in ipairs{ { 32, false }, { 32, true }, { 65, false } } do
+    for _, case in ipairs{ { 17 }, { 31 }, { 32 }, { 32, true }, { 45 }, { 65 } } do
       local edges, moves = table.unpack(case)
       it(("is told if its bend makes it taut too early: %s, %d segments, %s"):format(cable, edges,
         moves and "steps" or "poses"), function()
@@ -48,8 +48,8 @@ describe("a cable led over an edge by its ends", function()
           local told = tonumber(event.text:match "tension, ([%d.]+) of its")
           local fine, _, again = led(cable, event.value, moves)
           assert.is_nil(again)
-          -- the bend is spread over two nodes or is in one, and so may be a half of what is told
-          t.near(pull - fine, told, 0.5 * (pull - fine), "part of the tension that is too much [N]")
+          -- where in its edges the bend is decides, too: measured 23 % too little to 9 % too much
+          t.near(pull - fine, told, 0.25 * (pull - fine), "part of the tension that is too much [N]")
           t.share(led(cable, 2 * event.value, moves), fine, 0.05, "pull with as many edges as told [N]")
         end)
     end
