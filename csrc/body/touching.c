@@ -11,6 +11,7 @@
 #include "scene/obstacle.h"
 #include "scene/world.h"
 #include "system/linear.h"
+#include "system/part.h"
 #include "system/system.h"
 
 static void state_rule(const sw_scene_rule *r, size_t wires, sw_pair_rule *table) {
@@ -44,11 +45,16 @@ static void part(void *user, sw_system *system) {
 
 static sw_status begin_stage(void *user, sw_system *system, double t, double first, sw_error *err) {
   const sw_scene *s = user;
-  const int apart = !s->crowd && !s->grains && (!s->pairs || sw_mutual_idle(s->pairs));
-  system->coupling.part = apart ? part : NULL;
+  system->coupling.part = s->crowd || s->grains ? NULL : part;
+  if (s->pairs) sw_pairs_mark(s->pairs, system);
   if (s->pairs) sw_mutual_begin_stage(s->pairs, first);
   if (s->grains) sw_mutual_begin_stage(s->grains, first);
   return s->contact ? sw_contact_begin_stage(s->contact, t, first, err) : SW_OK;
+}
+
+/* 1 if bodies may touch each other in this step, and such bodies are solved now. */
+static int meets(const sw_scene *s) {
+  return s->pairs && !sw_mutual_idle(s->pairs) && !sw_part_is_single(&s->system);
 }
 
 static sw_status eval(void *user, sw_system *system, double t, double hbar, const double *y,
@@ -57,8 +63,7 @@ static sw_status eval(void *user, sw_system *system, double t, double hbar, cons
   if (s->contact) SW_TRY(sw_contact_eval(s->contact, system, t, hbar, y, want, err));
   if (s->crowd) sw_crowd_eval(s->crowd, system, y, want);
   if (s->grains) SW_TRY(sw_mutual_eval(s->grains, system, y, want, err));
-  const int pairs = s->pairs && !sw_mutual_idle(s->pairs);
-  return pairs ? sw_mutual_eval(s->pairs, system, y, want, err) : SW_OK;
+  return meets(s) ? sw_mutual_eval(s->pairs, system, y, want, err) : SW_OK;
 }
 
 static sw_status keeps(void *user, sw_system *system, const double *y, int *out, sw_error *err) {
@@ -69,16 +74,15 @@ static sw_status keeps(void *user, sw_system *system, const double *y, int *out,
 
 static double refine(void *user, sw_system *system) {
   const sw_scene *s = user;
-  const int pairs = s->pairs && !sw_mutual_idle(s->pairs);
   if (s->contact) sw_contact_refine(s->contact, system);
-  return pairs ? sw_mutual_refine(s->pairs, s->contact, system) : 1.0;
+  return meets(s) ? sw_mutual_refine(s->pairs, s->contact, system) : 1.0;
 }
 
 static int settled(void *user, sw_system *system, const double *y, const double *delta) {
   const sw_scene *s = user;
   if (system->rough == SW_MAY_BE_MADE && (s->pairs || s->crowd || !s->contact)) return 1;
   int fine = !s->contact || sw_contact_settled(s->contact, system, y, delta);
-  if (s->pairs && !sw_mutual_idle(s->pairs)) fine &= sw_mutual_settled(s->pairs, system, delta);
+  if (meets(s)) fine &= sw_mutual_settled(s->pairs, system, delta);
   if (s->crowd) fine &= sw_crowd_settled(s->crowd, system, y, delta);
   if (s->grains) fine &= sw_mutual_settled(s->grains, system, delta);
   return fine;

@@ -286,8 +286,9 @@ static void set_stiffness(sw_contact *c, const sw_system *s, size_t body, size_t
 
 /* Makes empty lists with room for many touches at once. Lists that grow one by one would be copied
  * often. */
-static sw_status make_room(sw_contact *c) {
+static sw_status make_room(sw_contact *c, size_t bodies) {
   const size_t n = c->candidate_count;
+  SW_TRY(sw_grow((void **)&c->ranges, &c->range_capacity, bodies, sizeof *c->ranges));
   SW_TRY(sw_grow_empty((void **)&c->touches, &c->touch_capacity, n, sizeof *c->touches));
   SW_TRY(sw_grow_empty((void **)&c->last, &c->last_capacity, n, sizeof *c->last));
   return sw_grow_empty((void **)&c->pressed, &c->pressed_capacity, n, sizeof *c->pressed);
@@ -312,7 +313,7 @@ sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err)
         status = node_candidates(c, s, b, i);
     set_stiffness(c, s, b, first);
   }
-  if (status == SW_OK) status = make_room(c);
+  if (status == SW_OK) status = make_room(c, s->body_count);
   if (status != SW_OK) return sw_fail(err, status, "contact: %s", sw_status_text(status));
   match_memory(c);
   return SW_OK;

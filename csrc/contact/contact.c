@@ -74,7 +74,7 @@ void sw_contact_free(sw_contact *c) {
                           c->sunk,      c->spaced,  c->bounds,      c->candidates, c->touches,
                           c->last,      c->memory,  c->next_memory, c->pressed,    c->turns,
                           c->barriers,  c->impacts, c->impact_at,   c->marks,      c->room,
-                          c->reach,     c->ahead};
+                          c->reach,     c->ahead,   c->ranges};
   for (size_t k = 0; k < sizeof blocks / sizeof blocks[0]; k++) sw_free(blocks[k]);
   sw_broad_free(&c->broad);
   sw_free(c);

@@ -9,6 +9,7 @@
 #include "contact/rolling.h"
 #include "contact/same.h"
 #include "contact/touch.h"
+#include "system/part.h"
 
 static void apply(sw_contact *c, sw_system *s, sw_touch *t, const double *y, unsigned want) {
   double K[6];
@@ -56,10 +57,13 @@ static sw_status look(sw_contact *c, sw_system *s, const double *y, unsigned wan
   sw_glance at;
   sw_status status = sw_contact_turn_over(c, &at);
   if (status != SW_OK) return sw_fail(err, status, "contact: %s", sw_status_text(status));
-  for (size_t done = c->parts.touch, found; at.next < at.end;) {
-    SW_TRY(sw_contact_look_on(c, s, y, &at, &found, err));
-    for (; want && done < found; done++) apply(c, s, &c->touches[done], y, want);
-  }
+  size_t done = c->parts.touch, found;
+  do {
+    while (at.next < at.end) {
+      SW_TRY(sw_contact_look_on(c, s, y, &at, &found, err));
+      for (; want && done < found; done++) apply(c, s, &c->touches[done], y, want);
+    }
+  } while (sw_contact_next_range(c, &at));
   return SW_OK;
 }
 
@@ -254,7 +258,7 @@ static int searches(sw_contact *c, const sw_system *s) {
 /* 1 if the current part of bodies strikes something, so that its friction need not agree: the trial
  * is redone with other speeds. */
 static int is_hasty(sw_contact *c, sw_system *s) {
-  if (!c->parts.on || c->careful || s->rough || c->regime != SW_CONTACT_IMPLICIT) return 0;
+  if (!sw_part_is_single(s) || c->careful || s->rough || c->regime != SW_CONTACT_IMPLICIT) return 0;
   for (size_t i = c->parts.touch; i < c->touch_count; i++)
     if (!c->touches[i].held && !sw_press_apart(&c->touches[i].press)) return 0;
   if (!sw_contact_will_strike(c, s, c->parts.touch, c->touch_count)) return 0;

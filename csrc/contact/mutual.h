@@ -37,6 +37,9 @@ void sw_mutual_free(sw_mutual *mutual); /* NULL is allowed */
 /* 1: nothing can touch in this step. */
 int sw_mutual_idle(const sw_mutual *mutual);
 
+/* Marks the bodies that may touch others or themselves in this step as coupled (system/part.h). */
+void sw_pairs_mark(const sw_mutual *pairs, sw_system *system);
+
 /* These correspond to the functions of sw_contact. */
 sw_status sw_mutual_begin_step(sw_mutual *mutual, sw_system *system, sw_contact_regime regime,
                                double h, double nominal, sw_error *err);

@@ -5,6 +5,7 @@
 #include "base/alloc.h"
 #include "contact/lean.h"
 #include "contact/pair.h"
+#include "system/part.h"
 
 /* Adds the steady force, by the slower of both wires. */
 static void note(const sw_mutual *m, const sw_system *s, const sw_meet *t, sw_met *out) {
@@ -51,4 +52,10 @@ sw_status sw_pairs_new(const sw_system *s, const sw_pair_rule *rules, sw_mutual 
   }
   sw_mutual_free(&p->m);
   return SW_ENOMEM;
+}
+
+void sw_pairs_mark(const sw_mutual *m, sw_system *s) {
+  const sw_pairs *p = (const sw_pairs *)(const void *)m;
+  for (size_t i = 0; i < m->pair_count; i++)
+    for (int k = 0; k < 2; k++) s->bodies[p->pairs[i].body[k]].coupled |= SW_TOUCHING;
 }

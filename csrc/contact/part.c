@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lists of touches of an iterate and of the previous one, of all bodies or of the part (group of
- * bodies) that is solved now. In a stage that is solved by parts, touches of finished parts stay in
- * the list and those of the current part are its tail; the previous list begins with the touches of
- * the previous stage. */
+/* Lists of touches of an iterate and of the previous one, of all bodies or of the part that is
+ * solved now. In a stage that is solved by parts, touches of finished parts stay in the list and
+ * those of the current part are its tail; the previous list begins with the touches of the previous
+ * stage. The part of the coupled bodies is the last one: its touches are then put in order between
+ * those of the other bodies. */
+#include "system/part.h"
+
 #include <string.h>
 
 #include "base/alloc.h"
@@ -18,9 +21,15 @@ static size_t match_one(const sw_contact *c, sw_candidate *k, size_t i) {
   return k->last_end = i;
 }
 
-/* The same for candidates from first to end. */
-static size_t match(sw_contact *c, size_t first, size_t end, size_t i) {
-  for (size_t n = first; n < end; n++) i = match_one(c, &c->candidates[n], i);
+/* The same for all candidates of the part, with touches from number i to end. Those of other bodies
+ * are passed over. */
+static size_t match(sw_contact *c, size_t i, size_t end) {
+  for (size_t r = 0; r < c->parts.ranges; r++) {
+    const sw_range *range = &c->ranges[r];
+    const size_t body = c->candidates[range->first].body;
+    while (i < end && c->last[i].body < body) i++;
+    for (size_t n = range->first; n < range->end; n++) i = match_one(c, &c->candidates[n], i);
+  }
   return i;
 }
 
@@ -39,21 +48,63 @@ static void swap_lists(sw_contact *c) {
   c->last_count = c->touch_count, c->touch_count = 0;
 }
 
-void sw_contact_part(void *contact, sw_system *s) {
-  sw_contact *c = contact;
-  if (s->part_end - s->part == s->body_count) {
-    c->parts = (sw_contact_parts){.on = 0};
+/* Finds the candidates of the part's bodies, from the last body's on. */
+static void find_ranges(sw_contact *c, const sw_system *s) {
+  sw_contact_parts *p = &c->parts;
+  size_t n = p->next;
+  p->ranges = 0;
+  SW_PART_EACH(s, b) {
+    while (n < c->candidate_count && c->candidates[n].body < b) n++;
+    const size_t first = n;
+    while (n < c->candidate_count && c->candidates[n].body == b) n++;
+    if (n > first) c->ranges[p->ranges++] = (sw_range){first, n};
+  }
+  p->next = n;
+}
+
+/* Moves the tail of the list to its places between the other touches, without further memory. */
+static void put_in_order_slowly(sw_contact *c) {
+  for (size_t i = c->parts.touch; i < c->touch_count; i++) {
+    const sw_touch t = c->touches[i];
+    size_t to = i;
+    for (; to > 0 && c->touches[to - 1].candidate > t.candidate; to--)
+      c->touches[to] = c->touches[to - 1];
+    c->touches[to] = t;
+  }
+}
+
+/* The same, faster: the previous list is not needed any more, and gives the room. */
+static void put_in_order(sw_contact *c) {
+  size_t to = c->touch_count, left = c->parts.touch, tail = to - left;
+  if (!tail || !left || c->touches[left - 1].candidate < c->touches[left].candidate) return;
+  c->last_count = 0;
+  if (sw_grow((void **)&c->last, &c->last_capacity, tail, sizeof *c->last) != SW_OK) {
+    put_in_order_slowly(c);
     return;
   }
-  if (!c->parts.on) {
-    swap_lists(c);
-    c->parts = (sw_contact_parts){.on = 1, .before = c->last_count};
+  memcpy(c->last, c->touches + left, tail * sizeof *c->last);
+  while (tail) {
+    const int other = left && c->touches[left - 1].candidate > c->last[tail - 1].candidate;
+    c->touches[--to] = other ? c->touches[--left] : c->last[--tail];
   }
+}
+
+void sw_contact_part(void *contact, sw_system *s) {
+  sw_contact *c = contact;
   sw_contact_parts *p = &c->parts;
-  p->first = p->end;
-  while (p->end < c->candidate_count && c->candidates[p->end].body < s->part_end) p->end++;
+  if (!sw_part_is_single(s) && !s->group) {
+    if (p->group) put_in_order(c);
+    *p = (sw_contact_parts){.on = 0};
+    return;
+  }
+  if (!p->on) {
+    swap_lists(c);
+    *p = (sw_contact_parts){.on = 1, .before = c->last_count};
+  }
+  if (s->group) p->group = 1, p->next = p->matched = 0;
+  find_ranges(c, s);
   p->touch = c->touch_count;
-  p->matched = match(c, p->first, p->end, p->matched);
+  p->matched = match(c, p->matched, p->before);
   p->begun = 0;
   c->pressed_before = c->pressed_count;
   c->updates = c->looked = 0;
@@ -66,8 +117,15 @@ static sw_status turn_tail_over(sw_contact *c) {
   if (count) memcpy(c->last + at, c->touches + c->parts.touch, count * sizeof *c->last);
   c->last_count = at + count;
   c->touch_count = c->parts.touch;
-  (void)match(c, c->parts.first, c->parts.end, at);
+  (void)match(c, at, c->last_count);
   return SW_OK;
+}
+
+int sw_contact_next_range(const sw_contact *c, sw_glance *at) {
+  if (++at->range >= c->parts.ranges) return 0;
+  at->next = c->ranges[at->range].first;
+  at->match = at->end = c->ranges[at->range].end;
+  return 1;
 }
 
 sw_status sw_contact_turn_over(sw_contact *c, sw_glance *at) {
@@ -76,8 +134,9 @@ sw_status sw_contact_turn_over(sw_contact *c, sw_glance *at) {
     swap_lists(c);
     return SW_OK;
   }
-  at->next = c->parts.first;
-  at->match = at->end = c->parts.end;
+  at->range = SIZE_MAX; /* its next one is the first */
+  at->end = 0;
+  if (!sw_contact_next_range(c, at)) at->range = 0;
   if (c->parts.begun) return turn_tail_over(c);
   c->parts.begun = 1;
   return SW_OK;

@@ -150,13 +150,20 @@ typedef struct sw_contact_loads {
   int busy;              /* 1: in the list `busy` of loaded obstacles */
 } sw_contact_loads;
 
-/* Data of a stage that is solved by parts, here groups of bodies: the current part. */
+/* Data of a stage that is solved by parts, here of bodies: the current part. */
 typedef struct sw_contact_parts {
-  int on, begun;     /* on = 1: there are parts; begun = 1: the current part has been looked at */
-  size_t first, end; /* range of its candidates */
-  size_t touch;      /* its first touch */
-  size_t before;     /* number of touches of the previous stage, of all parts */
-  size_t matched;    /* how many of those are matched, up to the end of this part */
+  int on, begun;  /* on = 1: there are parts; begun = 1: the current part has been looked at */
+  int group;      /* 1: it is that of the coupled bodies, the last one */
+  size_t ranges;  /* number of ranges of its candidates: one, or one for each coupled body */
+  size_t next;    /* the first candidate of bodies behind it, unless it is the last part */
+  size_t touch;   /* its first touch */
+  size_t before;  /* number of touches of the previous stage, of all parts */
+  size_t matched; /* how many of those are matched, up to the end of this part */
 } sw_contact_parts;
+
+/* Candidates from first to end (exclusive). */
+typedef struct sw_range {
+  size_t first, end;
+} sw_range;
 
 #endif

@@ -345,7 +345,7 @@ void sw_contact_refine(void *contact, sw_system *s) {
 }
 
 void sw_contact_add_ways(sw_contact *c, const sw_system *s, sw_ways *to) {
-  for (size_t i = 0; i < c->touch_count; i++) {
+  for (size_t i = c->parts.touch; i < c->touch_count; i++) {
     sw_touch *t = &c->touches[i];
     if (t->held || !s->bodies[t->body].bridged) continue;
     sw_ways_add(to, &t->press, t->friction, sw_mean_of(s->delta, 0, &t->spot));
@@ -353,7 +353,7 @@ void sw_contact_add_ways(sw_contact *c, const sw_system *s, sw_ways *to) {
 }
 
 void sw_contact_add_spots(sw_contact *c, const sw_system *s, sw_spots *to) {
-  for (size_t first = 0, end; first < c->touch_count; first = end) {
+  for (size_t first = c->parts.touch, end; first < c->touch_count; first = end) {
     const double scale = sw_contact_scale(c, first, &end);
     const size_t body = c->touches[first].body;
     for (size_t i = first; i < end && s->bodies[body].bridged; i++) {

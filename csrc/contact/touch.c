@@ -10,6 +10,7 @@
 #include "contact/curve.h"
 #include "contact/depth.h"
 #include "contact/same.h"
+#include "system/part.h"
 
 /* A touch continues in the next iterate if its gap is below STILL_NEAR of the radius and the cosine
  * of its normal's turn is above SAME_SIDE [-]. */
@@ -310,8 +311,9 @@ static int goes_on(const sw_contact *c, const sw_candidate *k, const sw_press *p
  * so too, but most agree sooner by the place; after some updates its direction becomes an
  * unknown. */
 static int goes_by_place(const sw_contact *c, const sw_system *s, const sw_candidate *k) {
-  const int apart = s->coupling.part != NULL && c->updates < SW_PATIENCE;
-  return apart || c->regime != SW_CONTACT_IMPLICIT || s->bodies[k->body].plan->web;
+  const int apart = s->coupling.part && !(s->bodies[k->body].coupled & SW_TOUCHING);
+  return (apart && c->updates < SW_PATIENCE) || c->regime != SW_CONTACT_IMPLICIT ||
+         s->bodies[k->body].plan->web;
 }
 
 /* Sets a touch's data that follow from its place. */

@@ -60,7 +60,9 @@ struct sw_contact {
   sw_mark *marks; /* touches of the last matrix, to tell whether it serves again */
   size_t mark_count, mark_capacity;
   sw_contact_parts parts; /* bodies that are solved separately */
-  double *room;           /* refinement: solutions of a wire's equations */
+  sw_range *ranges;       /* (parts.ranges) candidates of the current part */
+  size_t range_capacity;
+  double *room; /* refinement: solutions of a wire's equations */
   size_t room_capacity;
   int unmarked;   /* 1: the marks are not valid: some touch slid, or there was no memory */
   int looked;     /* 1: the touches of the next evaluation are already found */
@@ -130,13 +132,16 @@ sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err)
 
 /* Progress of an iterate's look at its candidates. */
 typedef struct sw_glance {
-  size_t next, end;   /* candidates that are left */
+  size_t next, end;   /* candidates that are left, of this range */
+  size_t range;       /* number of the part's range */
   size_t match, last; /* the first candidate that is not matched with its touches of the previous
                          iterate, and the first of these touches that is left */
 } sw_glance;
 
 /* Begins an iterate: its touches become those of the previous iterate. SW_ENOMEM. */
 sw_status sw_contact_turn_over(sw_contact *c, sw_glance *at);
+/* Goes on to the part's next range of candidates; 0: there are no more. */
+int sw_contact_next_range(const sw_contact *c, sw_glance *at);
 /* Matches candidates up to at->next, and of the segment beside, with their previous touches. */
 void sw_contact_match(const sw_contact *c, sw_glance *at);
 

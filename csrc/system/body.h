@@ -67,6 +67,7 @@ typedef struct sw_body {
   int web_factored;   /* 1: a factor of this step is there to precondition iterations */
   int web_slow;       /* 1: in this step such iterations were too slow */
   int bridged;        /* its matrix is part of the bridges' matrix (system/bridge.h) */
+  int coupled;        /* in this stage: SW_JOINED, SW_TOUCHING, both, or 0 (system/part.h) */
   double pushed;      /* largest push for which buckling was checked [N] */
 } sw_body;
 

@@ -15,9 +15,11 @@ static inline double larger(double most, double x) { return x > most ? x : most;
 
 static double largest_shift(const sw_system *s) {
   double largest = 0;
-  const size_t end = 3 * sw_part_node(s, s->part_end);
-  for (size_t i = 3 * sw_part_node(s, s->part); i < end; i++)
-    largest = larger(largest, fabs(s->delta[i]));
+  SW_PART_EACH(s, b) {
+    const double *delta = s->delta + 3 * s->bodies[b].first_node;
+    for (size_t i = 0; i < 3 * s->bodies[b].plan->nodes; i++)
+      largest = larger(largest, fabs(delta[i]));
+  }
   return largest;
 }
 
@@ -51,7 +53,7 @@ static double trusted_shift(const sw_system *s, const sw_body *b, double hbar, i
 
 static int drowned_in_rounding(const sw_system *s, const sw_stage *stage, int statics) {
   double shift = -1;
-  for (size_t b = s->part; b < s->part_end; b++) {
+  SW_PART_EACH(s, b) {
     const sw_body *body = &s->bodies[b];
     if (body->plan->web) continue; /* its springs form no chain that adds up rounding */
     const double trusted = trusted_shift(s, body, stage->hbar, statics);
@@ -81,7 +83,8 @@ static double fastest(const sw_system *s, const sw_body *b, const sw_stage *stag
  * a thousand times the moment of the inertia forces. Returns 1 if it is too large. */
 static int bends_roughly(const sw_system *s, const sw_stage *stage, const sw_newton *newton,
                          double rate2) {
-  for (size_t k = s->part; k < s->part_end && !newton->statics; k++) {
+  if (newton->statics) return 0;
+  SW_PART_EACH(s, k) {
     const sw_body *b = &s->bodies[k];
     const sw_plan *p = b->plan;
     const double stiff = p->beam.EI + b->viscosity / stage->hbar;
@@ -147,7 +150,7 @@ static double off_by_update(const sw_system *s, const sw_body *b) {
 static int pulls_roughly(const sw_system *s, const sw_stage *stage, const sw_newton *newton,
                          const sw_stage_report *report) {
   if (!newton->keeps_energy || report->rotation <= LEAST_UPDATE) return 0;
-  for (size_t k = s->part; k < s->part_end; k++) {
+  SW_PART_EACH(s, k) {
     const sw_body *b = &s->bodies[k];
     if (b->plan->web || !isfinite(stage->hbar)) continue;
     const double weight = ENERGY_NOISE * usual_force(s, b) * b->plan->beam.radius;
@@ -165,10 +168,10 @@ static double usual_force_at(const sw_system *s, size_t node) {
 /* 1 if some tie's pull at the new places differs from the linearised pull that the solve used. This
  * happens if the tie was slack before the update, or turned far in it. */
 static int mistakes_ties(const sw_system *s, const double *y) {
-  const size_t first = sw_part_node(s, s->part), end = sw_part_node(s, s->part_end);
+  if (sw_part_is_single(s)) return 0;
   for (size_t k = 0; s->joins && k < s->joins->spring_count; k++) {
     const sw_join_spring *tie = &s->joins->springs[k];
-    if (!tie->tie || !(tie->k > 0) || tie->i < first || tie->i >= end) continue;
+    if (!tie->tie || !(tie->k > 0)) continue;
     const sw_vec now = sw_join_spring_force(tie, y);
     const double off = sw_dist(now, sw_join_tie_expected(tie, y, s->delta));
     const double usual = fmin(usual_force_at(s, tie->i), usual_force_at(s, tie->j));
@@ -188,9 +191,9 @@ int sw_stage_converged(sw_system *s, const sw_stage *stage, const sw_newton *new
   if (newton->statics && largest_shift(s) > newton->accept_shift) return 0;
   if (!sw_rails_settled(s) || mistakes_ties(s, stage->y)) return 0;
   if (drowned_in_rounding(s, stage, newton->statics)) return 0;
-  for (size_t b = s->part; b < s->part_end; b++)
-    if ((s->bodies[b].is_explicit || s->bodies[b].is_kinked) &&
-        largest_shift(s) > FIXED_POINT * s->bodies[b].plan->length)
-      return 0;
+  SW_PART_EACH(s, b)
+  if ((s->bodies[b].is_explicit || s->bodies[b].is_kinked) &&
+      largest_shift(s) > FIXED_POINT * s->bodies[b].plan->length)
+    return 0;
   return 1;
 }

@@ -13,6 +13,7 @@
 #include "solve/band3.h"
 #include "solve/rotation.h"
 #include "state/tie.h"
+#include "system/part.h"
 
 void sw_joins_free(sw_system *s) {
   if (!s->joins) return;
@@ -298,6 +299,18 @@ static sw_status eval_hub(sw_system *s, const sw_join_hub *h, const double *y) {
 }
 
 /* --- all together ----------------------------------------------------------------- */
+
+static void mark(sw_system *s, uint32_t node) {
+  s->bodies[sw_system_body_of(s, node)].coupled |= SW_JOINED;
+}
+
+void sw_joins_mark(sw_system *s) {
+  const struct sw_joins *l = s->joins;
+  if (!l) return;
+  for (size_t k = 0; k < l->spring_count; k++) mark(s, l->springs[k].i), mark(s, l->springs[k].j);
+  for (size_t k = 0; k < l->hub_count; k++)
+    for (size_t a = 0; a < l->hubs[k].count; a++) mark(s, l->hubs[k].arms[a].from);
+}
 
 sw_status sw_joins_eval(sw_system *s, const double *y) {
   const struct sw_joins *all = s->joins;

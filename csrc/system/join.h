@@ -44,6 +44,9 @@ sw_status sw_system_add_hub(sw_system *system, const sw_join_hub *hub);
 /* Plans the bridges of all joins again. SW_ENOMEM. */
 sw_status sw_joins_plan(sw_system *system);
 
+/* Marks the bodies of all joins as coupled (system/part.h). */
+void sw_joins_mark(sw_system *system);
+
 /* Adds forces and stiffness at y to the bodies' fields and to the bridges. SW_ENOMEM. */
 sw_status sw_joins_eval(sw_system *system, const double *y);
 

@@ -1,22 +1,33 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Solves bodies without coupling one after another. Each iterates until it converges, with its data
- * in the cache. Private to this room. */
+/* The parts of a stage. Bodies without coupling are solved one after another: each iterates until
+ * it converges, with its data in the cache. Then the coupled bodies, which are joined or may touch
+ * each other, are solved together. */
 #ifndef SW_SYSTEM_PART_H
 #define SW_SYSTEM_PART_H
 
 #include "system/system.h"
 
-/* 1 if nothing couples the bodies in this stage. */
+/* Bits of sw_body.coupled. */
+enum { SW_JOINED = 1, SW_TOUCHING = 2 };
+
+/* 1 if some body can be solved by itself in this stage. */
 int sw_parts_any(const sw_system *system, const sw_newton *newton);
-/* A stage begins: selects all bodies at once and lists each body's held nodes. */
+/* A stage begins: selects all bodies at once, marks the joined ones and no others as coupled, and
+ * lists each body's held nodes. */
 void sw_parts_begin(sw_system *system);
 
-/* First node and first edge of a body, or the system's number of them after the last body. */
-static inline size_t sw_part_node(const sw_system *s, size_t body) {
-  return body < s->body_count ? s->bodies[body].first_node : s->nodes;
+/* 1 if the part is one body of several, without coupling. */
+static inline int sw_part_is_single(const sw_system *s) {
+  return !s->group && s->part_end - s->part < s->body_count;
 }
-static inline size_t sw_part_edge(const sw_system *s, size_t body) {
-  return body < s->body_count ? s->bodies[body].first_edge : s->edges;
+
+/* Returns the part's first body from number b on, or at least part_end: there is none. */
+static inline size_t sw_part_next(const sw_system *s, size_t b) {
+  while (s->group && b < s->part_end && !s->bodies[b].coupled) b++;
+  return b;
 }
+/* For each body number b of the part. */
+#define SW_PART_EACH(s, b) \
+  for (size_t b = sw_part_next(s, (s)->part); b < (s)->part_end; b = sw_part_next(s, b + 1))
 
 #endif

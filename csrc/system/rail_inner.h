@@ -3,6 +3,7 @@
 #ifndef SW_SYSTEM_RAIL_INNER_H
 #define SW_SYSTEM_RAIL_INNER_H
 
+#include "system/part.h"
 #include "system/rail.h"
 
 static inline const sw_held_node *sw_rail_node(const sw_system *s, const sw_rail *r) {
@@ -12,7 +13,7 @@ static inline const sw_held_node *sw_rail_node(const sw_system *s, const sw_rail
 /* 1 if it belongs to the bodies that are solved now. */
 static inline int sw_rail_is_part(const sw_system *s, const sw_rail *r) {
   const size_t body = sw_rail_node(s, r)->body;
-  return body >= s->part && body < s->part_end;
+  return body < s->part_end && body >= s->part && sw_part_next(s, body) == body;
 }
 
 static inline sw_vec sw_rail_times(const double K[9], sw_vec d) {

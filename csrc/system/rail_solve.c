@@ -8,6 +8,7 @@
 #include "solve/band4.h"
 #include "solve/dense.h"
 #include "system/bridge.h"
+#include "system/part.h"
 #include "system/rail_inner.h"
 #include "system/twist.h"
 
@@ -207,7 +208,7 @@ static void carry(sw_system *s, size_t k) {
   const double *nodes = shift_of(s, k), *spins = nodes + 3 * s->nodes;
   const size_t node = sw_rail_node(s, r)->node;
   for (size_t i = 0; i < 3 * s->nodes; i++) s->delta[i] += r->step * nodes[i];
-  for (size_t b = s->part; b < s->part_end; b++) {
+  SW_PART_EACH(s, b) {
     const sw_body *body = &s->bodies[b];
     for (size_t i = 0; body->spin_block && i < body->plan->nodes; i++) {
       for (size_t c = 0; c < 3; c++)
@@ -221,7 +222,7 @@ static void carry(sw_system *s, size_t k) {
 /* Computes the torques that the update adds to spans, with the part of the rails' nodes. */
 static void take_gains(sw_system *s) {
   if (sw_bridges_any(s)) sw_bridges_take_solution(s);
-  for (size_t b = s->part; b < s->part_end; b++) {
+  SW_PART_EACH(s, b) {
     sw_body *body = &s->bodies[b];
     if (body->has_twist && !(body->bridged && sw_bridges_any(s)))
       sw_twist_gain(body, s->delta + 3 * body->first_node);

@@ -14,6 +14,7 @@
 #include "base/simd.h"
 #include "solve/band4.h"
 #include "state/hinge.h"
+#include "system/part.h"
 #include "system/roll.h"
 
 size_t sw_spin_state_size(const sw_plan *p) {
@@ -65,7 +66,7 @@ void sw_spin_begin(sw_system *s, sw_body *b) {
 }
 
 void sw_spin_slow_down(sw_system *s, double rate2) {
-  for (size_t k = s->part; k < s->part_end; k++) {
+  SW_PART_EACH(s, k) {
     sw_body *b = &s->bodies[k];
     const sw_beam *beam = &b->plan->beam;
     if (!b->spin_block || b->roll_block) continue;

@@ -61,13 +61,13 @@ static double mass_rate(const sw_stage *stage) {
 
 static void stage_velocity(const sw_system *s, const sw_stage *stage, int statics) {
   const double rate = statics ? 0.0 : 1.0 / stage->hbar;
-  const size_t end = 3 * sw_part_node(s, s->part_end);
-  for (size_t i = 3 * sw_part_node(s, s->part); i < end; i++)
-    s->velocity[i] = (stage->y[i] - stage->xhat[i]) * rate;
-  for (size_t b = s->part; b < s->part_end && !statics; b++)
-    for (size_t k = s->bodies[b].held; k; k = s->held[k - 1].next)
+  SW_PART_EACH(s, b) {
+    const size_t first = 3 * s->bodies[b].first_node, end = first + 3 * s->bodies[b].plan->nodes;
+    for (size_t i = first; i < end; i++) s->velocity[i] = (stage->y[i] - stage->xhat[i]) * rate;
+    for (size_t k = statics ? 0 : s->bodies[b].held; k; k = s->held[k - 1].next)
       if (s->held[k - 1].slides)
         sw_system_held_velocity(s, &s->held[k - 1], s->velocity + 3 * s->held[k - 1].node);
+  }
   if (!statics) sw_strain_show_held(s, stage->y, rate, s->velocity);
   if (!statics) sw_rails_velocity(s, stage, s->velocity);
 }
@@ -92,29 +92,29 @@ static sw_status assemble_and_solve(sw_system *s, const sw_stage *stage, const s
   const int statics = newton->statics;
   const double rate2 = mass_rate(stage);
   int velocity = 0;
-  for (size_t b = s->part; b < s->part_end; b++) velocity |= s->bodies[b].needs_velocity;
+  SW_PART_EACH(s, b) velocity |= s->bodies[b].needs_velocity;
   if (velocity) stage_velocity(s, stage, statics);
-  for (size_t b = s->part; b < s->part_end; b++)
-    SW_TRY(sw_body_evaluate(s, &s->bodies[b], stage->time, stage->hbar, stage->y, s->velocity,
-                            statics, report->iterations, err));
+  SW_PART_EACH(s, b)
+  SW_TRY(sw_body_evaluate(s, &s->bodies[b], stage->time, stage->hbar, stage->y, s->velocity,
+                          statics, report->iterations, err));
   sw_bridges_begin(s);
   if (s->coupling.eval)
     SW_TRY(s->coupling.eval(s->coupling.user, s, stage->time, stage->hbar, stage->y,
                             SW_WANT_FORCE | (s->goes_on ? 0u : SW_WANT_STIFFNESS), err));
-  SW_TRY(sw_joins_eval(s, stage->y));
-  for (size_t b = s->part; b < s->part_end; b++) {
+  if (!sw_part_is_single(s)) SW_TRY(sw_joins_eval(s, stage->y));
+  SW_PART_EACH(s, b) {
     sw_field *f = &s->bodies[b].field;
     const size_t at = 3 * s->bodies[b].first_node;
     if (!s->goes_on) sw_gather_rows(f, rate2, f->rows);
     sw_gather_residual(f, rate2, f->x, s->yhat + at, s->delta + at);
     if (f->plan->web && !s->goes_on) sw_web_gather(&s->bodies[b]);
   }
-  for (size_t b = s->part; b < s->part_end; b++) sw_held_take_out(s, &s->bodies[b]);
+  SW_PART_EACH(s, b) sw_held_take_out(s, &s->bodies[b]);
   if (statics) sw_lead_rows(s, stage->y);
   report->negative = 0;
   if (sw_interrupted()) return SW_EINTR;
   if (sw_bridges_any(s)) SW_TRY(sw_bridges_solve(s, &report->negative));
-  for (size_t b = s->part; b < s->part_end; b++) {
+  SW_PART_EACH(s, b) {
     sw_body *body = &s->bodies[b];
     if (body->bridged && sw_bridges_any(s)) continue;
     size_t negative = 0;
@@ -173,7 +173,7 @@ static int flies_off(const sw_body *b, const double *delta) {
 static double share_of(sw_system *s, const sw_newton *newton, sw_stage_report *report) {
   double largest = 0, share = report->share;
   int flying = 0;
-  for (size_t b = s->part; b < s->part_end; b++) {
+  SW_PART_EACH(s, b) {
     const sw_body *body = &s->bodies[b];
     const double turn2 = advance_axial(s, body);
     if (s->strain_past) sw_strain_advance(s, body);
@@ -195,16 +195,19 @@ static double share_of(sw_system *s, const sw_newton *newton, sw_stage_report *r
 }
 
 static void apply(sw_system *s, const sw_stage *stage, double share) {
-  const size_t end = 3 * sw_part_node(s, s->part_end), edge = sw_part_edge(s, s->part),
-               end_edge = sw_part_edge(s, s->part_end);
-  for (size_t i = 3 * sw_part_node(s, s->part); i < end; i++) stage->y[i] += share * s->delta[i];
-  for (size_t b = s->part; b < s->part_end; b++)
-    if (s->bodies[b].spin_block) sw_spin_turn(&s->bodies[b], share);
-  if (share == 1.0)
-    memcpy(s->tension + edge, s->tension_new + edge, (end_edge - edge) * sizeof(double));
-  else
-    for (size_t e = edge; e < end_edge; e++)
-      s->tension[e] += share * (s->tension_new[e] - s->tension[e]);
+  SW_PART_EACH(s, b) {
+    sw_body *body = &s->bodies[b];
+    const size_t first = 3 * body->first_node, end = first + 3 * body->plan->nodes;
+    const size_t axial = sw_plan_axial(body->plan);
+    double *T = s->tension + body->first_edge;
+    const double *to = s->tension_new + body->first_edge;
+    for (size_t i = first; i < end; i++) stage->y[i] += share * s->delta[i];
+    if (body->spin_block) sw_spin_turn(body, share);
+    if (share == 1.0)
+      memcpy(T, to, axial * sizeof *T);
+    else
+      for (size_t e = 0; e < axial; e++) T[e] += share * (to[e] - T[e]);
+  }
   if (s->strain_past) sw_strain_take(s, share);
   sw_rails_apply(s, stage, share);
 }
@@ -271,8 +274,7 @@ enum { STEADY = 7 };
  * by one [-]. */
 static int most_iterations(const sw_system *s, const sw_newton *newton) {
   const int bundle = sw_bridges_any(s) && !newton->statics;
-  const int one = s->part_end - s->part < s->body_count;
-  return newton->max_iterations * (bundle || one ? 2 : 1);
+  return newton->max_iterations * (bundle || sw_part_is_single(s) ? 2 : 1);
 }
 
 /* If wires of a bundle would be thrown so far that an update must be shortened, touches have little
@@ -308,21 +310,35 @@ static sw_status iterate(sw_system *s, const sw_stage *stage, const sw_newton *n
   return sw_fail(err, SW_ENOCONV, "no convergence in %d iterations", report->iterations);
 }
 
-/* The report shows the body that took most iterations; one evaluation covers all bodies. */
+/* Solves one part. The report shows the part that took most iterations. */
+static sw_status iterate_part(sw_system *s, const sw_stage *stage, const sw_newton *newton,
+                              sw_stage_report *report, sw_error *err) {
+  sw_stage_report own = {0};
+  if (s->coupling.part) s->coupling.part(s->coupling.user, s);
+  const sw_status status = iterate(s, stage, newton, &own, err);
+  if (own.iterations > report->iterations) report->iterations = own.iterations;
+  report->rotation = fmax(report->rotation, own.rotation);
+  report->negative += own.negative;
+  return status;
+}
+
+/* Solves the bodies without coupling one after another, then the coupled ones together, so that
+ * their bridges are still there when the stage is finished. One evaluation covers all bodies. */
 static sw_status iterate_parts(sw_system *s, const sw_stage *stage, const sw_newton *newton,
                                sw_stage_report *report, sw_error *err) {
   sw_status status = SW_OK;
+  int group = 0;
   const sw_counters before = s->counters;
   for (size_t b = 0; b < s->body_count && status == SW_OK; b++) {
-    sw_stage_report own = {0};
+    group |= s->bodies[b].coupled;
+    if (s->bodies[b].coupled) continue;
     s->part = b, s->part_end = b + 1;
-    if (s->coupling.part) s->coupling.part(s->coupling.user, s);
-    status = iterate(s, stage, newton, &own, err);
-    if (own.iterations > report->iterations) report->iterations = own.iterations;
-    report->rotation = fmax(report->rotation, own.rotation);
-    report->negative += own.negative;
+    status = iterate_part(s, stage, newton, report, err);
   }
   s->part = 0, s->part_end = s->body_count;
+  s->group = group && status == SW_OK;
+  if (s->group) status = iterate_part(s, stage, newton, report, err);
+  s->group = 0;
   if (s->coupling.part) s->coupling.part(s->coupling.user, s);
   s->counters.newton = before.newton + (size_t)report->iterations;
   s->counters.evaluations = before.evaluations + (size_t)report->iterations;

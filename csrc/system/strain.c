@@ -83,13 +83,14 @@ static void keep_held(const sw_system *s, const double *all, double *strain) {
 }
 
 void sw_strain_show_held(const sw_system *s, const double *y, double rate, double *v) {
-  for (size_t b = s->part; s->strain_past && b < s->part_end; b++)
-    for (size_t k = s->bodies[b].held; k; k = s->held[k - 1].next) {
-      const sw_held_node *h = &s->held[k - 1];
-      if (!h->kept || h->slides || h->rail) continue;
-      const sw_vec way = sw_sub(sw_load(y + 3 * h->node), sw_load(s->strain_past + h->kept));
-      sw_store(v + 3 * h->node, sw_scale(way, rate));
-    }
+  if (!s->strain_past) return;
+  SW_PART_EACH(s, b)
+  for (size_t k = s->bodies[b].held; k; k = s->held[k - 1].next) {
+    const sw_held_node *h = &s->held[k - 1];
+    if (!h->kept || h->slides || h->rail) continue;
+    const sw_vec way = sw_sub(sw_load(y + 3 * h->node), sw_load(s->strain_past + h->kept));
+    sw_store(v + 3 * h->node, sw_scale(way, rate));
+  }
 }
 
 void sw_strain_show_held_rates(const sw_system *s, double *v) {
@@ -255,6 +256,9 @@ void sw_strain_advance(sw_system *s, const sw_body *b) {
 
 void sw_strain_take(sw_system *s, double share) {
   if (!s->strain_past) return;
-  for (size_t e = sw_part_edge(s, s->part); e < sw_part_edge(s, s->part_end); e++)
-    s->strain_now[e] += share * (s->strain_new[e] - s->strain_now[e]);
+  SW_PART_EACH(s, b) {
+    const size_t first = s->bodies[b].first_edge;
+    for (size_t e = first; e < first + sw_plan_axial(s->bodies[b].plan); e++)
+      s->strain_now[e] += share * (s->strain_new[e] - s->strain_now[e]);
+  }
 }

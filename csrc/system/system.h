@@ -31,7 +31,8 @@ struct sw_system {
   size_t freedoms; /* values in each of x, v, a: 3 x nodes + rolls + rails */
   sw_body *bodies;
   size_t body_count;
-  size_t part, part_end; /* the bodies that are solved now: all, or one after another */
+  size_t part, part_end; /* range of the bodies that are solved now (system/part.h), */
+  int group;             /* 1: of these only the coupled ones */
   sw_held_node *held;
   size_t held_count;
   double *directors;             /* (holds x 2 x 3) in hold coordinates: arriving, leaving */
@@ -156,7 +157,6 @@ size_t sw_system_body_of(const sw_system *system, size_t node);
 /* Adds a force to a body. id: -1 for inner terms. SW_ENOMEM. */
 sw_status sw_system_add_term(sw_system *system, size_t body, const sw_force_class *cls,
                              const void *args, size_t args_size, int id);
-
 /* After the last term: adds room for the histories to the state, all zero. SW_ENOMEM. */
 sw_status sw_system_add_histories(sw_system *system);
 

@@ -48,7 +48,8 @@ function benchcrowds.landing(nodes)
 end
 
 -- count wires of 50 segments fall on a table at an angle. Returns the time per node and 10 ms while they land
--- and while they lie [s]. touching: they may touch each other.
+-- and while they lie [s]. touching: they may touch each other; "crossed": and another wire, moved by its end,
+-- falls across two of them.
 function benchcrowds.wires(count, touching)
   local scene, draw = sw.scene{}, 1
   local function height()
@@ -60,6 +61,10 @@ function benchcrowds.wires(count, touching)
     wire(scene, { 0, 0.02 * i, height() }, { 0.5, 0.02 * i, height() }, 50)
   end
   if touching then scene:wire_contact{ friction = 0.3 } end
+  if touching == "crossed" then
+    local across = wire(scene, { 0, -0.02, 0.03 }, { 0.5, 0.03, 0.03 }, 50)
+    scene:clamp(across, { s = 0 }):follow(function(t) return { 0, -0.02 + 0.01 * math.sin(6 * t), 0.03 } end)
+  end
   local landing, lying = cost(scene, 0.3), cost(scene, 0.3)
   scene:close()
   return landing / 30 / (51 * count), lying / 30 / (51 * count)

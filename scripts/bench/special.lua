@@ -104,10 +104,11 @@ function special.crowds()
     print(("%6d nodes land at once: at most %.3f s a step, then %.3f s"):format(nodes, crowds.landing(nodes)))
   end
   for _, count in ipairs{ 1, 100, 1000 } do
-    for _, touching in ipairs{ false, true } do
+    for _, touching in ipairs{ false, true, "crossed" } do
       local landing, lying = crowds.wires(count, touching)
-      print(("%6d wires on a table%s: %.2f us a node and step landing, %.2f lying"):format(count,
-        touching and ", which may touch" or "", 1e6 * landing, 1e6 * lying))
+      local how = touching == "crossed" and ", one falls across two" or touching and ", which may touch" or ""
+      print(("%6d wires on a table%s: %.2f us a node and step landing, %.2f lying"):format(count, how,
+        1e6 * landing, 1e6 * lying))
     end
   end
 end
