@@ -150,8 +150,11 @@ static int shakes(const sw_contact *c, const sw_system *s, int o, double off) {
 int sw_contact_shaken(const sw_contact *c, const sw_system *s) {
   for (size_t k = 0; k < c->busy_count && c->touch_count; k++) {
     const sw_contact_past *past = &c->loads[c->busy[k]].past;
-    const double off = sw_norm(sw_sub(past->end.force, past->mean.force));
-    const double most = fmax(sw_norm(past->end.force), sw_norm(past->mean.force));
+    const sw_strikers *who = &c->loads[c->busy[k]].strikers;
+    const sw_vec resting = sw_scale(sw_add(who->rest_start, who->rest_end), 0.5);
+    const sw_vec mean = sw_sub(past->mean.force, resting);
+    const sw_vec end = sw_sub(past->end.force, who->rest_end);
+    const double off = sw_dist(end, mean), most = fmax(sw_norm(end), sw_norm(mean));
     if (off > SHOCK * most && shakes(c, s, c->busy[k], off)) return 1;
   }
   return 0;
@@ -183,28 +186,48 @@ double sw_contact_jolt_of(double size, double usual, double h) {
   return fmax(size / usual, sqrt(h / LONGEST_PART));
 }
 
+/* Load of the strikers alone, as a mean over the step, at its start and at its end [N]. */
+typedef struct blow {
+  sw_vec mean, start, end;
+} blow;
+
+static blow blow_on(const sw_contact *c, const sw_contact_loads *l) {
+  const sw_strikers *k = &l->strikers;
+  const sw_vec impulse = sw_add(l->stage[c->last_stage].force, l->blows.force);
+  const sw_vec resting = sw_scale(sw_add(k->rest_start, k->rest_end), 0.5);
+  return (blow){.mean = sw_sub(sw_scale(impulse, 1.0 / c->h), resting),
+                .start = sw_sub(l->past.end.force, k->rest_start),
+                .end = sw_sub(l->trial.force, k->rest_end)};
+}
+
 /* Pads of a gripper are left out; a gripper has other means to close slowly on a wire. */
-double sw_contact_jolt(sw_contact *c, const sw_system *s, int followed) {
+double sw_contact_jolt(sw_contact *c, const sw_system *s, int followed, sw_blow_of of, void *user) {
   const sw_contact_load none = {.force = {.x = 0}};
   double hardest = 0;
   if (c->regime != SW_CONTACT_IMPLICIT || !(c->h > 0)) return 0;
   for (size_t i = 0; i < c->busy_count; i++) c->loads[c->busy[i]].trial = none;
   add_now(c, 1.0, trial_of);
+  sw_contact_find_strikers(c, s);
   for (size_t i = 0; i < c->touch_count; i++) {
     const sw_touch *t = &c->touches[i];
     sw_contact_loads *l = &c->loads[t->obstacle];
     const sw_plan *p = s->bodies[t->body].plan;
-    const sw_vec mean = sw_scale(sw_add(l->stage[c->last_stage].force, l->blows.force), 1.0 / c->h);
-    const double size = sw_norm(mean), usual = sw_contact_usual_force(s, p);
-    const double least = sw_contact_least_blow(usual, l->past.hardest, followed);
+    const blow b = blow_on(c, l);
+    const double size = sw_norm(b.mean), usual = l->strikers.usual;
+    double *const own = of(user, t->body);
+    const double least = sw_contact_least_blow(usual, fmin(l->past.hardest, *own), followed);
     if (c->obstacles[t->obstacle].grips > 0 || !(size > least)) continue;
     if (size > p->beam.EA) continue;     /* a hold drives it in: a wire's blow is weaker */
     if (!followed && t->known) continue; /* it only slips or sticks here */
-    if (!sw_contact_comes_and_goes(usual, l->past.end.force, mean, l->trial.force)) continue;
-    if (!followed) l->past.hardest = size;
+    if (!sw_contact_comes_and_goes(usual, b.start, b.mean, b.end)) continue;
+    if (!followed) l->past.hardest = fmax(l->past.hardest, size), *own = fmax(*own, size);
     hardest = fmax(hardest, sw_contact_jolt_of(size, usual, c->h));
   }
   return hardest;
+}
+
+void sw_contact_forget_hardest(sw_contact *c) {
+  for (size_t o = 0; o < c->count; o++) c->loads[o].past.hardest = 0;
 }
 
 int sw_contact_id(const sw_contact *c, size_t k) { return c->obstacles[k].id; }

@@ -15,17 +15,23 @@ double sw_contact_least_blow(double usual, double hardest, int followed);
  * size h [-]. */
 int sw_contact_comes_and_goes(double usual, sw_vec start, sw_vec mean, sw_vec end);
 double sw_contact_jolt_of(double size, double usual, double h);
+/* Gives the hardest blow of a body so far, to read or to change [N]. A blow is followed if it is
+ * harder than those before on its obstacle, or than those of its wire. */
+typedef double *(*sw_blow_of)(void *user, size_t body);
+
 /* Hardest new blow on an obstacle in a trial step: its mean force over the step divided by the
- * striking wire's weight or bending force. 0: none [-]. followed: 1 if a blow that is followed in
+ * striking wires' weights or bending forces. 0: none [-]. followed: 1 if a blow that is followed in
  * parts goes on. */
-double sw_contact_jolt(sw_contact *contact, const sw_system *system, int followed);
+double sw_contact_jolt(sw_contact *contact, const sw_system *system, int followed, sw_blow_of of,
+                       void *user);
+/* A run begins: no blow came before. The owner's sw_contact_past must forget it too. */
+void sw_contact_forget_hardest(sw_contact *contact);
 /* Longest part in which the end of a wire that is pushed onto an obstacle may be followed; HUGE_VAL
  * if no wire is [s]. */
 double sw_contact_push_part(const sw_contact *contact, const sw_system *system);
 /* Like sw_contact_jolt, for few wires that strike each other. dull: 1 if the trial used implicit
- * Euler. *hardest: the hardest blow so far, which includes this one unless a blow is followed
- * [N]. */
+ * Euler. */
 double sw_pairs_jolt(const sw_mutual *pairs, const sw_system *system, int dull, int followed,
-                     double *hardest);
+                     sw_blow_of of, void *user);
 
 #endif

@@ -39,32 +39,31 @@ static int is_first(const sw_mutual *m, size_t touch) {
  * wire, and parts of any size would be as rough [-]. */
 static const double DRIVEN = 0.1;
 
-/* Returns the jolt of two bodies if its force is harder than `hardest` allows, else 0 [-]; *size:
- * the force [N]. */
+/* Returns the jolt of two bodies if its force is harder than *hardest of one of them allows, else 0
+ * [-]. */
 static double jolt_of(const sw_mutual *m, const sw_system *s, const uint32_t body[2], int dull,
-                      int followed, double hardest, double *size) {
+                      int followed, double *const hardest[2]) {
   const sw_plan *one = s->bodies[body[0]].plan, *two = s->bodies[body[1]].plan;
   const double usual = fmin(sw_contact_usual_force(s, one), sw_contact_usual_force(s, two));
   const push p = push_of(m, body);
   const sw_vec mean = dull ? p.end : sw_scale(sw_add(p.start, p.end), 0.5);
-  *size = sw_norm(mean);
-  if (!(*size > sw_contact_least_blow(usual, hardest, followed))) return 0;
-  if (*size > DRIVEN * fmin(one->beam.EA, two->beam.EA) || (!followed && !p.fresh)) return 0;
+  const double size = sw_norm(mean), before = fmin(*hardest[0], *hardest[1]);
+  if (!(size > sw_contact_least_blow(usual, before, followed))) return 0;
+  if (size > DRIVEN * fmin(one->beam.EA, two->beam.EA) || (!followed && !p.fresh)) return 0;
   if (!sw_contact_comes_and_goes(usual, p.start, mean, p.end)) return 0;
-  return sw_contact_jolt_of(*size, usual, m->h);
+  for (int k = 0; k < 2 && !followed; k++) *hardest[k] = fmax(*hardest[k], size);
+  return sw_contact_jolt_of(size, usual, m->h);
 }
 
-double sw_pairs_jolt(const sw_mutual *m, const sw_system *s, int dull, int followed,
-                     double *hardest) {
-  double most = 0, force = *hardest;
+double sw_pairs_jolt(const sw_mutual *m, const sw_system *s, int dull, int followed, sw_blow_of of,
+                     void *user) {
+  double most = 0;
   if (m->regime != SW_CONTACT_IMPLICIT || !(m->h > 0) || (!followed && !m->struck)) return 0;
   for (size_t i = 0; i < m->touch_count; i++) {
-    double size = 0;
+    const uint32_t *body = m->touches[i].of.body;
     if (!is_first(m, i)) continue;
-    const double jolt = jolt_of(m, s, m->touches[i].of.body, dull, followed, *hardest, &size);
-    if (jolt > 0) force = fmax(force, size);
-    most = fmax(most, jolt);
+    double *const hardest[2] = {of(user, body[0]), of(user, body[1])};
+    most = fmax(most, jolt_of(m, s, body, dull, followed, hardest));
   }
-  if (!followed) *hardest = force;
   return most;
 }

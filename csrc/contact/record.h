@@ -141,12 +141,22 @@ typedef struct sw_ahead {
   sw_vec force; /* force on the wire there as used by the solves [N] */
 } sw_ahead;
 
+/* Who strikes an obstacle in a trial step. Without strikers, all its wires count as such. */
+typedef struct sw_strikers {
+  double usual;                /* usual forces of the striking wires, added [N] */
+  double all;                  /* the same of all its wires, while they are looked at [N] */
+  sw_vec rest_start, rest_end; /* loads of the others at the step's start and end [N] */
+  sw_vec from, to;             /* the same of the wire looked at [N] */
+  size_t looked;               /* number of that wire + 1, or 0 */
+} sw_strikers;
+
 /* Loads of an obstacle in a step. */
 typedef struct sw_contact_loads {
   sw_contact_past past;
   sw_contact_load stage[SW_BOOK_STAGES]; /* impulse from the step's start, without blows [N s] */
   sw_contact_load blows; /* impulse of impacts that changed the starting velocities [N s] */
   sw_contact_load trial; /* load at the end of a trial [N] */
+  sw_strikers strikers;  /* of the last trial, see sw_contact_find_strikers */
   int busy;              /* 1: in the list `busy` of loaded obstacles */
 } sw_contact_loads;
 

@@ -9,9 +9,11 @@
 #include "base/simd.h"
 #include "body/section.h"
 #include "body/spin.h"
+#include "contact/jolt.h"
 #include "record/wear.h"
 #include "record/zone.h"
 #include "scene/course.h"
+#include "scene/obstacle.h"
 #include "scene/parts.h"
 #include "scene/values.h"
 #include "scene/wire.h"
@@ -296,11 +298,14 @@ void sw_scene_reset_extremes(sw_scene *s) {
     const sw_extreme least = {.value = -HUGE_VAL};
     sw_scene_wire_in(s, w)->extremes =
         (sw_wire_extremes){least, least, least, least, least, least, least, 0};
+    sw_scene_wire_in(s, w)->blow = 0;
     sw_window_forget(&sw_scene_wire_in(s, w)->window);
     sw_wear_free(&sw_scene_wire_in(s, w)->wear);
     sw_zones_forget(&sw_scene_wire_in(s, w)->zones);
     if (sw_scene_is_built(s)) sw_scene_system(s)->bodies[w].pushed = 0;
   }
+  SW_EACH(obstacle, o, s) o->past.hardest = 0;
+  if (sw_scene_contact(s)) sw_contact_forget_hardest(sw_scene_contact(s));
   *sw_scene_penetrated(s) = (sw_extreme){0};
   sw_scene_set_wears(s, 0);
 }

@@ -62,7 +62,7 @@ void sw_tape_beam_of(sw_tape *t, sw_scene_wire *x) {
 }
 
 void sw_tape_wire(sw_tape *t, sw_scene_wire *x, int placed) {
-  SW_TAPE_STRUCT(t, sw_scene_wire, 1160);
+  SW_TAPE_STRUCT(t, sw_scene_wire, 1168);
   SW_TAPE_STRUCT(t, sw_twisted, 24);
   UINT32(generation), SIZE(number), NAME(name);
   SW_TAPE_CLASS(t, x->cls, sw_scene_body_class);
@@ -74,7 +74,8 @@ void sw_tape_wire(sw_tape *t, sw_scene_wire *x, int placed) {
   sw_tape_window(t, &x->window);
   sw_tape_wear(t, &x->wear);
   sw_tape_zone_watch(t, &x->zones);
-  INT(untwisted);
+  DOUBLE(blow), INT(untwisted);
+  sw_tape_expect(t, x->blow >= 0 && isfinite(x->blow), "the hardest blow of a wire");
   sw_tape_list(t, &x->twisted, &x->twisted_count, sizeof *x->twisted);
 }
 

@@ -24,8 +24,6 @@ typedef struct sw_course {
   /* A blow that began at blow_since, or a bundle that converges badly, is followed in parts
    * (substeps) of blow_part until blow_until [s]. */
   double blow_part, blow_since, blow_until;
-  double snap;    /* hardest pull so far of ties whose snap was followed in parts [N] */
-  double slap;    /* the same for the force of wires that struck each other [N] */
   double part;    /* part that a step of fixed size begins with; 0: it is tried whole [s] */
   double next_dt; /* next step of an adaptive run; 0 = not known [s] */
   size_t parts;   /* parts taken since the last check for collapsed steps [-] */

@@ -48,6 +48,7 @@ typedef struct sw_scene_wire {
   sw_zone_watch zones;
   sw_twisted *twisted;
   size_t twisted_count;
+  double blow;   /* its hardest blow of this run that was followed in parts [N] */
   int untwisted; /* 1: lies as drawn, without its unloaded twist; nothing has moved */
 } sw_scene_wire;
 

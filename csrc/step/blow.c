@@ -8,7 +8,9 @@
 #include "contact/jolt.h"
 #include "link/hold.h"
 #include "scene/course.h"
+#include "scene/events.h"
 #include "scene/parts.h"
+#include "scene/wire.h"
 #include "step/coarse.h"
 #include "watch/observe.h"
 
@@ -59,10 +61,6 @@ static int any_gives_way(const sw_scene *s) {
   return 0;
 }
 
-/* Scenes with more wires are not followed: one wire strikes all the time, and all wires would take
- * its parts [-]. */
-enum { MOST_WIRES = 32 };
-
 /* Returns the number of parts of a step with this jolt: a power of two, so that scenes that differ
  * by little take the same steps [-]. */
 static double parts_for(double jolt) {
@@ -73,14 +71,17 @@ static double parts_for(double jolt) {
  * stiff tie throws the wire back within a tenth of a millisecond [-]. */
 static const double SNAP = 6.0;
 
+/* The hardest blow of a wire in this run [N]. */
+static double *hardest_of(void *scene, size_t wire) { return &sw_scene_wire_in(scene, wire)->blow; }
+
 /* As sw_contact_jolt, for ties. */
 static double jolt_of_ties(sw_scene *s, int followed) {
-  double *hardest = &sw_scene_course(s)->snap;
   sw_snap snap;
   if (!sw_scene_ties_snap(s, &snap) || !(snap.jolt > 0)) return 0;
-  const double usual = snap.pull / snap.jolt;
-  if (!(snap.pull > sw_contact_least_blow(usual, *hardest, followed))) return 0;
-  if (!followed) *hardest = snap.pull;
+  double *const hardest[2] = {hardest_of(s, snap.wires[0]), hardest_of(s, snap.wires[1])};
+  const double usual = snap.pull / snap.jolt, before = fmin(*hardest[0], *hardest[1]);
+  if (!(snap.pull > sw_contact_least_blow(usual, before, followed))) return 0;
+  for (int k = 0; k < 2 && !followed; k++) *hardest[k] = fmax(*hardest[k], snap.pull);
   return fmax(snap.jolt, SNAP);
 }
 
@@ -90,10 +91,10 @@ static double jolt_of(sw_scene *s, int followed) {
   sw_contact *contact = sw_scene_contact(s);
   const sw_mutual *pairs = sw_scene_pairs(s);
   double jolt = jolt_of_ties(s, followed);
-  if (contact) jolt = fmax(jolt, sw_contact_jolt(contact, system, followed));
+  if (contact) jolt = fmax(jolt, sw_contact_jolt(contact, system, followed, hardest_of, s));
   if (pairs)
     jolt =
-        fmax(jolt, sw_pairs_jolt(pairs, system, course->stepper.plastic, followed, &course->slap));
+        fmax(jolt, sw_pairs_jolt(pairs, system, course->stepper.plastic, followed, hardest_of, s));
   return jolt;
 }
 
@@ -105,12 +106,36 @@ static double part_for(const sw_scene *s, double jolt, double h) {
   return push < part ? fmax(SHORTEST_PUSH, push) : part;
 }
 
+#define TEXT_OF(x) #x
+#define TEXT(x) TEXT_OF(x)
+
+/* Returns why blows are not followed in the scene's present state, or NULL: they are. */
+static const char *why_whole(const sw_scene *s) {
+  if (sw_coarse_is_crowd(s)) return "more than " TEXT(SW_MOST_MOVING) " wires move";
+  if (sw_coarse_is_bundle(s)) return "more than " TEXT(SW_MOST_NEAR) " wires touch each other";
+  if (sw_scene_grains(s)) return "objects of particles touch others";
+  return any_gives_way(s) ? "a feed obeys a force" : NULL;
+}
+
+/* Shorter steps are like the parts of most blows: nothing is told [s]. */
+static const double LIKE_PARTS = 3e-4;
+
+static void tell(sw_scene *s, double h, const char *why) {
+  if (!(h > LIKE_PARTS)) return;
+  const double jolt = jolt_of(s, 0), part = part_for(s, jolt, h);
+  if (!(jolt > 0) || !(h > 1.01 * part)) return;
+  sw_scene_tell(s, "coarse", "", NAN, jolt,
+                "a blow of %.3g times its wire's weight is spread over a step of %.3g ms, because "
+                "%s: peaks may be wrong; run again with dt = %.2g s and compare the peaks",
+                jolt, 1e3 * h, why, part);
+}
+
 int sw_blow_begins(sw_scene *s, double h) {
   sw_course *course = sw_scene_course(s);
   const int followed = sw_scene_time(s) < course->blow_until;
-  if (sw_scene_wire_slots(s) > MOST_WIRES || sw_coarse_is_bundle(s) || sw_scene_grains(s) ||
-      (!followed && !(h > 1.01 * SHORTEST_PUSH)) || any_gives_way(s))
-    return 0;
+  const char *why = why_whole(s);
+  if (why) tell(s, h, why);
+  if (why || (!followed && !(h > 1.01 * SHORTEST_PUSH))) return 0;
   const double jolt = jolt_of(s, followed);
   if (!(jolt > 0)) return 0;
   const double part = followed ? course->blow_part : part_for(s, jolt, h);

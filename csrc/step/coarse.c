@@ -28,9 +28,25 @@ static const double STRETCHED = 1e-4;
 /* Smallest part (substep), as a share of its step and in time [-], [s]. */
 static const double SMALLEST = 1.0 / 64, SHORTEST = 1e-4;
 
-/* Scenes with more wires are not divided: one wire is too fast all the time, and all would take its
- * parts [-]. */
-enum { MOST_WIRES = 32 };
+/* A wire moves if a node is faster than this [m/s]. */
+static const double MOVES = 1e-3;
+
+static int moves(const sw_system *system, const sw_body *b) {
+  const double *v = system->v + 3 * b->first_node;
+  for (size_t i = 0; i < b->plan->nodes; i++)
+    if (sw_norm2(sw_vec_at(v, i)) > MOVES * MOVES) return 1;
+  return 0;
+}
+
+int sw_coarse_is_crowd(const sw_scene *s) {
+  const sw_system *system = sw_scene_system(s);
+  size_t moving = 0;
+  for (size_t b = 0; system->body_count > SW_MOST_MOVING && b < system->body_count; b++) {
+    moving += moves(system, &system->bodies[b]);
+    if (moving > SW_MOST_MOVING) return 1;
+  }
+  return 0;
+}
 
 static int any_mesh(const sw_system *system) {
   SW_ITEMS(const sw_body, b, system->bodies, system->body_count)
@@ -49,17 +65,12 @@ static int any_jaw_works(const sw_scene *s) {
  * the time (bench case=grip, spec/check/worn_mesh_spec). */
 int sw_coarse_applies(const sw_scene *s) {
   if (any_jaw_works(s) && any_mesh(sw_scene_system(s))) return 0;
-  return sw_scene_wire_slots(s) <= MOST_WIRES;
+  return !sw_coarse_is_crowd(s);
 }
-
-/* Largest bundle (wires that touch or nearly touch) whose steps are divided. Larger bundles take
- * whole steps and log the event "coarse"; dividing their steps would triple the time of 10 or 20
- * falling wires [-]. */
-enum { MOST_NEAR = 6 };
 
 int sw_coarse_is_bundle(const sw_scene *s) {
   const sw_mutual *pairs = sw_scene_pairs(s);
-  return pairs && sw_mutual_crowded(pairs, MOST_NEAR);
+  return pairs && sw_mutual_crowded(pairs, SW_MOST_NEAR);
 }
 
 /* Returns the error of a body [m]. Sections of meshes swing far faster than any step, and steps are
@@ -148,11 +159,11 @@ static void tell(sw_scene *s, double h, double over, const char *of) {
 void sw_coarse_tell(sw_scene *s, double h) {
   char of[96];
   if (sw_coarse_is_bundle(s)) {
-    snprintf(of, sizeof of, "a bundle of %d or more wires that touch", MOST_NEAR + 1);
+    snprintf(of, sizeof of, "a bundle of %d or more wires that touch", SW_MOST_NEAR + 1);
     tell(s, h, over_of(s, HUGE_VAL), of);
-  } else if (sw_scene_wire_slots(s) > MOST_WIRES) {
-    snprintf(of, sizeof of, "the motion of a wire (steps are not divided with more than %d wires)",
-             MOST_WIRES);
+  } else if (sw_coarse_is_crowd(s)) {
+    snprintf(of, sizeof of, "the motion of a wire (steps are not divided while %d wires move)",
+             SW_MOST_MOVING + 1);
     tell(s, h, over_of(s, HUGE_VAL), of);
   } else {
     snprintf(of, sizeof of, "the motion of a wire (the integrator %s does not divide steps)",

@@ -6,8 +6,18 @@
 
 #include "scene/scene.h"
 
+/* Steps are not divided while more wires move: one wire is too fast all the time, and all would
+ * take its parts [-]. */
+#define SW_MOST_MOVING 32
+/* Largest bundle (wires that touch or nearly touch) whose steps are divided. Larger bundles take
+ * whole steps and log the event "coarse"; dividing their steps would triple the time of 10 or 20
+ * falling wires [-]. */
+#define SW_MOST_NEAR 6
+
 /* 1 if the steps of the scene are judged in its present state. */
 int sw_coarse_applies(const sw_scene *scene);
+/* 1 if so many wires move that their steps are taken whole. */
+int sw_coarse_is_crowd(const sw_scene *scene);
 /* 1 if so many wires touch each other that their steps are taken whole. */
 int sw_coarse_is_bundle(const sw_scene *scene);
 /* Returns the error of the last trial over the allowed error [-]. The error is the method's

@@ -32,10 +32,11 @@ int sw_scene_may_break(const sw_scene *scene);
 /* SW_ENOCONV when a tie is pulled far beyond its strength with nodes at x: it breaks within the
  * step. */
 sw_status sw_scene_check_ties(const sw_scene *scene, const double *x, sw_error *err);
-/* Hardest pull of ties that go taut [N], and the largest pull over the usual force of its wire
- * [-]. */
+/* Hardest pull of ties that go taut [N], the wires that it pulls at, and the largest pull over the
+ * usual force of its wire [-]. */
 typedef struct sw_snap {
   double pull, jolt;
+  size_t wires[2];
 } sw_snap;
 /* 1 if a tie goes taut between the scene's state and a stage of the last trial. Stages are checked
  * because a tie that snaps taut may be slack again at the trial's end. */

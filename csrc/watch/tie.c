@@ -110,14 +110,18 @@ sw_status sw_scene_check_ties(const sw_scene *s, const double *x, sw_error *err)
 }
 
 /* Notes a tie that is slack at the scene's state and taut in a trial. before, now: its pulls [N];
- * p: the wires at its ends. */
-static int note_snap(const sw_scene *s, double before, double now, const sw_plan *const *p,
+ * wires: those at its ends. */
+static int note_snap(const sw_scene *s, double before, double now, const size_t wires[2],
                      sw_snap *snap) {
+  const sw_system *system = sw_scene_system(s);
   if (before > 0 || !(now > 0)) return 0;
-  snap->pull = fmax(snap->pull, now);
-  for (size_t k = 0; k < SW_JOIN_ENDS && p[k]; k++)
-    if (!p[k]->web)
-      snap->jolt = fmax(snap->jolt, now / sw_contact_usual_force(sw_scene_system(s), p[k]));
+  const int hardest = now > snap->pull;
+  if (hardest) snap->pull = now;
+  for (size_t k = 0; k < 2; k++) {
+    if (hardest) snap->wires[k] = wires[k];
+    const sw_plan *p = system->bodies[wires[k]].plan;
+    if (!p->web) snap->jolt = fmax(snap->jolt, now / sw_contact_usual_force(system, p));
+  }
   return 1;
 }
 
@@ -126,9 +130,8 @@ static int joint_snaps(const sw_scene *s, size_t joint, const double *x, sw_snap
   const sw_joint *j = sw_scene_join_in(s, joint);
   double bears;
   const double before = pull_of_joint(s, joint, system->x, &bears);
-  const sw_plan *const plans[SW_JOIN_ENDS] = {system->bodies[j->ends[0].wire].plan,
-                                              system->bodies[j->ends[1].wire].plan};
-  return note_snap(s, before, pull_of_joint(s, joint, x, &bears), plans, snap);
+  const size_t wires[2] = {j->ends[0].wire, j->ends[1].wire};
+  return note_snap(s, before, pull_of_joint(s, joint, x, &bears), wires, snap);
 }
 
 static int snap_at(const sw_scene *s, const double *x, sw_snap *snap) {
@@ -139,11 +142,11 @@ static int snap_at(const sw_scene *s, const double *x, sw_snap *snap) {
     if (breakable(s, k)) any |= joint_snaps(s, k, x, snap);
   for (size_t b = 0; sw_scene_force_slots(s) && b < system->body_count; b++) {
     const sw_body *body = &system->bodies[b];
-    const sw_plan *const plans[SW_JOIN_ENDS] = {body->plan};
+    const size_t wires[2] = {b, b};
     SW_ITEMS(const sw_term, term, body->terms, body->term_count) {
       if (!term->cls->pull) continue;
       const double before = pull_of(system, body, term, system->x, 0, &bears);
-      any |= note_snap(s, before, pull_of(system, body, term, x, 0, &bears), plans, snap);
+      any |= note_snap(s, before, pull_of(system, body, term, x, 0, &bears), wires, snap);
     }
   }
   return any;
