@@ -94,7 +94,23 @@ void sw_contact_forget_blows(sw_contact *c) {
   c->last_stage = 0;
 }
 
-void sw_contact_conclude(sw_contact *c) {
+/* A force at a step's end comes from a shock if it differs from the mean by more than SHOCK times
+ * the larger of both, and by more than SHARP times the usual force [-]. */
+static const double SHOCK = 0.3, SHARP = 0.5;
+
+/* 1 if an obstacle's load at the end differs from its mean by what may be a shock of some wire. */
+static int any_may_shake(const sw_contact *c, const sw_system *s) {
+  double most = 0;
+  for (size_t i = 0; i < c->busy_count; i++) {
+    const sw_contact_past *past = &c->loads[c->busy[i]].past;
+    most = fmax(most, sw_dist(past->end.force, past->mean.force));
+  }
+  for (size_t b = 0; most > 0 && b < s->body_count; b++)
+    if (most > SHARP * sw_contact_usual_force(s, s->bodies[b].plan)) return 1;
+  return 0;
+}
+
+void sw_contact_conclude(sw_contact *c, const sw_system *s) {
   const sw_contact_load none = {.force = {.x = 0}};
   for (size_t i = 0; i < c->busy_count; i++) c->loads[c->busy[i]].past.end = none;
   add_now(c, 1.0, end_of);
@@ -107,6 +123,7 @@ void sw_contact_conclude(sw_contact *c) {
     const sw_vec turned = sw_cross(c->now[c->busy[i]].pivot, l->past.mean.force);
     l->past.mean.moment = sw_add(l->past.mean.moment, turned);
   }
+  if (any_may_shake(c, s)) sw_contact_find_strikers(c, s);
 }
 
 double sw_contact_usual_force(const sw_system *s, const sw_plan *p) {
@@ -127,10 +144,6 @@ double sw_contact_edge_stiffness(const sw_system *s, size_t body, size_t node) {
   if (b->plan->web || !edges) return 0;
   return b->EA / b->plan->rest[e < edges ? e : edges - 1];
 }
-
-/* A force at a step's end comes from a shock if it differs from the mean by more than SHOCK times
- * the larger of both, and by more than SHARP times the usual force [-]. */
-static const double SHOCK = 0.3, SHARP = 0.5;
 
 static int is_shock(double usual, sw_vec end, sw_vec mean) {
   const double off = sw_norm(sw_sub(end, mean)), most = fmax(sw_norm(end), sw_norm(mean));
@@ -200,11 +213,21 @@ static blow blow_on(const sw_contact *c, const sw_contact_loads *l) {
                 .end = sw_sub(l->trial.force, k->rest_end)};
 }
 
+/* 1 if some touch may be a blow. A touch that pressed before only slips or sticks, unless it
+ * belongs to a blow that is followed. */
+static int any_may_strike(const sw_contact *c, int followed) {
+  for (size_t i = 0; i < c->touch_count; i++)
+    if (followed || !c->touches[i].known) return 1;
+  return 0;
+}
+
 /* Pads of a gripper are left out; a gripper has other means to close slowly on a wire. */
 double sw_contact_jolt(sw_contact *c, const sw_system *s, int followed, sw_blow_of of, void *user) {
   const sw_contact_load none = {.force = {.x = 0}};
   double hardest = 0;
   if (c->regime != SW_CONTACT_IMPLICIT || !(c->h > 0)) return 0;
+  sw_contact_forget_strikers(c);
+  if (!any_may_strike(c, followed)) return 0;
   for (size_t i = 0; i < c->busy_count; i++) c->loads[c->busy[i]].trial = none;
   add_now(c, 1.0, trial_of);
   sw_contact_find_strikers(c, s);
@@ -217,8 +240,8 @@ double sw_contact_jolt(sw_contact *c, const sw_system *s, int followed, sw_blow_
     double *const own = of(user, t->body);
     const double least = sw_contact_least_blow(usual, fmin(l->past.hardest, *own), followed);
     if (c->obstacles[t->obstacle].grips > 0 || !(size > least)) continue;
-    if (size > p->beam.EA) continue;     /* a hold drives it in: a wire's blow is weaker */
-    if (!followed && t->known) continue; /* it only slips or sticks here */
+    if (size > p->beam.EA) continue; /* a hold drives it in: a wire's blow is weaker */
+    if (!followed && t->known) continue;
     if (!sw_contact_comes_and_goes(usual, b.start, b.mean, b.end)) continue;
     if (!followed) l->past.hardest = fmax(l->past.hardest, size), *own = fmax(*own, size);
     hardest = fmax(hardest, sw_contact_jolt_of(size, usual, c->h));

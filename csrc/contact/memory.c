@@ -49,7 +49,7 @@ static sw_status remember(sw_contact *c, const sw_system *s, const sw_touch *t) 
 void sw_contact_commit(sw_contact *c, sw_system *s) {
   c->next_count = 0;
   c->fresh = sw_contact_emerges(c) ? SW_CONTACT_EMERGING : 0;
-  sw_contact_conclude(c);
+  sw_contact_conclude(c, s);
   (void)sw_grow_empty((void **)&c->next_memory, &c->next_capacity, c->touch_count,
                       sizeof *c->next_memory);
   for (size_t i = 0; i < c->touch_count; i++)

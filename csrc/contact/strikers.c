@@ -41,9 +41,13 @@ static void judge(sw_strikers *l, double usual) {
   l->looked = 0;
 }
 
-void sw_contact_find_strikers(sw_contact *c, const sw_system *s) {
+void sw_contact_forget_strikers(sw_contact *c) {
   for (size_t i = 0; i < c->busy_count; i++)
     c->loads[c->busy[i]].strikers = (sw_strikers){.usual = 0};
+}
+
+void sw_contact_find_strikers(sw_contact *c, const sw_system *s) {
+  sw_contact_forget_strikers(c);
   for (size_t i = 0, first = 0, m = 0; i < c->touch_count; first = i) {
     const size_t body = c->touches[i].body;
     const double usual = sw_contact_usual_force(s, s->bodies[body].plan);

@@ -99,11 +99,12 @@ double sw_flight_reserve(const sw_contact *c, const sw_system *s, sw_vec v);
  * accepted; stores the loads that obstacles remember. */
 void sw_contact_add_blow(sw_contact *c, int obstacle, sw_vec point, sw_vec impulse);
 void sw_contact_forget_blows(sw_contact *c);
-void sw_contact_conclude(sw_contact *c);
+void sw_contact_conclude(sw_contact *c, const sw_system *s);
 /* After a trial: finds who strikes the obstacles. A blow is judged by the load of the strikers: 25
  * wires that lie on a table would hide the blow of one more, and wires that are laid on it together
  * would be taken for a blow. */
 void sw_contact_find_strikers(sw_contact *c, const sw_system *s);
+void sw_contact_forget_strikers(sw_contact *c);
 /* Notes that wires may press on the obstacle in this step. */
 void sw_contact_expect(sw_contact *c, int obstacle);
 
