@@ -297,7 +297,7 @@ static const char *const outputs[] = {
     "share",    "u",        "v",        "s",        "force_x",    "force_y",     "force_z",
     "way",      "out",      "state",    "peak",     "insertions", "in_time",     "in_s",
     "in_peak",  "removals", "out_time", "out_peak", "broken",     "broken_time", "broken_force",
-    "strength", NULL};
+    "strength", "run_peak", NULL};
 
 static void read(const void *args, const sw_field *f, const double *history, double *out) {
   const sw_clip c = clip_of(args, f, history);
@@ -330,7 +330,8 @@ static void read(const void *args, const sw_field *f, const double *history, dou
                            history[SW_CLIP_BROKEN],
                            history[SW_CLIP_BROKEN_TIME],
                            history[SW_CLIP_BROKEN_FORCE],
-                           c.law.strength};
+                           c.law.strength,
+                           history[SW_CLIP_RUN_PEAK]};
   for (size_t k = 0; k < sizeof values / sizeof values[0]; k++) out[k] = values[k];
 }
 
@@ -363,6 +364,7 @@ const sw_force_class sw_force_clip = {
     .idle = idle,
     .inherit = inherit,
     .begin = begin_history,
+    .begin_run = sw_clip_begin_run,
     .news = sw_clip_news,
     .oversteps = oversteps,
     .outputs = outputs,

@@ -28,6 +28,7 @@ sw_clip sw_clip_of(const sw_clip_args *a, const sw_beam *beam) {
   const sw_vec axis = sw_madd(a->axis, c.direction, -sw_dot(a->axis, c.direction));
   c.axis = sw_unit_or(axis, sw_perpendicular(c.direction));
   c.across = sw_cross(c.direction, c.axis);
+  c.insertion = a->insertion, c.retention = a->retention;
   c.strongest = fmax(a->insertion, a->retention);
   c.law = sw_clip_law_of(beam->radius, a->radius, a->insertion, a->retention, a->way, a->stiffness,
                          a->strength);

@@ -45,7 +45,8 @@ typedef struct sw_clip {
   sw_clip_law law;
   sw_vec at, direction, across, axis; /* [m], three unit vectors [-] */
   double width, friction;             /* [m], [-] */
-  double strongest;                   /* the larger of insertion and retention [N] */
+  double insertion, retention;        /* [N] */
+  double strongest;                   /* the larger of both [N] */
 } sw_clip;
 
 /* SW_EINVAL if lips cannot have this insertion and retention. kind: the force's name, for the

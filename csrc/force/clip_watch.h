@@ -35,7 +35,8 @@ enum {
   SW_CLIP_NEWS, /* event of the last step */
   SW_CLIP_NEWS_VALUE,
   SW_CLIP_NEWS_S,
-  SW_CLIP_PEAK_SLOPE, /* slope of the wire at the largest pull [-] */
+  SW_CLIP_PEAK_SLOPE, /* slope of the wire at the largest push in or pull out [-] */
+  SW_CLIP_RUN_PEAK, /* as SW_CLIP_PEAK of a seated wire, in this run only; below 0: none yet [N] */
   SW_CLIP_HEAD
 };
 enum { SW_CLIP_STRETCH, SW_CLIP_PLACE, SW_CLIP_MOST, SW_CLIP_EACH };
@@ -47,7 +48,11 @@ enum {
   SW_CLIP_FROM_OUTSIDE,
   SW_CLIP_CROSSING,
   SW_CLIP_PASSED,
-  SW_CLIP_COARSE
+  SW_CLIP_COARSE,
+  SW_CLIP_PEELED_IN,
+  SW_CLIP_PEELED_OUT,
+  SW_CLIP_UNSEEN_IN, /* steps have missed the lips' peak */
+  SW_CLIP_UNSEEN_OUT
 };
 
 static inline int sw_clip_is_broken(const double *history) {
@@ -78,6 +83,7 @@ void sw_clip_follow(const sw_clip *clip, const sw_clip_middle *middle, double ti
                     double *history);
 
 /* See sw_force_class. */
+void sw_clip_begin_run(double *history);
 int sw_clip_news(const void *args, const double *history, sw_force_news *out);
 
 #endif

@@ -93,6 +93,9 @@ typedef struct sw_force_class {
   void (*commit)(const void *args, const sw_field *field, double *history);
   void (*inherit)(const sw_plan *old, const double *from, const sw_field *field, double *history);
 
+  /* A run begins: what the history records of a run starts anew. NULL = nothing does. */
+  void (*begin_run)(double *history);
+
   /* 1 if the last commit produced an event. Fills its kind, place on the wire, value and text. NULL
    * = no events. */
   int (*news)(const void *args, const double *history, sw_force_news *out);

@@ -90,11 +90,20 @@ static void conclude(sw_scene *s, sw_status status, sw_run_report *report, const
   sw_scene_diverge(s, &report->reason);
 }
 
+/* Forces on wires record anew what belongs to a run. */
+static void begin_forces(const sw_scene *s) {
+  const sw_system *system = sw_scene_system(s);
+  for (size_t w = 0; sw_scene_is_built(s) && w < system->body_count; w++)
+    SW_ITEMS(const sw_term, term, system->bodies[w].terms, system->bodies[w].term_count)
+      if (term->cls->begin_run && term->history) term->cls->begin_run(term->history);
+}
+
 sw_status sw_scene_begin_run(sw_scene *s, int wear, sw_error *err) {
   sw_course *course = sw_scene_course(s);
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err)); /* a run without steps would not notice */
   sw_scene_reset_extremes(s);
+  begin_forces(s);
   sw_scene_set_wears(s, wear);
   sw_events_clear(sw_scene_events_of(s));
   sw_ledger_begin_run(s);

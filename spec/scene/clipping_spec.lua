@@ -114,7 +114,7 @@ describe("a wire that is pulled out askew", function()
     local run = t.fine(scene:run{ duration = 1, dt = 1e-3 })
     local told
     for _, event in ipairs(run.events) do
-      if event.text:find("askew", 1, true) then told = event.text end
+      if event.text:find("edges of", 1, true) then told = event.text end
     end
     return clip.pulled_out.peak_force, told
   end
@@ -133,5 +133,48 @@ describe("a wire that is pulled out askew", function()
     local advice = "its edges of 5 mm are longer than a quarter of the clip's width, so the force may be 25 "
       .. "% wrong"
     assert.is_truthy(told and told:find(advice, 1, true), told)
+  end)
+end)
+
+-- The same clip has 8 and 25 N. A wire that is held beside it is peeled in and out by less. Straight pulls
+-- take what the clip has, to 2 % (clip_steps_spec), and must not be told.
+describe("a wire that passes the lips by less than their force", function()
+  local function handled(cable, beside, dt, shift)
+    local scene = sw.scene{}
+    local wire = scene:wire{ name = "cable", cable = cable, segments = 80, from = { shift, 0, 0.03 },
+      to = { 0.2 + shift, 0, 0.03 } }
+    scene:force{ kind = "damping", on = wire, mass = 3, stiffness = 0.003 }
+    local clip = scene:clip{ name = "c", at = { 0.1, 0, 0.014 }, width = 0.01, insertion = 8, retention = 25,
+      friction = 0.25 }
+    local hand = scene:gripper{ name = "hand", pads = { width = 0.008 } }
+    scene:process(function(p)
+      hand:grasp(wire, { s = 0.1 + beside - shift })
+      hand:clip{ into = clip, speed = 0.05, max_force = 40 }
+      p:wait(0.05)
+      hand:move{ by = { 0, 0, 0.03 }, speed = 0.05 }
+    end)
+    local run = t.fine(scene:run{ dt = dt })
+    local told = {}
+    for _, e in ipairs(run.events) do
+      if e.kind == "askew" then told[e.text:match "goes (%a+) askew"] = e.value end
+    end
+    return clip.inserted.peak_force, clip.pulled_out.peak_force, told
+  end
+
+  it("is told, with that force, for any step, edge and cable", function()
+    for _, case in ipairs{ { "GXL 1.5", 0.013, 0.005, 0 }, { "GXL 1.5", 0.013, 0.001, 0.0008 },
+      { "H07V-K 4", 0.013, 0.005, 0 } } do
+      local into, out, told = handled(table.unpack(case))
+      assert.equal(out, told.out)
+      t.below(0.9 * 25, out, "out")
+      assert.equal(into < 0.9 * 8 and into or nil, told["in"])
+    end
+  end)
+
+  it("is not told where it is pressed in and pulled out straight", function()
+    local into, out, told = handled("GXL 1.5", 0, 0.005, 0)
+    t.share(8, into, 0.02, "in")
+    t.share(25, out, 0.02, "out")
+    assert.same({}, told)
   end)
 end)

@@ -253,8 +253,10 @@ local function conclude(self)
   local count = { PASS = 0, FAIL = 0, OPEN = 0 }
   for _, row in ipairs(self.rows) do count[row.verdict] = count[row.verdict] + 1 end
   self.verdict = count.FAIL > 0 and "FAIL" or (count.OPEN > 0 or #self.rows == 0) and "OPEN" or "PASS"
-  self.reason = ("%d of %d rows pass, %d fail, %d are open"):format(count.PASS, #self.rows, count.FAIL,
-    count.OPEN)
+  self.reason = ("%d of %d %s, %d %s, %d %s"):format(count.PASS, #self.rows,
+    (#self.rows == 1 and "row " or "rows ") .. (count.PASS == 1 and "passes" or "pass"),
+    count.FAIL, count.FAIL == 1 and "fails" or "fail", count.OPEN,
+    count.OPEN == 1 and "is open" or "are open")
 end
 
 local function check_there(run)

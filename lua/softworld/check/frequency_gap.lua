@@ -13,8 +13,6 @@ local function apart(f, band)
   return -math.min(low, (band[2] - f) / band[2])
 end
 
-local MOST = 1 -- largest phase of an edge in waves of the bands [rad]
-
 -- Returns the least and the largest gap of a frequency known to within an error.
 local function range(f, bar, band)
   local low, high = apart(f - bar, band), apart(f + bar, band)
@@ -37,10 +35,9 @@ local function widen(value, found, bands, wire)
   end
   local turn = errors(top)
   value.low, value.high = low, high
-  if turn <= MOST then return end
+  if turn <= swings.MOST then return end
   value.low, value.high = -math.huge, math.huge
-  value.note = ("%s; edges of %.3g m are too long for waves of %.4g Hz: segments = %d would do"):format(
-    value.note, edge, top, math.ceil(wire.segments * turn / MOST))
+  value.note = value.note .. "; " .. swings.advice(wire, turn, edge, top)
 end
 
 local function least(found, bands)

@@ -1,22 +1,18 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Largest pull on a wire since it went into a clip, over the clip's retention; also for a wire that came out
--- in the run. The clip keeps this pull from run to run.
+--- Largest pull on a wire in a clip in this run, over the clip's retention; also for a wire that came out in
+-- the run.
 -- @module softworld.check.retention_used
 return { name = "retention_used", unit = "-", side = "max", on = "clip",
   label = "largest pull out of the clip, as a share of its retention",
     missing = "allowed share of the retention",
   value = function(entry, context)
     local clip, out = entry.object, entry.object.pulled_out
-    local value = { value = clip:ratio() }
+    local value = { value = clip:run_ratio() }
     if out and out.time > context.run.start then
       value.value = math.max(1, value.value, out.peak_force / clip.retention)
       value.time, value.note = out.time, ("'%s' came out"):format(out.wire.name)
     elseif clip:state() ~= "seated" then
       return nil
-    end
-    local into = clip.inserted
-    if not value.note and into and into.time <= context.run.start then
-      value.note = ("since the wire went in at t = %.4g s, before this run"):format(into.time)
     end
     return value
   end,

@@ -36,6 +36,24 @@ function swings.errors(wire)
   end, h
 end
 
+swings.MOST = 1 -- largest phase of an edge in waves that edges resolve [rad]
+
+--- Returns the frequency whose waves turn by swings.MOST in an edge, for the function of swings.errors [Hz].
+function swings.resolved(errors)
+  local low, high = 1e-9, 1e12
+  for _ = 1, 100 do
+    local middle = math.sqrt(low * high)
+    if errors(middle) < swings.MOST then low = middle else high = middle end
+  end
+  return low
+end
+
+--- Returns a note with the number of segments that resolve waves of this frequency.
+function swings.advice(wire, turn, edge, top)
+  return ("edges of %.3g m are too long for waves of %.4g Hz: segments = %d would do"):format(edge, top,
+    math.ceil(wire.segments * turn / swings.MOST))
+end
+
 --- Returns what follows a row's note: the others stay fixed with alone = true.
 function swings.note(args) return args.alone and "; the other wires stay fixed" or "" end
 

@@ -61,6 +61,7 @@ rows.calls{
   { "clip:force", "wire", "force on this wire, with friction; without argument on all wires",
     "{x, y, z} [N]" },
   { "clip:ratio", "wire", "largest pull so far over retention; at 1 it came out", "-" },
+  { "clip:run_ratio", "wire", "the same of the last run, for wires that are in it now", "-" },
   { "clip:height", "wire", "height of the wire over the seat, and of the lips; nil when no wire passes",
     "m, m" },
   { "clip:release", "", "takes the clip away" },
@@ -201,6 +202,15 @@ function Clip:ratio(wire)
   local most = 0
   for _, r in ipairs(chosen(self, wire, "ratio")) do
     most = math.max(most, r.state == SEATED and r.peak or r.removals > 0 and r.out_peak or 0)
+  end
+  return most / self.retention
+end
+
+--- Returns the largest pull of the last run on wires that are in the clip now, over retention.
+function Clip:run_ratio(wire)
+  local most = 0
+  for _, r in ipairs(chosen(self, wire, "run_ratio")) do
+    most = math.max(most, r.state == SEATED and r.run_peak or 0)
   end
   return most / self.retention
 end
