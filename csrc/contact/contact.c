@@ -201,6 +201,7 @@ int sw_contact_push_at(const sw_contact *c, const sw_system *s, size_t k, sw_con
                            .other = t->other,
                            .at = fmin(fmax(t->at, 0.0), 1.0),
                            .normal_force = p->normal_force,
+                           .friction = t->friction,
                            .normal = p->normal,
                            .slip = p->slip,
                            .point = t->point,

@@ -174,6 +174,7 @@ typedef struct sw_contact_push {
   size_t node, other;  /* of the system; other = node if only the node is pressed [-] */
   double at;           /* place between both nodes [-] */
   double normal_force; /* [N] */
+  double friction;     /* coefficient [-] */
   sw_vec force;        /* on the wire, with friction [N] */
   sw_vec normal;       /* the obstacle's, outward [-] */
   sw_vec slip;         /* sliding way in the last step [m] */
@@ -200,6 +201,8 @@ int sw_contact_shaken(const sw_contact *contact, const sw_system *system);
 double sw_contact_usual_force(const sw_system *system, const sw_plan *plan);
 /* From this force of a touch on, a wire is squeezed or taut and cannot come out; 0: a mesh [N]. */
 double sw_contact_squeezing_force(const sw_system *system, const sw_plan *plan);
+/* Length from an end of the wire (0: its start) to the next held node, or to its other end [m]. */
+double sw_contact_free_length(const sw_plan *plan, int last);
 /* Axial stiffness of the edge at a node; 0 for a mesh or a loose particle [N/m]. */
 double sw_contact_edge_stiffness(const sw_system *system, size_t body, size_t node);
 
@@ -212,7 +215,7 @@ int sw_contact_poses(const sw_contact *contact, int id, sw_pose *from, sw_pose *
 int sw_contact_steady(const sw_contact *contact);
 /* Largest energy that touches gain by a higher stiffness (sw_kept_hardened) [J]. */
 double sw_contact_hardened(const sw_contact *contact);
-double sw_contact_unbent(const sw_contact *contact); /* work of arcs that get flatter [J] */
+double sw_contact_unbent(const sw_contact *contact);  /* work of arcs that get flatter [J] */
 double sw_contact_fastest(const sw_contact *contact); /* fastest obstacle at the step's end [m/s] */
 /* 1: in this step wires come out of obstacles that they began in */
 int sw_contact_emerges(const sw_contact *contact);

@@ -26,15 +26,12 @@ static int is_end_on(const sw_system *s, const sw_touch *t) {
   return fabs(sw_dot(edge, t->press.normal)) > END_ON * sw_norm(edge);
 }
 
-/* Length from the touched end to the next held node, or to the other end [m]. */
-static double free_length(const sw_system *s, const sw_touch *t) {
-  const sw_plan *p = s->bodies[t->body].plan;
-  const int from_start = t->node == s->bodies[t->body].first_node;
+double sw_contact_free_length(const sw_plan *p, int last) {
   double length = 0;
   for (size_t k = 0; k < p->edges; k++) {
-    const size_t e = from_start ? k : p->edges - 1 - k;
+    const size_t e = last ? p->edges - 1 - k : k;
     length += p->rest[e];
-    if (p->held[from_start ? e + 1 : e] != SW_FREE) break;
+    if (p->held[last ? e : e + 1] != SW_FREE) break;
   }
   return length;
 }
@@ -66,7 +63,8 @@ double sw_contact_push_part(const sw_contact *c, const sw_system *s) {
     const sw_body *b = &s->bodies[t->body];
     if (!is_end_on(s, t) || !(b->plan->beam.EI > 0)) continue; /* a string bends at once */
     const double speed = speed_of(c, s, t);
-    if (speed > 0) shortest = fmin(shortest, SHARE * straight_for(b, free_length(s, t), speed));
+    const double length = sw_contact_free_length(b->plan, t->node != b->first_node);
+    if (speed > 0) shortest = fmin(shortest, SHARE * straight_for(b, length, speed));
   }
   return shortest;
 }

@@ -61,8 +61,14 @@ void sw_tape_beam_of(sw_tape *t, sw_scene_wire *x) {
   tape_drawing(t, &x->drawing);
 }
 
+static void tape_poke(sw_tape *t, sw_poke *x) {
+  SW_TAPE_STRUCT(t, sw_poke, 56);
+  INT(count), INT(slid), INT(hard), DOUBLE(struck), DOUBLE(time), DOUBLE(share), DOUBLE(rate),
+      DOUBLE(bend);
+}
+
 void sw_tape_wire(sw_tape *t, sw_scene_wire *x, int placed) {
-  SW_TAPE_STRUCT(t, sw_scene_wire, 1168);
+  SW_TAPE_STRUCT(t, sw_scene_wire, 1280);
   SW_TAPE_STRUCT(t, sw_twisted, 24);
   UINT32(generation), SIZE(number), NAME(name);
   SW_TAPE_CLASS(t, x->cls, sw_scene_body_class);
@@ -74,6 +80,7 @@ void sw_tape_wire(sw_tape *t, sw_scene_wire *x, int placed) {
   sw_tape_window(t, &x->window);
   sw_tape_wear(t, &x->wear);
   sw_tape_zone_watch(t, &x->zones);
+  for (int end = 0; end < 2; end++) tape_poke(t, &x->pokes[end]);
   DOUBLE(blow), INT(untwisted);
   sw_tape_expect(t, x->blow >= 0 && isfinite(x->blow), "the hardest blow of a wire");
   sw_tape_list(t, &x->twisted, &x->twisted_count, sizeof *x->twisted);

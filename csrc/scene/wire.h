@@ -33,6 +33,17 @@ typedef struct sw_drawing {
   int breaking_flag;    /* see sw_wire_args */
 } sw_drawing;
 
+/* An end of a wire that an obstacle is pushed with, at the last accepted state. */
+typedef struct sw_poke {
+  int count, slid; /* states of this touch so far; 1: it slid in one of them [-] */
+  int hard;        /* 1: this touch is a hard blow */
+  double struck;   /* when the last hard blow began; 0: none [s] */
+  double time;     /* [s] */
+  double share;    /* its friction over what it can bear [-] */
+  double rate;     /* how fast that grew [1/s] */
+  double bend;     /* and how fast this changed [1/s2] */
+} sw_poke;
+
 typedef struct sw_scene_wire {
   uint32_t generation;
   size_t number; /* number in frames: bodies made before it [-] */
@@ -46,6 +57,7 @@ typedef struct sw_scene_wire {
   sw_window window; /* of the tension */
   sw_wear wear;     /* recorded while the scene records wear */
   sw_zone_watch zones;
+  sw_poke pokes[2]; /* by its start and by its end */
   sw_twisted *twisted;
   size_t twisted_count;
   double blow;   /* its hardest blow of this run that was followed in parts [N] */

@@ -52,6 +52,9 @@ int sw_hold_crashed(const sw_scene *scene, double since);
 /* Reports a rod or string that two obstacles squeeze. */
 void sw_scene_watch_squeezed(sw_scene *scene, size_t wire);
 
+/* Reports an end of a rod that is pushed onto an obstacle and nearly slips, or hardly does. */
+void sw_scene_watch_poke(sw_scene *scene, size_t wire);
+
 /* Writes which obstacle presses a wire hard, as the end of a sentence, or "". */
 void sw_scene_tell_pressed(const sw_scene *scene, char *out, size_t size);
 
