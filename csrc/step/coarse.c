@@ -25,8 +25,8 @@ static const double OF_STRAIGHT = 1.1e-5, PER_SLACK = 1e-3;
 /* A wire stretched by more has its tension from the stretch. It would take four times the steps and
  * be no better [-]. */
 static const double STRETCHED = 1e-4;
-/* Smallest part (substep), as a share of its step and in time [-], [s]. */
-static const double SMALLEST = 1.0 / 64, SHORTEST = 1e-4;
+/* Smallest part (substep), as a share of its step and in time; rounding of parts [-], [s], [-]. */
+static const double SMALLEST = 1.0 / 64, SHORTEST = 1e-4, ROUNDING = 1e-9;
 
 /* A wire moves if a node is faster than this [m/s]. */
 static const double MOVES = 1e-3;
@@ -174,12 +174,12 @@ void sw_coarse_tell(sw_scene *s, double h) {
 
 double sw_coarse_shortest(double dt) { return fmax(SMALLEST * dt, SHORTEST); }
 
-/* More parts than 1/SMALLEST mean a shock, such as a tie made far too short: the step stays
- * whole. */
+/* More parts than 1/SMALLEST may mean a shock, such as a tie made far too short, or a jump: the
+ * shortest part is tried, and if it is as coarse, the longer one is taken (step/parts.c). */
 double sw_coarse_part(const sw_scene *s, double h, double dt, double over) {
   const double part = h * exp2(-ceil(log2(fmax(over, 1.0)) / power_of(s)));
-  if (!(over > 1.0) || h < 2.0 * SHORTEST || part < SMALLEST * dt) return h;
-  return fmax(SHORTEST, part);
+  if (!(over > 1.0) || h < 2.0 * SHORTEST || h <= SMALLEST * dt * (1 + ROUNDING)) return h;
+  return fmax(fmax(SHORTEST, SMALLEST * dt), part);
 }
 
 double sw_coarse_half(double h, double dt) {
