@@ -17,11 +17,11 @@
  * (spec/lua/long_edges_spec) [-]. */
 static const double LONG = 0.8, FINE = 0.4;
 
-/* Returns the length of the edge at s [m]. */
-static double edge_at(const sw_plan *plan, double s) {
+/* Returns the number of the edge at s, on or before it. */
+static size_t edge_at(const sw_plan *plan, double s) {
   size_t after;
   SW_FIRST_NOT(plan->s[after] <= s, after, 1, plan->edges);
-  return plan->rest[after - 1];
+  return after - 1;
 }
 
 /* --- a taut wire that bends within an edge ------------------------------------------------------
@@ -109,12 +109,44 @@ static double false_tension(const sw_scene *s, const sw_body *b, double T) {
   return fmin(most, T);
 }
 
+/* A bend by a at one place of a wire under the tension T has the curvature a/2 sqrt(T/EI). Edges h
+ * have less by the factor sqrt(1 + T h^2/4 EI): the turns of a chain of hinges decay by exp(-q)
+ * from node to node, 2 sinh(q/2) = h sqrt(T/EI), and add up to a. At a clamp it is a sqrt(T/EI),
+ * and the hinge of a clamp has 5/12 h (spec/link/taut_bend_spec) [-]. */
+static const double BETWEEN = 0.5, CLAMPED = 5.0 / 12;
+/* This factor on a radius is told [-]. */
+static const double MISSED = 1.15;
+
+/* Reports a taut wire whose sharpest bend is at one place, such as a clamp, a slider, a tie or an
+ * edge, and sharper than edges can be. */
+static void watch_layer(sw_scene *s, const sw_body *b, const sw_scene_wire *w,
+                        const sw_extreme *bend, double edge) {
+  const sw_plan *p = b->plan;
+  const double *tension = sw_scene_system(s)->tension + b->first_edge;
+  const size_t e = edge_at(p, bend->s), last = e > 0 ? e - 1 : e;
+  const double T = fmax(tension[e], tension[last]);
+  const size_t node = e + (bend->s > 0.5 * (p->s[e] + p->s[e + 1]));
+  const double length = T > 0 ? sqrt(p->beam.EI / T) : HUGE_VAL;
+  const double over = hypot(1.0, (p->held[node] == SW_FREE ? BETWEEN : CLAMPED) * edge / length);
+  if (!(over > MISSED) || is_on_round(s, b->first_node + node)) return;
+  const double at = bend->s - w->mesh.s[0], segments = ceil(p->length / (RESOLVED * length));
+  sw_events_go_on(sw_scene_events_of(s), "edges", w->name, sw_scene_time(s));
+  sw_scene_tell(s, "edges", w->name, at, segments,
+                "edges of %.4g mm are too long for the bend of taut wire '%s' at s = %.4g m (%.3g "
+                "N): its radius there may be %.3g mm, not %.3g mm; try segments = %.0f",
+                1e3 * edge, w->name, at, T, 1e3 / (bend->value * over), 1e3 / bend->value,
+                segments);
+}
+
 static void watch_taut(sw_scene *s, size_t wire, const sw_wire_extremes *now, double edge) {
   const sw_body *b = &sw_scene_system(s)->bodies[wire];
   const double T = now->tension.value, EI = b->plan->beam.EI;
   if (!(T * edge * edge > RESOLVED * RESOLVED * EI)) return;
   const double more = false_tension(s, b, T);
-  if (!(more > FALSE_PART * T)) return;
+  if (!(more > FALSE_PART * T)) {
+    watch_layer(s, b, sw_scene_wire_in(s, wire), &now->curvature, edge);
+    return;
+  }
   const sw_scene_wire *w = sw_scene_wire_in(s, wire);
   const double segments = ceil(b->plan->length / RESOLVED * sqrt(T / EI));
   const double at = now->curvature.s - w->mesh.s[0];
@@ -130,7 +162,7 @@ void sw_scene_watch_edges(sw_scene *s, size_t wire, const sw_wire_extremes *now)
   const sw_plan *plan = sw_scene_system(s)->bodies[wire].plan;
   const sw_extreme *bend = &now->curvature;
   if (plan->web || !(plan->beam.EI > 0) || !(bend->value > 0)) return;
-  const double edge = edge_at(plan, bend->s);
+  const double edge = plan->rest[edge_at(plan, bend->s)];
   if (edge * bend->value > BEND && edge * bend->value <= LONG) watch_taut(s, wire, now, edge);
   if (!(edge * bend->value > LONG)) return;
   const sw_scene_wire *w = sw_scene_wire_in(s, wire);
