@@ -172,6 +172,19 @@ void sw_coarse_tell(sw_scene *s, double h) {
   }
 }
 
+/* The same for the shortest part of a step. Parts of blows are left with up to this much, and their
+ * peaks are within a few percent (spec/link/slider_stops_spec) [-]. */
+static const double LEFT = 64.0;
+
+void sw_coarse_tell_left(sw_scene *s, double h, double dt, double left) {
+  if (!(left > LEFT) || !(dt > h)) return;
+  const double less = exp2(-ceil(log2(left) / power_of(s)));
+  sw_scene_tell(s, "coarse", "", NAN, left,
+                "the motion of a wire is too fast for parts of %.3g ms, the shortest of a step of "
+                "%.3g ms: peaks may be wrong; run again with dt = %.2g s and compare the peaks",
+                1e3 * h, 1e3 * dt, dt * less);
+}
+
 double sw_coarse_shortest(double dt) { return fmax(SMALLEST * dt, SHORTEST); }
 
 /* More parts than 1/SMALLEST may mean a shock, such as a tie made far too short, or a jump: the

@@ -28,6 +28,9 @@ double sw_coarse_of(const sw_scene *scene, double tolerance);
  * belongs to a case whose steps are not divided: a bundle, many wires, or a method without an
  * estimate. */
 void sw_coarse_tell(sw_scene *scene, double h);
+/* The same for a part that is taken with the error `left` over the allowed one, because no part of
+ * a step dt is shorter. */
+void sw_coarse_tell_left(sw_scene *scene, double h, double dt, double left);
 /* Returns the part to take instead of one of size h whose error over the allowed one is `over`, in
  * a run of steps dt [s]. */
 double sw_coarse_part(const sw_scene *scene, double h, double dt, double over);

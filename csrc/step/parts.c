@@ -35,6 +35,7 @@ typedef struct parts {
                         [s] */
   int unfollowed;    /* 1: the part with the blow is tried again, to be taken */
   double over;       /* error of the last part tried, over the allowed one [-] */
+  double left;       /* the same of a part that cannot be shorter; 0: it is fine [-] */
   int worse;         /* shorter parts in a row that were as coarse */
   int rough;         /* 1: coarse parts are taken in this step, because shorter ones do not help */
   int starts, cut;   /* 1: the part is short to make reactions known; to end at a rebound */
@@ -77,6 +78,7 @@ static int is_coarse(const sw_ladder *p, parts *k, int *may_grow) {
     return 1;
   }
   if (helps) k->doubted = 0;
+  k->left = shorter < k->part ? 0.0 : over;
   if (!(shorter < k->part)) return 0;
   if (helps) k->doubted = k->part;
   k->over = over;
@@ -118,6 +120,8 @@ static sw_status take(sw_ladder *p, parts *k, int may_grow, sw_error *err) {
   k->struck = 0, k->unfollowed = 0;
   k->longest = fmax(k->longest, k->part);
   if (!k->rough || (p->args->parts && !sw_coarse_applies(p->s))) sw_coarse_tell(p->s, k->part);
+  if (!k->rough) sw_coarse_tell_left(p->s, k->part, p->args->dt, k->left);
+  k->left = 0;
   sw_ladder_accept(p, k->part, k->done < k->h ? k->t0 + k->done : k->t1);
   if (p->redo != SW_AS_IS) sw_blow_refused(p->s, k->part);
   SW_TRY(sw_ladder_record(p, k->part, err));
