@@ -192,6 +192,21 @@ static int mod_blocks(lua_State *L) {
   return 5;
 }
 
+/* blocks_work(layout) -> number of products of a factorisation; of rings: also before they are made
+ */
+static int mod_blocks_work(lua_State *L) {
+  sw_error err = {""};
+  sw_blocks *b = NULL;
+  lua_settop(L, 1);
+  luaL_checktype(L, 1, LUA_TTABLE);
+  const sw_status status = new_blocks(L, &b);
+  if (status != SW_OK) return lsw_raise(L, status, &err);
+  lua_pushnumber(L, sw_blocks_work(b));
+  lua_pushnumber(L, sw_blocks_rings_work(field(L, "rings"), field(L, "per_ring")));
+  sw_blocks_free(b);
+  return 2;
+}
+
 /* Writes a matrix of rings that can be factorised: large on the diagonal, small elsewhere. */
 static void write_any(sw_blocks *b, size_t per_ring) {
   const size_t n = sw_blocks_nodes(b), stride = sw_blocks_stride(b);
@@ -243,6 +258,7 @@ static const luaL_Reg functions[] = {{"fields", lsw_probe_fields},
                                      {"band4", mod_band4},
                                      {"sparse", mod_sparse},
                                      {"blocks", mod_blocks},
+                                     {"blocks_work", mod_blocks_work},
                                      {"blocks_time", mod_blocks_time},
                                      {NULL, NULL}};
 

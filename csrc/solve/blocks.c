@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "solve/blocks_sparse.h"
+#include "solve/blocks_tree.h"
 #include "solve/rings.h"
 
 /* One of the two is set. */
@@ -61,6 +62,15 @@ void sw_blocks_clear(sw_blocks *b) {
 sw_status sw_blocks_factor(sw_blocks *b, const unsigned char *fixed, size_t *negative) {
   return b->rings ? sw_rings_factor(b->rings, fixed, negative)
                   : sw_blocks_sparse_factor(b->sparse, fixed, negative);
+}
+
+double sw_blocks_work(const sw_blocks *b) {
+  return b->rings ? sw_rings_work(b->rings->rings, b->rings->per_ring)
+                  : sw_tree_work(b->sparse->tree);
+}
+
+double sw_blocks_rings_work(size_t rings, size_t per_ring) {
+  return sw_rings_work(rings, per_ring);
 }
 
 void sw_blocks_solve(const sw_blocks *b, double *x) {

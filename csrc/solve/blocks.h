@@ -51,6 +51,11 @@ void sw_blocks_clear(sw_blocks *blocks);
  * negative pivots. SW_ESINGULAR if a pivot vanishes or is not finite, SW_ENOMEM. */
 sw_status sw_blocks_factor(sw_blocks *blocks, const unsigned char *fixed, size_t *negative);
 
+/* Returns about how many products a factorisation needs [-]; the second one before a matrix of
+ * rings is made. */
+double sw_blocks_work(const sw_blocks *blocks);
+double sw_blocks_rings_work(size_t rings, size_t per_ring);
+
 /* Solves in place for x (nodes x 3), after sw_blocks_factor returned SW_OK. Values at fixed nodes
  * must be 0, and stay 0. */
 void sw_blocks_solve(const sw_blocks *blocks, double *x);

@@ -244,6 +244,15 @@ sw_status sw_tree_factor(sw_tree *t, const double *values, const unsigned char *
   return bad ? SW_ESINGULAR : SW_OK;
 }
 
+double sw_tree_work(const sw_tree *t) {
+  double sum = 0;
+  for (size_t s = 0; s < t->pieces; s++) {
+    const double own = 3.0 * t->piece[s].own, rest = 3.0 * t->piece[s].rest;
+    sum += own * (own * own / 6 + own * rest / 2 + rest * rest / 2);
+  }
+  return sum;
+}
+
 void sw_tree_solve(const sw_tree *t, double *x) {
   double *z = t->x, *before = t->before;
   memset(z + 3 * t->nodes, 0, SW_FRONT_TILE * sizeof *z); /* else a NaN would stay for good */

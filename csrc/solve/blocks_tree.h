@@ -24,6 +24,9 @@ void sw_tree_free(sw_tree *tree); /* NULL is allowed */
 sw_status sw_tree_factor(sw_tree *tree, const double *values, const unsigned char *fixed,
                          size_t *negative);
 
+/* Returns about how many products a factorisation needs [-]. */
+double sw_tree_work(const sw_tree *tree);
+
 /* Solves in place for x (nodes x 3). */
 void sw_tree_solve(const sw_tree *tree, double *x);
 

@@ -103,6 +103,19 @@ it("a tube whose wall is a quarter of its radius has elements, with 16 cubes acr
   end
 end)
 
+-- A mesh that cannot be made must not be planned as the next level.
+it("a solid wire has elements on all levels that are expected to take a time", function()
+  local made = 0
+  for k = 1, 8 do
+    local w = { object = wire_of(sw.scene {}, section()), body = body(section()), share = 0.1, length = R }
+    if mesh.time(w, mesh.elements, k) < math.huge then
+      assert.is_nil(mesh.make(w, mesh.elements, k))
+      made = made + 1
+    end
+  end
+  assert.is_true(made >= 3, made) -- levels of which each refines the one before
+end)
+
 -- Expected time: the rule, times what the level before took over the rule, with the growth of that factor.
 it("a level is expected to take the time of those before it, and to grow as they did", function()
   local wire = { body = body(section(0.7)), share = 0.1, length = 0.1 }

@@ -2,6 +2,7 @@
 -- Matrices of blocks, in rings and with pairs of nodes: solutions, products and the count of
 -- negative directions against dense arithmetic.
 local core = require "softworld.core"
+local sw = require "softworld"
 local probe = require "softworld.probe"
 
 local function rings(count, per_ring) return { rings = count, per_ring = per_ring } end
@@ -276,5 +277,64 @@ describe("blocks", function()
     assert.has_error(function() probe.blocks({ nodes = 2, pairs = { 1, 1 } }, a, b) end)
     assert.has_error(function() probe.blocks({ nodes = 0, pairs = {} }, {}, {}) end)
     assert.has_error(function() probe.blocks(rings(0, 2), {}, {}) end)
+  end)
+end)
+
+-- Products of an elimination of single rows: row number k, counted from the last one eliminated, has
+-- held(k) columns among the rows that stay, and changes the lower half of their square.
+local function products(n, held)
+  local sum = 0
+  for k = 1, n do sum = sum + held(k) * (held(k) + 1) / 2 end
+  return sum
+end
+
+describe("the work of blocks", function()
+  it("is that of rows eliminated one by one", function()
+    for _, shape in ipairs { { 1, 20 }, { 5, 30 }, { 40, 8 } } do
+      local layout, m = rings(shape[1], shape[2]), 3 * shape[2]
+      -- all earlier rows of its own ring, and the ring before
+      local exact = products(shape[1] * m, function(k) return (k - 1) % m + (k > m and m or 0) end)
+      local work, before = probe.blocks_work(layout)
+      assert.are.equal(before, work)
+      -- The formula leaves out terms of the order of m^2 beside m^3: at m = 24 about 1.5 / m.
+      assert.near(1, work / exact, 0.1)
+      -- As pairs the same blocks are coupled: no order can be much shorter.
+      assert.is_true(probe.blocks_work(as_pairs(layout)) > 0.5 * work)
+    end
+  end)
+
+  it("is far less where nodes of a wide ring are joined to few others", function()
+    -- Short tubes of n nodes round, joined to their neighbours. Cut along, a tube is a band 2 nodes wide: the
+    -- work grows with n, by nested cuts with n log n. Full rings need n^3, so that a doubling takes 8 times.
+    local last
+    for _, n in ipairs { 50, 100, 200 } do
+      local pairs = {}
+      for i = 0, n - 1 do
+        for _, p in ipairs { { i, n + i }, { i, (i + 1) % n }, { n + i, n + (i + 1) % n } } do
+          pairs[#pairs + 1], pairs[#pairs + 2] = p[1], p[2]
+        end
+      end
+      local work, full = probe.blocks_work { nodes = 2 * n, pairs = pairs, rings = 2, per_ring = n }
+      assert.is_true(work < full / 10, work / full)
+      assert.is_true(work < 3 * (last or work), work / (last or work))
+      last = work
+    end
+  end)
+end)
+
+describe("the matrix of a wire", function()
+  it("is no full rings where these are wide", function()
+    for _, particles in ipairs { 24, 32 } do
+      local before = core.allocated()
+      local scene = sw.scene { gravity = { 0, 0, 0 } }
+      local w = scene:wire { model = "radial", body = "solid", particles = particles, layers = 4,
+        segments = 2, E = 1e6, nu = 0.3, density = 1000, radius = 0.01, from = { 0, 0, 0 }, to = { 0.01, 0, 0 } }
+      scene:clamp(w, { s = 0 })
+      scene:run { duration = 0.01, dt = 0.01 }
+      local n = 3 * (1 + 4 * particles)
+      -- Full: values and factor of 3 rings, with each row's columns in its own ring and the one before.
+      local full = 2 * 3 * n * 2 * n * 8
+      assert.is_true(core.allocated() - before < full / 2, core.allocated() - before)
+    end
   end)
 end)

@@ -15,7 +15,6 @@ mesh.springs, mesh.elements = 2, 3 -- rungs
 local MARGIN = 6       -- length of a mesh beyond the pressed place, in radii [-]
 local MOST = 0.6       -- share of a wire's length above which the whole wire becomes the mesh [-]
 local COST = 1.2e-7    -- time of an iteration over slices and squared particles of a slice [s]
-local DENSE = 150      -- particles of a slice above which the cost grows faster [-]
 local ITERATIONS = 300 -- assumed for a run whose rods failed [-]
 local BESIDE = 6       -- extra slices, beside clamps [-]
 local SPRINGS = 0.35   -- spacing of a solid wire's springs [radii]
@@ -25,7 +24,7 @@ local VOXELS = 2       -- cubes across a wall on the coarsest level [-]
 
 -- Per level: particles round a slice, layers of them (grains only), spacing of slices [radii].
 local rings = { { 8, 0.5 }, { 12, 0.35 }, { 16, 0.25 }, { 24, 0.18 }, { 32, 0.13 } }
-local grains = { { 12, 2, 1 }, { 24, 4, 0.7 }, { 32, 5, 0.5 }, { 48, 6, 0.35 }, { 64, 8, 0.25 } }
+local grains = { { 12, 2, 1 }, { 24, 4, 0.7 }, { 32, 5, 0.5 }, { 48, 6, 0.35 } } -- at most 6 layers
 
 local function of_level(list, k) return list[math.min(k, #list)] end
 
@@ -71,11 +70,11 @@ end
 -- first level of an earlier run, or nil. Infinite: there is no such mesh.
 function mesh.time(w, rung, k, iterations)
   local args, particles, spacing = plan(w.body, rung, k, w.share)
-  if (args.across or 0) > ACROSS then return math.huge end
+  local none = rung == mesh.elements and not w.body.inner and k > #grains
+  if none or (args.across or 0) > ACROSS then return math.huge end
   local length = w.region and w.region[2] - w.region[1] or w.length
   local slices = math.max(2, length / spacing) + BESIDE
   return (iterations or ITERATIONS) * 2 ^ (k - 1) * COST * slices * particles ^ 2
-    * (1 + (particles / DENSE) ^ 2)
 end
 
 -- Returns the message without the script's line, which asked for something else.
