@@ -328,7 +328,8 @@ describe("the matrix of a wire", function()
       local before = core.allocated()
       local scene = sw.scene { gravity = { 0, 0, 0 } }
       local w = scene:wire { model = "radial", body = "solid", particles = particles, layers = 4,
-        segments = 2, E = 1e6, nu = 0.3, density = 1000, radius = 0.01, from = { 0, 0, 0 }, to = { 0.01, 0, 0 } }
+        segments = 2, E = 1e6, nu = 0.3, density = 1000, radius = 0.01,
+        from = { 0, 0, 0 }, to = { 0.01, 0, 0 } }
       scene:clamp(w, { s = 0 })
       scene:run { duration = 0.01, dt = 0.01 }
       local n = 3 * (1 + 4 * particles)
