@@ -49,7 +49,8 @@ local function is_blurred(context, state, now, c)
   local above, share = now.above.facts[choice.name], change.tightest(context, now.above.values)
   if not choice.blurred or not choice.blurred(now.here.facts[choice.name], above, share) then return false end
   local all = change.hidden(c, HIDDEN)
-  if all.worst < HIDES and choice.shows and choice.shows(above) > SEEN then return false, all end
+  local seen = choice.shows and choice.shows(above, jumps(now.here)) or 0
+  if all.worst < HIDES and seen > SEEN then return false, all end
   return true
 end
 

@@ -102,6 +102,20 @@ local function swing(context)
   return context.period or ends > 0 and ends or alone > 0 and alone or nil
 end
 
+-- Returns the mean step in the part of length `span` in which a run took most steps [s]. While wires swing
+-- after a snap, steps are shortened, because their error is limited. nil: not known.
+local function shortest_mean(context, run, span)
+  local most, w = 0, context.data.wires[1]
+  if not span or not core.exists(w.object) then return nil end
+  local rows, count = w.object:log(run.start)
+  local first = 0
+  for i = 1, count - 1 do
+    while rows[3 * i + 1] - rows[3 * first + 1] > span do first = first + 1 end
+    most = math.max(most, i - first)
+  end
+  return most > 0 and span / most or nil
+end
+
 function motion.look(context, run)
   local scene = context.scene
   look_at_end(context)
@@ -109,7 +123,8 @@ function motion.look(context, run)
   return { jumps = run.jumps, lasts = run.time - run.start, acceleration = acceleration, slower = slower,
     weight = (scene:gravity()[1] ^ 2 + scene:gravity()[2] ^ 2 + scene:gravity()[3] ^ 2) ^ 0.5,
     period = context.period, swing = swing(context),
-    dt = run.steps > 0 and (run.time - run.start) / run.steps or math.huge }
+    dt = run.steps > 0 and (run.time - run.start) / run.steps or math.huge,
+    shortest = not context.watching and shortest_mean(context, run, swing(context)) or nil }
 end
 
 --- Finds the first period of the scene at rest at its start [s]. It takes the coarsest edges, because the
@@ -139,10 +154,12 @@ local function kept(phase)
 end
 
 --- Returns the share of a swing that the steps of a dynamic computation show: what is left of it after half
--- of the first period, at the step next to its peak. 1 if the wires hardly accelerate.
-function motion.shows(f)
+-- of the first period, at the step next to its peak. 1 if the wires hardly accelerate. snaps: the swing
+-- follows a snap; then its own steps count, not those of the whole run.
+function motion.shows(f, snaps)
   if f.acceleration and f.acceleration <= SMALL * f.weight then return 1 end
-  local steps = f.swing and f.swing / f.dt or 0
+  local dt = snaps and f.shortest or f.dt
+  local steps = f.swing and f.swing / dt or 0
   return steps > 2 and kept(2 * math.pi / steps) ^ (steps / 2) * math.cos(math.pi / steps) or 0
 end
 

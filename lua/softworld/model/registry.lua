@@ -16,7 +16,8 @@
 --   apply(context, rung, changes, rungs): sets the scene, or options of its run, before a computation;
 --     changes.shape(k) makes other models of wires on level k. rungs: of all choices, by their names
 --   expected(context, rung, k): time of a run on level k, if it may be long [s]
---   shows(facts): share of the next rung's effect that its computation shows [-], if not all
+--   shows(facts, snaps): share of the next rung's effect that its computation shows [-], if not all; snaps:
+--     of the effect of a jump
 --   blurred(facts, above, share): true if the coarsest level tells too little of the next rung, whose facts
 --     are `above`, for the rung to stay
 --   look(context, run): returns facts about the choice at the end of a computation; while a run is watched
