@@ -20,6 +20,14 @@ static double steady_force(const sw_contact *c, const sw_system *s, const sw_tou
   return t->steady + (t->press.normal_force - t->steady) / MEAN_STEPS;
 }
 
+/* Stiffness that a touch goes back to where it presses less [N/m]. Of a mesh it stays in statics:
+ * what steps of motion pressed together would else come apart a little in every search, and with it
+ * the force of jaws that hold it. */
+static double goes_back_to(const sw_contact *c, const sw_system *s, const sw_touch *t) {
+  const int stays = c->regime == SW_CONTACT_STATIC && s->bodies[t->body].plan->web;
+  return stays ? fmax(t->usual, t->press.k) : t->usual;
+}
+
 static sw_status remember(sw_contact *c, const sw_system *s, const sw_touch *t) {
   const sw_contact_at *o = &c->now[t->obstacle];
   const sw_quat back = sw_quat_conj(o->pose.q);
@@ -33,7 +41,7 @@ static sw_status remember(sw_contact *c, const sw_system *s, const sw_touch *t) 
                    .feature = t->feature,
                    .at = t->at,
                    .rise = t->rise,
-                   .kept = sw_press_keep(&t->press, t->usual, t->stiffer, deepest),
+                   .kept = sw_press_keep(&t->press, goes_back_to(c, s, t), t->stiffer, deepest),
                    .normal = sw_rotate(back, t->press.normal),
                    .point = t->local,
                    .seen = t->seen};
