@@ -11,6 +11,7 @@ local mixed = require "softworld.grip.mixed"
 local process = require "softworld.run.process"
 local reactions = require "softworld.grip.reactions"
 local remarks = require "softworld.remarks"
+local room = require "softworld.grip.room"
 local rows = require "softworld.rows"
 local stand = require "softworld.grip.stand"
 local vec = require "softworld.vec"
@@ -123,6 +124,7 @@ local function grasp_by_pads(self, wires, args)
   stand.place_tool(self, wire, s, 4)
   self.wire, self.grips, self.s = wire, {}, nearest
   for i, one in ipairs(wires) do self.grips[i] = { wire = one } end
+  room.check(self)
   self.free_height = nil
   if self.way == "mixed" then
     mixed.prepare(self, args)

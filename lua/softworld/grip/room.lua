@@ -1,0 +1,57 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Checks that a wire has room between open pads. A wire that begins inside a finger would be pushed out of
+-- it with forces that have no meaning.
+-- @module softworld.grip.room
+local vec = require "softworld.vec"
+
+local room = {}
+
+local MOST, SHARE = 1e-4, 0.1 -- a wire may be this deep in a pad that it leans on: [m], of its radius [-]
+local APART = 0.5 -- distance of places that are looked at, over the wire's radius [-]
+
+-- Returns the deepest place of a wire in an obstacle: depth [m], arc length [m]; 0 if it is nowhere inside.
+local function deepest(wire, obstacle)
+  local at, q = obstacle:pose()
+  local back = vec.conjugate(q)
+  local low, high = obstacle.shape:bounds()
+  local reach = vec.norm(vec.sub(high, low)) + wire.radius
+  local x, s = wire:positions()
+  local depth, place = 0, nil
+  local function point(i) return vec.rotate(back, vec.sub({ x[3 * i - 2], x[3 * i - 1], x[3 * i] }, at)) end
+  for i = 1, #s - 1 do
+    local a, b = point(i), point(i + 1)
+    local long = vec.norm(vec.sub(b, a))
+    if vec.norm(a) - long < reach then
+      local count = math.ceil(long / (APART * wire.radius))
+      for k = 0, count do
+        local share = count > 0 and k / count or 0
+        local gap = obstacle.shape:distance(vec.add(a, vec.sub(b, a), share))
+        if wire.radius - gap > depth then
+          depth, place = wire.radius - gap, s[i] + share * (s[i + 1] - s[i])
+        end
+      end
+    end
+  end
+  return depth, place
+end
+
+--- Raises an error without a place if one of the gripper's wires is inside one of its open fingers.
+function room.check(self)
+  local _, q = self.tool:pose()
+  for _, grip in ipairs(self.grips) do
+    local wire = grip.wire
+    for _, finger in ipairs(self.obstacles) do
+      local depth, s = deepest(wire, finger)
+      if depth > math.max(MOST, SHARE * wire.radius) then
+        local along = math.abs(vec.dot(vec.unit(wire:tangent(s)), vec.rotate(q, { 1, 0, 0 })))
+        error(("gripper '%s': its jaws are %.3g mm open, and wire '%s' is %.3g mm deep inside '%s' at s = "
+          .. "%.4g m; there the wire runs at %.3g degrees to the pads' x axis. Turn the pads (rotation), "
+          .. "give s instead of a place (at), open them (pads.opening) or take narrower ones (pads.width)")
+          :format(self.name, 1e3 * self.tool:state().opening, wire.name, 1e3 * depth, finger.name, s,
+          math.deg(math.acos(math.min(1, along)))), 0)
+      end
+    end
+  end
+end
+
+return room
