@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Whole steps in which wires move too fast are reported: with methods that have no error estimate, and
--- while more than 32 wires move. (Bundles: met_spec.)
+-- Whole steps in which wires move too fast are reported: with methods that have no error estimate, while more
+-- than 32 wires move, and with meshes between pads. (Bundles: met_spec.)
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -63,4 +63,49 @@ describe("steps taken whole that are too long", function()
     assert.same({}, (whipped{ by = 0.01, dt = 0.01, count = 33 }))
     assert.same({}, (whipped{ by = 0.2, dt = 0.02 }))
   end)
+end)
+
+describe("a mesh between pads", function()
+  -- The wire hangs from a clamp and the pads, is let go there and lifted fast.
+  local function lifted(E, segments, dt, turn)
+    local scene, r, began = sw.scene{}, 0.003, nil
+    scene:force{ kind = "damping", mass = 2, stiffness = 1e-3 }
+    local wire = scene:wire{ E = E, nu = 0.4, density = 1200, radius = r, model = "radial", section = "solid",
+      from = { 0, 0, 0.2 }, to = { 0.12 * math.cos(turn), 0.12 * math.sin(turn), 0.2 }, segments = segments }
+    local hand = scene:gripper{ name = "hand", pads = { width = 0.02, friction = 0.6, opening = 0.0065 } }
+    local held = scene:clamp(wire, { s = 0 })
+    scene:process(function(p)
+      hand:grasp(wire, { s = 0.06, approach = "plates", force = 8 })
+      p:wait(0.3 - scene.time)
+      held:release()
+      p:wait(0.1)
+      began = scene.time
+      hand:move{ by = { 0, 0.1, 0.15 }, speed = 0.5 }
+      p:wait(0.05)
+    end)
+    local run, told = t.fine(scene:run{ dt = dt }), nil
+    for _, e in ipairs(run.events) do
+      if e.kind == "coarse" then told = e.text end
+    end
+    local loads = hand:over(began)
+    scene:close()
+    return told, loads.peak_force, loads.peak_moment
+  end
+
+  -- Peaks of force differ by 20 to 30 % from those of 0.5 ms, moments by up to 12 times.
+  for _, case in ipairs{ { 1e6, 12, 0 }, { 1e7, 13, 0.6 } } do
+    it(("that is moved in steps that are too long is reported: E = %g"):format(case[1]), function()
+      local E, segments, turn = table.unpack(case)
+      local none, force, moment = lifted(E, segments, 5e-4, turn)
+      assert.is_nil(none)
+      for _, dt in ipairs{ 0.02, 0.01 } do
+        local told, coarse, turning = lifted(E, segments, dt, turn)
+        t.above(0.15, math.max(math.abs(coarse / force - 1), math.abs(turning / moment - 1)), "off by")
+        assert.is_truthy(told, ("at %g s"):format(dt))
+        assert.is_truthy(told:find("the motion of a mesh between pads", 1, true), told)
+        local better = tonumber(told:match "run again with dt = ([%d.e-]+) s and compare the peaks$")
+        assert.is_true(better < dt)
+      end
+    end)
+  end
 end)
