@@ -60,9 +60,9 @@ static int any_jaw_works(const sw_scene *s) {
   return 0;
 }
 
-/* Not judged: meshes between jaws that close, hold or let go, because their section shakes the
- * axis. In whole steps the squeeze and the work of friction are the same, in a half to a fifth of
- * the time (bench case=grip, spec/check/worn_mesh_spec). */
+/* Not divided, but told if too long: meshes between jaws that close, hold or let go, because their
+ * section shakes the axis. In whole steps the squeeze and the work of friction are the same, in a
+ * half to a fifth of the time (bench case=grip, spec/check/worn_mesh_spec). */
 static int any_mesh_in_jaws(const sw_scene *s) {
   return any_jaw_works(s) && any_mesh(sw_scene_system(s));
 }
@@ -168,7 +168,7 @@ void sw_coarse_tell(sw_scene *s, double h) {
     snprintf(of, sizeof of, "the motion of a wire (steps are not divided while %d wires move)",
              SW_MOST_MOVING + 1);
     tell(s, h, over_of(s, HUGE_VAL), of);
-  } else if (any_mesh_in_jaws(s)) {
+  } else if (any_mesh_in_jaws(s) && over_of(s, HUGE_VAL) > 0) { /* 0: there is no estimate */
     snprintf(of, sizeof of, "the motion of a mesh between pads (its steps are not divided)");
     tell(s, h, over_of(s, HUGE_VAL), of);
   } else {
