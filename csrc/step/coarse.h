@@ -26,8 +26,7 @@ int sw_coarse_is_bundle(const sw_scene *scene);
 double sw_coarse_of(const sw_scene *scene, double tolerance);
 /* Call when a trial of size h is taken. Logs the event "coarse" if the trial is too coarse and
  * belongs to a case whose steps are not divided: a bundle, many wires, a mesh between jaws, or a
- * method without an
- * estimate. */
+ * method without an estimate. */
 void sw_coarse_tell(sw_scene *scene, double h);
 /* The same for a part that is taken with the error `left` over the allowed one, because no part of
  * a step dt is shorter. */
