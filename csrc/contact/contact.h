@@ -170,17 +170,16 @@ double sw_contact_penetration(const sw_contact *contact, size_t *node);
 struct sw_presses sw_contact_presses(const sw_contact *contact);
 /* Pressure on a node or on a segment. */
 typedef struct sw_contact_push {
-  int obstacle;        /* the owner's number */
-  size_t node, other;  /* of the system; other = node if only the node is pressed [-] */
-  double at;           /* place between both nodes [-] */
-  double normal_force; /* [N] */
-  double friction;     /* coefficient [-] */
-  sw_vec force;        /* on the wire, with friction [N] */
-  sw_vec normal;       /* the obstacle's, outward [-] */
-  sw_vec slip;         /* sliding way in the last step [m] */
-  sw_vec point, acts;  /* on the obstacle; of the force, on the axis or a rolling surface [m] */
-  double place;        /* arc length [m] */
-  double slid;         /* sliding way since the touch began to press [m] */
+  int obstacle;                  /* the owner's number */
+  size_t node, other;            /* of the system; other = node if only the node is pressed [-] */
+  double at;                     /* place between both nodes [-] */
+  double normal_force, friction; /* [N]; coefficient [-] */
+  sw_vec force;                  /* on the wire, with friction [N] */
+  sw_vec normal;                 /* the obstacle's, outward [-] */
+  sw_vec slip;                   /* sliding way in the last step [m] */
+  sw_vec point, acts; /* on the obstacle; of the force, on the axis or a rolling surface [m] */
+  double place;       /* arc length [m] */
+  double slid;        /* sliding way since the touch began to press [m] */
 } sw_contact_push;
 /* Number of touches, with or without a force. sw_contact_push_at reads touch number k and returns 0
  * if it has no force. */
@@ -201,8 +200,6 @@ int sw_contact_shaken(const sw_contact *contact, const sw_system *system);
 double sw_contact_usual_force(const sw_system *system, const sw_plan *plan);
 /* From this force of a touch on, a wire is squeezed or taut and cannot come out; 0: a mesh [N]. */
 double sw_contact_squeezing_force(const sw_system *system, const sw_plan *plan);
-/* Length from an end of the wire (0: its start) to the next held node, or to its other end [m]. */
-double sw_contact_free_length(const sw_plan *plan, int last);
 /* Axial stiffness of the edge at a node; 0 for a mesh or a loose particle [N/m]. */
 double sw_contact_edge_stiffness(const sw_system *system, size_t body, size_t node);
 

@@ -29,6 +29,8 @@ void sw_contact_forget_hardest(sw_contact *contact);
 /* Longest part in which the end of a wire that is pushed onto an obstacle may be followed; HUGE_VAL
  * if no wire is [s]. */
 double sw_contact_push_part(const sw_contact *contact, const sw_system *system);
+/* Length from an end of the wire (0: its start) to the next held node, or to its other end [m]. */
+double sw_contact_free_length(const sw_plan *plan, int last);
 /* Like sw_contact_jolt, for few wires that strike each other. dull: 1 if the trial used implicit
  * Euler. */
 double sw_pairs_jolt(const sw_mutual *pairs, const sw_system *system, int dull, int followed,

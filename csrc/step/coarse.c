@@ -67,9 +67,7 @@ static int any_mesh_in_jaws(const sw_scene *s) {
   return any_jaw_works(s) && any_mesh(sw_scene_system(s));
 }
 
-int sw_coarse_applies(const sw_scene *s) {
-  return !any_mesh_in_jaws(s) && !sw_coarse_is_crowd(s);
-}
+int sw_coarse_applies(const sw_scene *s) { return !any_mesh_in_jaws(s) && !sw_coarse_is_crowd(s); }
 
 int sw_coarse_is_bundle(const sw_scene *s) {
   const sw_mutual *pairs = sw_scene_pairs(s);

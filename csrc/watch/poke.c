@@ -4,6 +4,7 @@
  * outcomes, and a little decides which one: the step, an edge, a hundredth of the friction. */
 #include <math.h>
 
+#include "contact/jolt.h"
 #include "scene/events.h"
 #include "scene/obstacle.h"
 #include "scene/parts.h"
