@@ -15,7 +15,7 @@ local function limit(entry, context)
     source = ("%s for %s"):format(own and known.name or bendrule.source, use or known.bend.use) }
 end
 
-return { name = "min_bend_radius", unit = "m", side = "min", on = "wire", edges = "low",
+return { name = "min_bend_radius", unit = "m", side = "min", peaks = true, on = "wire", edges = "low",
   label = "smallest radius of the inside of a bend",
   missing = "bend (its wire has no entry of the catalogue)",
   value = function(entry)

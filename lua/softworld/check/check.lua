@@ -5,6 +5,7 @@ local build = require "softworld.scene.build"
 local bendrule = require "softworld.wire.bendrule"
 local checks = require "softworld.checks"
 local core = require "softworld.core"
+local doubted = require "softworld.check.doubted"
 local edges = require "softworld.check.edges"
 local fixing = require "softworld.link.fixing"
 local judge = require "softworld.check.judge"
@@ -118,7 +119,10 @@ local function close_row(row, value, limit, side, suspicious, text)
     row.margin = nil
     add_note(row, "the value is not a number")
   end
-  if suspicious and row.verdict == "PASS" then row.verdict = "OPEN" end
+  if (suspicious or value.doubt) and row.verdict == "PASS" then
+    row.verdict = "OPEN"
+    add_note(row, value.doubt)
+  end
   if text then add_note(row, text) end
 end
 
@@ -177,6 +181,7 @@ local function judge_one(self, member, entry, context, list)
   with_error(value, error_bar(self.run, entry.name, member.name))
   if not self.several then edges.widen(value, member.edges, entry, self.run) end
   local function fresh() return start_row(self, member.name, entry.name, member.label, member.unit, value) end
+  value.doubt = doubted.why(member, value, entry, self.run)
   local known, why = known_limit(member, entry, context)
   if given then
     local reference = member.reference and member.reference(entry, context)

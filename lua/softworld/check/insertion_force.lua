@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Largest force of a clip's lips on the wire, at the last insertion in the run, or the one under way.
 -- @module softworld.check.insertion_force
-return { name = "insertion_force", unit = "N", side = "max", on = "clip", asked = true,
+return { name = "insertion_force", unit = "N", side = "max", peaks = true, on = "clip", asked = true,
   label = "largest force on the way into the clip", missing = "allowed insertion force",
   value = function(entry, context)
     local clip, into = entry.object, entry.object.inserted

@@ -3,7 +3,7 @@
 -- @module softworld.check.ovalisation
 local checks = require "softworld.checks"
 
-return { name = "max_ovalisation", unit = "-", side = "max", on = "wire", asked = true,
+return { name = "max_ovalisation", unit = "-", side = "max", peaks = true, on = "wire", asked = true,
   label = "largest ovalisation of a section", missing = "allowed ovalisation",
   value = function(entry)
     local known, value, s, time = pcall(entry.object.max_ovalisation, entry.object)

@@ -3,7 +3,7 @@
 -- @module softworld.check.peak
 return function(what, unit)
   local peak = "peak_" .. what
-  return { name = peak, unit = unit, side = "max", on = "gripper", label = "peak " .. what,
+  return { name = peak, unit = unit, side = "max", peaks = true, on = "gripper", label = "peak " .. what,
     missing = "rating of the gripper",
     value = function(entry, context)
       local m = entry.object:over(context.run.start, context.run.time)

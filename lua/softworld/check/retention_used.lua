@@ -2,7 +2,7 @@
 --- Largest pull on a wire in a clip in this run, over the clip's retention; also for a wire that came out in
 -- the run.
 -- @module softworld.check.retention_used
-return { name = "retention_used", unit = "-", side = "max", on = "clip",
+return { name = "retention_used", unit = "-", side = "max", peaks = true, on = "clip",
   label = "largest pull out of the clip, as a share of its retention",
     missing = "allowed share of the retention",
   value = function(entry, context)

@@ -47,7 +47,7 @@ local function value(entry, context)
   return best
 end
 
-return { name = "max_sidewall", unit = "N/m", side = "max", on = "wire", edges = "both",
+return { name = "max_sidewall", unit = "N/m", side = "max", peaks = true, on = "wire", edges = "both",
   label = "largest sidewall pressure T/R at contacts", missing = "allowed sidewall pressure",
   value = value,
   reference = function(entry)

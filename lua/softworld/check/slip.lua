@@ -4,7 +4,7 @@
 -- @module softworld.check.slip
 local SLIPS = 1 - 1e-9 -- a sliding wire has 1 within rounding [-]
 
-return { name = "peak_margin", unit = "-", side = "max", on = "gripper",
+return { name = "peak_margin", unit = "-", side = "max", peaks = true, on = "gripper",
   label = "share of the pads' friction that is used", missing = "allowed share of the friction",
   value = function(entry, context)
     local m = entry.object:over(context.run.start, context.run.time)

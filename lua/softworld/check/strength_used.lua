@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Largest pull of a tie in a single step over its strength; also for one that broke in the run.
 -- @module softworld.check.strength_used
-return { name = "strength_used", unit = "-", side = "max", on = "tie",
+return { name = "strength_used", unit = "-", side = "max", peaks = true, on = "tie",
   label = "largest pull of the tie, as a share of its strength", missing = "allowed share of the strength",
   value = function(entry, context)
     local tie = entry.object

@@ -1,7 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Largest stress of the outermost fibres in all steps, from tension and bending, of a solid wire.
 -- @module softworld.check.stress
-return { name = "max_stress", unit = "Pa", side = "max", on = "wire", edges = "both", asked = true,
+return { name = "max_stress", unit = "Pa", side = "max", peaks = true, on = "wire", edges = "both",
+  asked = true,
   label = "largest stress of the outermost fibres, of a solid wire", missing = "allowed stress",
   value = function(entry)
     local value, s, time = entry.object:max_stress()

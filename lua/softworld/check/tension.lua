@@ -19,7 +19,7 @@ local function limit(entry)
   return { value = own.value, from = "user", source = ("breaking load of the wire, %s"):format(own.flag) }
 end
 
-return { name = "max_tension", unit = "N", side = "max", on = "wire", edges = "both",
+return { name = "max_tension", unit = "N", side = "max", peaks = true, on = "wire", edges = "both",
   label = "largest tension",
   missing = "breaking_load", limit = limit,
   value = function(entry, context)

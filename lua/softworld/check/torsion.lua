@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Torsion per metre, M_t / GJ: the largest of all steps, in any model that the wire had.
 -- @module softworld.check.torsion
-return { name = "max_torsion", unit = "rad/m", side = "max", on = "wire", asked = true,
+return { name = "max_torsion", unit = "rad/m", side = "max", peaks = true, on = "wire", asked = true,
   label = "largest torsion per metre", missing = "allowed torsion",
   value = function(entry)
     local GJ = entry.object.beam.GJ
