@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "contact/jolt.h"
-#include "contact/touch.h"
+#include "contact/strikers.h"
 
 static sw_contact_load sum(sw_contact_load a, double share, sw_contact_load b) {
   return (sw_contact_load){sw_madd(a.force, b.force, share), sw_madd(a.moment, b.moment, share)};

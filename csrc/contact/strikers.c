@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Tells the wires that strike an obstacle from those that rest on it. */
-#include "contact/jolt.h"
-#include "contact/touch.h"
+#include "contact/strikers.h"
 
 /* A wire rests on an obstacle if its pressing force changes in the step by no more than this share
  * of its usual force [-]. */

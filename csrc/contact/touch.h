@@ -100,14 +100,8 @@ double sw_flight_reserve(const sw_contact *c, const sw_system *s, sw_vec v);
 void sw_contact_add_blow(sw_contact *c, int obstacle, sw_vec point, sw_vec impulse);
 void sw_contact_forget_blows(sw_contact *c);
 void sw_contact_conclude(sw_contact *c, const sw_system *s);
-/* After a trial: finds who strikes the obstacles. A blow is judged by the load of the strikers: 25
- * wires that lie on a table would hide the blow of one more, and wires that are laid on it together
- * would be taken for a blow. */
-void sw_contact_find_strikers(sw_contact *c, const sw_system *s);
-void sw_contact_forget_strikers(sw_contact *c);
 /* Notes that wires may press on the obstacle in this step. */
 void sw_contact_expect(sw_contact *c, int obstacle);
-
 /* Clears impacts and barriers at a step's start, for this many nodes. SW_ENOMEM. */
 sw_status sw_contact_calm(sw_contact *c, size_t nodes);
 
@@ -118,7 +112,6 @@ int sw_contact_strike(sw_contact *c, sw_system *s, const sw_touch *t, double h);
 /* The same for all touches that pressed in the trial, in the order in which they meet their
  * obstacles. dull: 1 if the step does not bounce. */
 int sw_contact_strike_all(sw_contact *c, sw_system *s, double h, int dull);
-
 /* 1 if a touch from first to end will strike by its force. Only obstacles without restitution. */
 int sw_contact_will_strike(const sw_contact *c, sw_system *s, size_t first, size_t end);
 
@@ -131,7 +124,6 @@ const sw_barrier *sw_contact_barrier(const sw_contact *c, int obstacle, size_t n
 
 /* Finds how far nodes are sunk at the system's state. SW_ENOMEM. */
 sw_status sw_contact_sink(sw_contact *c, const sw_system *s);
-
 /* Fills the list of candidates for the step. */
 sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err);
 

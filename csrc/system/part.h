@@ -27,7 +27,8 @@ static inline size_t sw_part_next(const sw_system *s, size_t b) {
   return b;
 }
 /* For each body number b of the part. */
-#define SW_PART_EACH(s, b) \
-  for (size_t b = sw_part_next(s, (s)->part); b < (s)->part_end; b = sw_part_next(s, b + 1))
+#define SW_PART_EACH(s, b)                                           \
+  for (size_t b = sw_part_next((s), (s)->part); (b) < (s)->part_end; \
+       (b) = sw_part_next((s), (b) + 1))
 
 #endif
