@@ -26,5 +26,8 @@ int sw_jaw_end_rest(sw_scene *scene, int went_well);
 /* Returns the largest pose step up to h in which jaws that close with a force go no further than a
  * small part of the wires' thickness [s]. */
 double sw_jaw_step(const sw_scene *scene, double h);
+/* After a trial of size h: returns the way by which jaws closed on wires over the way that they may
+ * close in one part; up to 1 is allowed [-]. */
+double sw_jaw_closes(sw_scene *scene, double h);
 
 #endif

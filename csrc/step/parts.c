@@ -10,6 +10,7 @@
 #include "step/blow.h"
 #include "step/coarse.h"
 #include "step/energy.h"
+#include "step/jaw.h"
 #include "step/passing.h"
 #include "step/restart.h"
 #include "step/slip.h"
@@ -86,14 +87,16 @@ static int is_coarse(const sw_ladder *p, parts *k, int *may_grow) {
   return 1;
 }
 
-/* 1 if a converged trial contains a blow, went past a force, or is coarse. may_grow: 1 if a part of
- * twice the size would be fine too. */
+/* 1 if a converged trial contains a blow, went past a force, closed jaws too far, or is coarse.
+ * may_grow: 1 if a part of twice the size would be fine too. */
 static int is_too_long(const sw_ladder *p, parts *k, int *may_grow) {
   if (!k->unfollowed && sw_blow_begins(p->s, k->part)) {
     k->struck = k->part;
     return 1;
   }
-  const double passes = sw_passing_of(p->s, sw_scene_course(p->s)->stepper.trial_x);
+  const int divides = p->args->parts && sw_coarse_applies(p->s);
+  const double closes = divides ? sw_jaw_closes(p->s, k->part) : 0.0;
+  const double passes = fmax(closes, sw_passing_of(p->s, sw_scene_course(p->s)->stepper.trial_x));
   const double shorter = sw_passing_part(k->part, passes);
   if (!(shorter < k->part)) {
     const int coarse = is_coarse(p, k, may_grow);
