@@ -62,6 +62,10 @@ static int find_round(const sw_contact *c, const sw_plan *p, size_t o, round_pad
   const double pad = sw_shape_middle(c->obstacles[o].shape, sw_v(0, 0, 0), &q, &along);
   if (!(pad > 0)) return 0;
   const double twice = 2.0 * (pad + p->beam.radius), section = section_of(p);
+  if (!(grips < HUGE_VAL)) { /* it closes to a distance: only the section limits the force */
+    *out = (round_pad){.line = section, .half = sqrt(twice * SW_ALLOWED_DEPTH)};
+    return 1;
+  }
   const double soft = cbrt(pow(0.75 * grips / section, 2) / twice);
   const double depth = fmax(soft, SW_ALLOWED_DEPTH);
   out->half = sqrt(twice * depth);

@@ -80,4 +80,28 @@ describe("round pads", function()
       assert.is_true(wire:position(0.12)[3] < -0.1)
     end
   end)
+
+  -- Without a force there is no wanted depth, and the touch is as stiff as the section: 0.84 E per length and
+  -- side, F = 4/3 0.84 E d z. Samples are z/2 apart or less; their sum is within 5 %. Regression: the first
+  -- touch ended the run with "singular matrix".
+  it("close to a distance without a force", function()
+    local r, E, deep = 0.003, 2e7, 1e-4
+    local expected = 4 / 3 * 0.84 * E * deep * math.sqrt(2 * (RADIUS + r) * deep)
+    for _, dt in ipairs{ 0.01, 0.002, 0.0005 } do
+      for _, turn in ipairs{ 0, 0.2 } do
+        local scene = sw.scene{ gravity = { 0, 0, 0 } }
+        scene:force{ kind = "damping", mass = 8 }
+        local wire = scene:wire{ E = E, nu = 0.4, density = 1200, radius = r, from = { 0, 0, 0 },
+          to = { LENGTH, 0, 0 }, segments = 20 }
+        local hand = scene:gripper{ at = { 0.103, 0, 0 }, rotation = { axis = { 0, 0, 1 }, angle = turn },
+          pads = { shape = "round", radius = RADIUS, height = 0.06, opening = 0.01 } }
+        scene:process(function(p)
+          hand:grasp(wire, { s = 0.103, approach = "plates", distance = 2 * (r - deep) })
+          p:wait(0.3)
+        end)
+        t.fine(scene:run{ dt = dt })
+        t.share(expected, hand:state().squeeze, 0.05, ("squeeze at %g s, turned by %g"):format(dt, turn))
+      end
+    end
+  end)
 end)
