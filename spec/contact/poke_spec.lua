@@ -9,9 +9,7 @@ local t = require "spec.physics.tools"
 
 -- Pokes random cables at balls, tilted walls and drums; returns the peak force and the end's place.
 local function poked(seed, dt)
-  local draw = t.random(seed)
-  local function random() return (draw() + 1) / 2 end -- in [0, 1]
-  local function pick(list) return list[math.min(#list, 1 + math.floor(random() * #list))] end
+  local random, pick = t.choices(seed)
   local cable = pick{ "GXL 1.5", "FLRY-B 2.5", "H07V-K 4", "FLRY-B 0.5" }
   local kind = pick{ "ball", "wall", "drum" }
   local free, speed, off = 0.03 + 0.12 * random(), 0.05 + 0.25 * random(), 0.3 * (2 * random() - 1)

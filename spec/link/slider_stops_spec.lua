@@ -9,15 +9,10 @@ local CABLES = { "GXL 1.5", "FLRY-B 2.5", "H07V-K 4", "FLRY-B 0.5", "soft" }
 
 -- Returns forces of a random cable that its clamp draws along a rail to its ends, and whether it is told.
 local function drawn(seed, dt)
-  local draw = t.random(seed)
-  for _ = 1, 3 do draw() end
-  local function random() return (draw() + 1) / 2 end -- in [0, 1]
-  local function pick(list) return list[math.min(#list, 1 + math.floor(random() * #list))] end
+  local random, pick = t.choices(seed, 3)
   local scene, cable = sw.scene{}, pick(CABLES)
-  local o = { from = { 0, 0, 0 }, to = { 0.3, 0, 0 }, segments = 24 + math.floor(16 * random()) }
-  if cable == "soft" then o.E, o.density, o.radius = 5e6, 1500, 0.0025 else o.cable = cable end
-  local wire = scene:wire(o)
-  scene:force{ kind = "damping", on = wire, mass = 1, stiffness = 1e-3 }
+  local wire = t.damped(scene, cable, { 0, 0, 0 }, { 0.3, 0, 0 },
+    { segments = 24 + math.floor(16 * random()) })
   local clamp = scene:clamp(wire, { s = 0 })
   local rail = scene:slider(wire, { s = 0.15 + 0.1 * random(), direction = { 0.6, 0.8, 0 }, from = -0.03,
     to = 0.05, friction = pick{ 0, 0.1, 0.3 } })

@@ -1,20 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- A taut wire bends at a clamp or a slider on the length sqrt(EI/T), which is often shorter than an edge. Its
 -- bend radius is then that of the edges, up to 20 times too large: an event says so, with the right one.
+package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
+local t = require "spec.physics.tools"
 
 local LENGTH = 0.3
-
-local function none(p) return p end
--- Turns about {1, 2, 2}/3 by 1.1 rad (Rodrigues).
-local function about(p)
-  local n, c, s = { 1 / 3, 2 / 3, 2 / 3 }, math.cos(1.1), math.sin(1.1)
-  local along = n[1] * p[1] + n[2] * p[2] + n[3] * p[3]
-  local cross = { n[2] * p[3] - n[3] * p[2], n[3] * p[1] - n[1] * p[3], n[1] * p[2] - n[2] * p[1] }
-  local q = {}
-  for k = 1, 3 do q[k] = c * p[k] + s * cross[k] + (1 - c) * along * n[k] end
-  return q
-end
 
 local function told_of(run)
   for _, e in ipairs(run.events) do
@@ -23,9 +14,10 @@ local function told_of(run)
   end
 end
 
-local function made(cable, segments, turn)
+-- angle: by which the scene is turned [rad], or nil.
+local function made(cable, segments, angle)
   local scene = sw.scene{ gravity = { 0, 0, 0 } }
-  local o = { segments = segments, from = { 0, 0, 0 }, to = turn{ LENGTH, 0, 0 } }
+  local o = { segments = segments, from = { 0, 0, 0 }, to = t.turned({ LENGTH, 0, 0 }, angle) }
   if cable == "soft" then o.E, o.density, o.radius = 5e7, 1500, 0.0025 else o.cable = cable end
   local wire = scene:wire(o)
   scene:force{ kind = "damping", on = wire, mass = 20, stiffness = 1e-3 }
@@ -33,13 +25,13 @@ local function made(cable, segments, turn)
 end
 
 -- Holds one end and draws the other one to the angle phi under the tension T. Returns the run and the wire.
-local function clamped(cable, segments, T, phi, turn, swapped)
-  local scene, wire = made(cable, segments, turn)
+local function clamped(cable, segments, T, phi, angle, swapped)
+  local scene, wire = made(cable, segments, angle)
   local long = LENGTH * (1 + T / wire:get().EA)
   local moved = { long * math.cos(phi) - LENGTH, 0, long * math.sin(phi) }
   if swapped then moved = { -moved[1], 0, -moved[3] } end
   scene:clamp(wire, { s = swapped and LENGTH or 0 })
-  scene:clamp(wire, { s = swapped and 0 or LENGTH }):follow{ points = { { 0, 0, 0 }, turn(moved) },
+  scene:clamp(wire, { s = swapped and 0 or LENGTH }):follow{ points = { { 0, 0, 0 }, t.turned(moved, angle) },
     duration = 0.5, relative = true }
   return scene:run{ duration = 0.7, dt = 0.01 }, wire
 end
@@ -51,7 +43,7 @@ describe("a taut wire that is clamped at an angle", function()
     for k, cable in ipairs{ "GXL 1.5", "FLRY-B 2.5", "H07V-K 4", "soft" } do
       for _, segments in ipairs{ 20, 33 } do
         local T, phi = cable == "soft" and 40 or 200, 0.25
-        local run, wire = clamped(cable, segments, T, phi, k % 2 == 0 and about or none, k > 2)
+        local run, wire = clamped(cable, segments, T, phi, k % 2 == 0 and 1.1 or nil, k > 2)
         local right = math.sqrt(wire:get().EI / wire:max_tension()) / (2 * math.sin(phi / 2))
         local radius, read = told_of(run)
         assert.is_truthy(radius, cable .. " " .. segments)
@@ -62,8 +54,8 @@ describe("a taut wire that is clamped at an angle", function()
   end)
 
   it("says nothing where edges are short enough, or the wire is not taut", function()
-    assert.is_nil((told_of(clamped("GXL 1.5", 160, 50, 0.25, none))))
-    assert.is_nil((told_of(clamped("soft", 20, -20, 0.25, none)))) -- 2 % too long
+    assert.is_nil((told_of(clamped("GXL 1.5", 160, 50, 0.25))))
+    assert.is_nil((told_of(clamped("soft", 20, -20, 0.25)))) -- 2 % too long
   end)
 end)
 
@@ -71,7 +63,7 @@ describe("a taut wire that a slider draws aside", function()
   -- Half of the turn at the slider on either side: sqrt(EI/T) / (2 sin(phi/2)), phi = atan(0.03 / 0.15).
   it("says its radius, at the slider or at its clamps", function()
     for _, segments in ipairs{ 20, 41 } do
-      local scene, wire = made("FLRY-B 0.5", segments, none)
+      local scene, wire = made("FLRY-B 0.5", segments)
       scene:clamp(wire, { s = 0 })
       local far = scene:clamp(wire, { s = LENGTH })
       local slider = scene:slider(wire, { s = LENGTH / 2, direction = { 1, 0, 0 } })

@@ -7,18 +7,10 @@ package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
 
-local function damped(scene, name, from, to, segments)
-  local o = { from = from, to = to, segments = segments }
-  if name == "soft" then o.E, o.density, o.radius = 5e6, 1500, 0.0025 else o.cable = name end
-  local wire = scene:wire(o)
-  scene:force{ kind = "damping", on = wire, mass = 1, stiffness = 1e-3 }
-  return wire
-end
-
 -- A hanging cable is swept by one that is carried by both ends.
 local function swept(s, one, two)
-  local a = damped(s, one, { 0, 0, 0.5 }, { 0, 0, 0.1 }, 41)
-  local b = damped(s, two, { -0.1, -0.15, 0.27 }, { -0.1, 0.15, 0.31 }, 36)
+  local a = t.damped(s, one, { 0, 0, 0.5 }, { 0, 0, 0.1 }, { segments = 41 })
+  local b = t.damped(s, two, { -0.1, -0.15, 0.27 }, { -0.1, 0.15, 0.31 }, { segments = 36 })
   s:clamp(a, { s = 0 })
   for _, place in ipairs{ 0, b.length } do
     s:clamp(b, { s = place }):follow{ points = { { 0, 0, 0 }, { 0.2, 0, 0.03 } }, duration = 0.4,
@@ -30,8 +22,8 @@ end
 -- A cable that lies on a table is lifted by its end from under another one.
 local function lifted(s, one, two)
   s:obstacle{ shape = "plane", friction = 0.3 }
-  local a = damped(s, one, { 0, 0, 0.004 }, { 0.5, 0, 0.004 }, 50)
-  local b = damped(s, two, { 0.2, -0.2, 0.012 }, { 0.23, 0.2, 0.012 }, 43)
+  local a = t.damped(s, one, { 0, 0, 0.004 }, { 0.5, 0, 0.004 }, { segments = 50 })
+  local b = t.damped(s, two, { 0.2, -0.2, 0.012 }, { 0.23, 0.2, 0.012 }, { segments = 43 })
   s:clamp(a, { s = 0 }):follow{ points = { { 0, 0, 0 }, { 0.05, 0, 0.2 } }, duration = 0.6, relative = true }
   return { a, b }, 1
 end
@@ -42,7 +34,7 @@ local function dropped(s, one, two)
   local wires = {}
   for k, name in ipairs{ one, two, one } do
     local c, d, z = 0.18 * math.cos(1.1 * k), 0.18 * math.sin(1.1 * k), 0.02 + 0.03 * k
-    wires[k] = damped(s, name, { -c + 0.03 * k, -d, z }, { c, d, z + 0.012 }, 37 + 4 * k)
+    wires[k] = t.damped(s, name, { -c + 0.03 * k, -d, z }, { c, d, z + 0.012 }, { segments = 37 + 4 * k })
   end
   return wires, 0.5
 end
@@ -91,8 +83,8 @@ local function told(count, dt)
   s:obstacle{ shape = "plane", friction = 0.3 }
   for k = 1, count do
     local a, z = 0.4 * k, 0.004 + 0.0035 * k
-    damped(s, "GXL 1.5", { -0.1 * math.cos(a), -0.1 * math.sin(a), z },
-      { 0.1 * math.cos(a), 0.1 * math.sin(a), z + 0.001 }, 20 + k % 3)
+    t.damped(s, "GXL 1.5", { -0.1 * math.cos(a), -0.1 * math.sin(a), z },
+      { 0.1 * math.cos(a), 0.1 * math.sin(a), z + 0.001 }, { segments = 20 + k % 3 })
   end
   s:wire_contact{ friction = 0.3 }
   local run, found = t.fine(s:run{ dt = dt, duration = 0.06 }), {}

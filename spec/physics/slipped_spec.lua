@@ -8,21 +8,10 @@ local t = require "spec.physics.tools"
 
 local CABLES = { "GXL 1.5", "FLRY-B 2.5", "H07V-K 4", "FLRY-B 0.5", "soft" }
 
-local function made(scene, cable, from, to, segments)
-  local o = { from = from, to = to, segments = segments }
-  if cable == "soft" then o.E, o.density, o.radius = 5e6, 1500, 0.0025 else o.cable = cable end
-  local wire = scene:wire(o)
-  scene:force{ kind = "damping", on = wire, mass = 1, stiffness = 1e-3 }
-  return wire
-end
-
 -- A cable that is held at one end is lifted by another one, which is carried by both ends, until it slips
 -- off. Mirrored, with other ends held, and turned about the vertical by `turn`.
 local function slipped(seed, dt)
-  local draw = t.random(seed)
-  for _ = 1, 3 do draw() end
-  local function random() return (draw() + 1) / 2 end -- in [0, 1]
-  local function pick(list) return list[math.min(#list, 1 + math.floor(random() * #list))] end
+  local random, pick = t.choices(seed, 3)
   local turn, side, swapped = 6 * random(), pick{ -1, 1 }, random() < 0.5
   local function at(x, y, z)
     y = side * y
@@ -30,12 +19,12 @@ local function slipped(seed, dt)
   end
   local scene = sw.scene{}
   local a, b = at(0, 0, 0), at(0.12, 0, 0)
-  local held = made(scene, pick(CABLES), swapped and b or a, swapped and a or b,
-    20 + math.floor(20 * random()))
+  local held = t.damped(scene, pick(CABLES), swapped and b or a, swapped and a or b,
+    { segments = 20 + math.floor(20 * random()) })
   scene:clamp(held, { s = swapped and held.length or 0 })
   local x = 0.07 + 0.04 * random()
-  local lifts = made(scene, pick(CABLES), at(x, -0.12, -0.012), at(x, 0.12, -0.012),
-    20 + math.floor(20 * random()))
+  local lifts = t.damped(scene, pick(CABLES), at(x, -0.12, -0.012), at(x, 0.12, -0.012),
+    { segments = 20 + math.floor(20 * random()) })
   scene:wire_contact{ friction = 0.2 }
   local out, hands = {}, {}
   for k, s in ipairs{ 0, lifts.length } do

@@ -10,12 +10,9 @@ local t = require "spec.physics.tools"
 local across = { axis = { 1, 0, 0 }, angle = math.pi / 2 }
 
 local function damped(scene, name, from, to, more)
-  local o = { from = from, to = to, segments = more and more.segments or 50 }
-  if name == "soft" then o.E, o.density, o.radius = 5e6, 1500, 0.0025 else o.cable = name end
-  local wire = scene:wire(o)
-  scene:force{ kind = "damping", on = wire, mass = more and more.mass or 1,
-    stiffness = more and more.stiffness or 1e-3 }
-  return wire
+  more = more or {}
+  return t.damped(scene, name, from, to,
+    { segments = more.segments or 50, mass = more.mass, stiffness = more.stiffness })
 end
 
 local function peg(scene, at, by, duration)

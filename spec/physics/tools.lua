@@ -1,5 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Shared by the physics specs: comparisons that print their figures, orders, momentum.
+local vec = require "softworld.vec"
+
 local tools = {}
 
 -- With scripts/spec.lua --measured, figures are printed, not only compared.
@@ -121,6 +123,14 @@ function tools.random(seed)
   end
 end
 
+--- Returns a source of numbers in [0, 1], and one of members of a list. skip: numbers to leave out first.
+function tools.choices(seed, skip)
+  local draw = tools.random(seed)
+  for _ = 1, skip or 0 do draw() end
+  local function random() return (draw() + 1) / 2 end
+  return random, function(list) return list[math.min(#list, 1 + math.floor(random() * #list))] end
+end
+
 --- Returns a random unit quaternion.
 function tools.turn(random)
   local q, n
@@ -129,6 +139,23 @@ function tools.turn(random)
     n = (q[1] ^ 2 + q[2] ^ 2 + q[3] ^ 2 + q[4] ^ 2) ^ 0.5
   until n > 0.1 and n < 1
   return { q[1] / n, q[2] / n, q[3] / n, q[4] / n }
+end
+
+--- Turns a vector about {1, 2, 2}/3 by an angle [rad]; nil: not at all.
+function tools.turned(p, angle)
+  if not angle then return p end
+  local s = math.sin(angle / 2) / 3
+  return vec.rotate({ math.cos(angle / 2), s, 2 * s, 2 * s }, p)
+end
+
+--- Makes a damped wire: a cable of the catalogue, or "soft". more: { segments =, mass =, stiffness = }, the
+-- last two of the damping [1/s], [s].
+function tools.damped(scene, cable, from, to, more)
+  local o = { from = from, to = to, segments = more.segments }
+  if cable == "soft" then o.E, o.density, o.radius = 5e6, 1500, 0.0025 else o.cable = cable end
+  local wire = scene:wire(o)
+  scene:force{ kind = "damping", on = wire, mass = more.mass or 1, stiffness = more.stiffness or 1e-3 }
+  return wire
 end
 
 --- Returns the largest difference of two flat lists.
