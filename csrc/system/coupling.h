@@ -53,9 +53,10 @@ typedef struct sw_coupling {
   sw_status (*place)(void *user, int hold, double time, sw_hold_state *out, sw_error *err);
   /* A stage begins. first: weight of the step's first stage in xhat [-]. */
   sw_status (*begin_stage)(void *user, sw_system *system, double time, double first, sw_error *err);
-  /* Bodies are solved one by one: the coupling connects none, and acts only on those of
-   * system->part until the next call. Parts come in order, each once per stage, then all bodies
-   * again. NULL: it always acts on all together. */
+  /* Bodies are solved in parts (system/part.h): those without coupling one by one, then the coupled
+   * ones, which begin_stage has marked, together. The coupling acts only on those of the part until
+   * the next call. Each part comes once per stage, single bodies in order; then all bodies again.
+   * NULL: it always acts on all together. */
   void (*part)(void *user, sw_system *system);
   /* Adds forces and matrix rows at y to the bodies' fields. */
   sw_status (*eval)(void *user, sw_system *system, double time, double hbar, const double *y,
