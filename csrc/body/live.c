@@ -12,6 +12,7 @@
 #include "scene/parts.h"
 #include "scene/wire.h"
 #include "system/system.h"
+#include "system/wait.h"
 
 sw_live sw_live_of(const sw_scene *s) {
   sw_mutual *grains = sw_scene_grains(s), *pairs = sw_scene_pairs(s);
@@ -96,6 +97,7 @@ sw_status sw_live_put(sw_scene *s, const sw_live *p, sw_error *err) {
   sw_system *system = sw_scene_system(s);
   memcpy(system->state, p->state, p->state_size * sizeof(double));
   system->first.x = NULL;
+  sw_waits_find(system, 0);
   const sw_status status = put_contact(s, p);
   if (status == SW_EINVAL)
     return sw_fail(err, SW_EFORMAT, "its contact does not go with its objects");

@@ -13,6 +13,7 @@
 #include "system/linear.h"
 #include "system/part.h"
 #include "system/system.h"
+#include "system/wait.h"
 
 static void state_rule(const sw_scene_rule *r, size_t wires, sw_pair_rule *table) {
   const size_t count = r->count ? r->count : wires;
@@ -123,18 +124,33 @@ void sw_scene_inform_contact(sw_scene *s) {
   sw_contact_recall(s->contact, past_of, may_move);
 }
 
+/* Finds the wires that wait, and wakes those that may touch others. */
+static void find_waiting(sw_scene *s, sw_contact_regime regime) {
+  const int alone = !s->crowd && !s->grains && regime == SW_CONTACT_IMPLICIT;
+  sw_waits_find(&s->system, alone && s->course.next == SW_AS_BEFORE);
+  if (s->pairs && s->system.waiting) (void)sw_pairs_wake(s->pairs, &s->system);
+}
+
 sw_status sw_scene_begin_contact(sw_scene *s, sw_contact_regime regime, double t, double h,
                                  double nominal, sw_error *err) {
   if (s->contact && !sw_contact_informed(s->contact)) sw_scene_inform_contact(s);
+  if (s->pairs) SW_TRY(sw_mutual_begin_step(s->pairs, &s->system, regime, h, nominal, err));
+  find_waiting(s, regime);
   if (s->contact) SW_TRY(sw_contact_begin_step(s->contact, &s->system, regime, t, h, nominal, err));
   const sw_status crowd = s->crowd ? sw_crowd_begin_step(s->crowd, &s->system, h) : SW_OK;
   if (crowd != SW_OK)
     return sw_fail(err, crowd, "particles that repel each other: %s",
                    crowd == SW_ELIMIT ? "too many are near each other" : sw_status_text(crowd));
-  if (s->pairs) SW_TRY(sw_mutual_begin_step(s->pairs, &s->system, regime, h, nominal, err));
   if (!s->grains) return SW_OK;
   if (!s->pairs) SW_TRY(sw_system_begin_plan(&s->system));
   return sw_mutual_begin_step(s->grains, &s->system, regime, h, nominal, err);
+}
+
+/* A wider search may have found pairs with wires that wait: they have no touches with obstacles. */
+static int found_waiting(sw_scene *s) {
+  if (!s->pairs || !s->system.waiting || !sw_pairs_wake(s->pairs, &s->system)) return 0;
+  sw_waits_wake(&s->system);
+  return 1;
 }
 
 int sw_scene_expects_strike(const sw_scene *s, double h) {
@@ -153,6 +169,7 @@ sw_contact_verdict sw_scene_review_contact(sw_scene *s, const double *x1, const 
     const sw_contact_verdict other =
         sw_mutual_review(s->pairs, &s->system, x1, h, s->course.stepper.plastic);
     if (other != SW_CONTACT_ACCEPT) verdict = other;
+    if (found_waiting(s)) return SW_CONTACT_SMALLER;
   }
   if (s->grains && verdict != SW_CONTACT_SMALLER) {
     const sw_contact_verdict other =
@@ -222,6 +239,7 @@ double sw_scene_deepest(const sw_scene *s, size_t *node) {
 size_t sw_scene_presses(const sw_scene *s, sw_presses list[SW_SCENE_PRESSES]) {
   size_t n = 0;
   if (s->contact) list[n++] = sw_contact_presses(s->contact);
+  if (s->contact) list[n++] = sw_contact_still_presses(s->contact);
   if (s->pairs) list[n++] = sw_mutual_presses(s->pairs);
   if (s->grains) list[n++] = sw_mutual_presses(s->grains);
   return n;

@@ -233,6 +233,17 @@ const int *sw_broad_near(sw_broad *b, const sw_bounds *box, double reach, size_t
   return b->found;
 }
 
+int sw_broad_disturbs(const sw_contact *c, size_t o, const sw_bounds *box, double reach) {
+  const sw_contact_at *at = &c->start[o];
+  const sw_bounds *own = &c->bounds[o];
+  const double omega = sw_norm(at->omega), arm = farthest(own, at->pose.p) + reach;
+  const double most = reach + 2.0 * c->h * (sw_norm(at->v) + omega * arm);
+  if (!(most < EVERYWHERE) || !(omega * c->h < FASTEST_TURN)) return 1;
+  return own->min.x - most <= box->max.x && own->max.x + most >= box->min.x &&
+         own->min.y - most <= box->max.y && own->max.y + most >= box->min.y &&
+         own->min.z - most <= box->max.z && own->max.z + most >= box->min.z;
+}
+
 int sw_contact_moves(const sw_contact *c) {
   for (size_t k = 0; k < c->broad.mover_count; k++) {
     const int o = c->broad.mover[k];

@@ -60,4 +60,7 @@ sw_status sw_broad_update(sw_contact *c);
 const int *sw_broad_near(sw_broad *broad, const sw_bounds *box, double reach, size_t *count,
                          size_t *looks);
 
+/* 1 if the obstacle may come within reach of what lies still in the box, in the step. */
+int sw_broad_disturbs(const sw_contact *c, size_t o, const sw_bounds *box, double reach);
+
 #endif

@@ -295,13 +295,15 @@ static sw_status make_room(sw_contact *c, size_t bodies) {
 }
 
 sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err) {
+  sw_status status = sw_grow((void **)&c->reach, &c->reach_capacity, s->nodes, sizeof *c->reach);
+  if (status == SW_OK) status = sw_broad_update(c);
+  if (status == SW_OK) status = sw_contact_wait(c, s);
   c->candidate_count = c->touch_count = c->last_count = c->pressed_count = 0;
   c->unmarked = 1;
   memset(c->wound, 0, c->count * sizeof *c->wound);
-  sw_status status = sw_grow((void **)&c->reach, &c->reach_capacity, s->nodes, sizeof *c->reach);
-  if (status == SW_OK) status = sw_broad_update(c);
   for (size_t b = 0; b < s->body_count && status == SW_OK; b++) {
     const size_t first = c->candidate_count;
+    if (s->bodies[b].waits) continue;
     const sw_web *web = s->bodies[b].plan->web;
     sw_pads_look(c, s->bodies[b].plan);
     sw_contact_find_wound(c, s, b);

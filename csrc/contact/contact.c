@@ -77,6 +77,7 @@ void sw_contact_free(sw_contact *c) {
                           c->reach,     c->ahead,   c->ranges};
   for (size_t k = 0; k < sizeof blocks / sizeof blocks[0]; k++) sw_free(blocks[k]);
   sw_broad_free(&c->broad);
+  sw_still_free(&c->still);
   sw_free(c);
 }
 
@@ -130,10 +131,15 @@ sw_status sw_contact_begin_stage(sw_contact *c, double time, double first, sw_er
 
 /* --- read-outs ---------------------------------------------------------------- */
 
+/* Touch number k: those of wires that are solved, then those of wires that wait. */
+static const sw_touch *touch_at(const sw_contact *c, size_t k) {
+  return k < c->touch_count ? &c->touches[k] : &c->still.list[k - c->touch_count];
+}
+
 void sw_contact_force(const sw_contact *c, int id, sw_vec about, sw_vec *force, sw_vec *moment) {
   *force = *moment = sw_v(0, 0, 0);
-  for (size_t i = 0; i < c->touch_count; i++) {
-    const sw_touch *t = &c->touches[i];
+  for (size_t i = 0; i < sw_contact_touches(c); i++) {
+    const sw_touch *t = touch_at(c, i);
     if (c->obstacles[t->obstacle].id != id || !(t->press.normal_force > 0)) continue;
     const sw_vec f = sw_neg(sw_madd(t->press.tangential, t->press.normal, t->press.normal_force));
     *force = sw_add(*force, f);
@@ -150,8 +156,8 @@ static double place_of(const sw_system *s, const sw_touch *t) {
 }
 
 void sw_contact_add_grip(const sw_contact *c, const sw_system *s, int id, sw_contact_grip *sum) {
-  for (size_t i = 0; i < c->touch_count; i++) {
-    const sw_touch *t = &c->touches[i];
+  for (size_t i = 0; i < sw_contact_touches(c); i++) {
+    const sw_touch *t = touch_at(c, i);
     const double N = t->press.normal_force;
     if (c->obstacles[t->obstacle].id != id || !(N > 0)) continue;
     sum->normal += N;
@@ -165,11 +171,12 @@ void sw_contact_add_grip(const sw_contact *c, const sw_system *s, int id, sw_con
 
 double sw_contact_penetration(const sw_contact *c, size_t *node) {
   double deepest = 0;
-  for (size_t i = 0; i < c->touch_count; i++) {
-    const double depth = c->touches[i].forgiven - c->touches[i].press.gap_after;
+  for (size_t i = 0; i < sw_contact_touches(c); i++) {
+    const sw_touch *t = touch_at(c, i);
+    const double depth = t->forgiven - t->press.gap_after;
     if (depth <= deepest) continue;
     deepest = depth;
-    if (node) *node = c->touches[i].node;
+    if (node) *node = t->node;
   }
   return deepest;
 }
@@ -178,23 +185,31 @@ sw_presses sw_contact_presses(const sw_contact *c) {
   return SW_PRESSES(sw_touch, c->touches, c->touch_count);
 }
 
-size_t sw_contact_touches(const sw_contact *c) { return c->touch_count; }
+sw_presses sw_contact_still_presses(const sw_contact *c) {
+  return SW_PRESSES(sw_touch, c->still.list, c->still.count);
+}
+
+size_t sw_contact_touches(const sw_contact *c) { return c->touch_count + c->still.count; }
 
 /* Returns the first touch at or after this node. Touches are in the order of nodes. */
-static size_t first_touch(const sw_contact *c, size_t node) {
+static size_t first_touch(const sw_touch *touches, size_t count, size_t node) {
   size_t i;
-  SW_FIRST_NOT(c->touches[i].node < node, i, 0, c->touch_count);
+  SW_FIRST_NOT(touches[i].node < node, i, 0, count);
   return i;
 }
 
+/* All nodes are of one body, which is solved or waits. */
 void sw_contact_touches_of(const sw_contact *c, size_t node, size_t end_node, size_t *first,
                            size_t *end) {
-  *first = first_touch(c, node);
-  *end = first_touch(c, end_node);
+  *first = first_touch(c->touches, c->touch_count, node);
+  *end = first_touch(c->touches, c->touch_count, end_node);
+  if (*end > *first || !c->still.count) return;
+  *first = c->touch_count + first_touch(c->still.list, c->still.count, node);
+  *end = c->touch_count + first_touch(c->still.list, c->still.count, end_node);
 }
 
 int sw_contact_push_at(const sw_contact *c, const sw_system *s, size_t k, sw_contact_push *out) {
-  const sw_touch *t = &c->touches[k];
+  const sw_touch *t = touch_at(c, k);
   const sw_press *p = &t->press;
   *out = (sw_contact_push){.obstacle = c->obstacles[t->obstacle].id,
                            .node = t->node,
@@ -266,7 +281,7 @@ double sw_contact_emerged(const sw_contact *c) {
 }
 
 int sw_contact_steady(const sw_contact *c) {
-  size_t before = 0, now = 0;
+  size_t before = 0, now = c->still.pressing;
   for (size_t i = 0; i < c->memory_count; i++) before += c->memory[i].kept.normal_force > 0;
   for (size_t i = 0; i < c->touch_count; i++) {
     if (!(c->touches[i].press.normal_force > 0)) continue;

@@ -166,8 +166,9 @@ void sw_contact_add_grip(const sw_contact *contact, const sw_system *system, int
                          sw_contact_grip *sum);
 /* Deepest penetration of the accepted state, with the system's node nearest to it [m]. */
 double sw_contact_penetration(const sw_contact *contact, size_t *node);
-/* The list of touches, for contact/tally.h. */
+/* The lists of touches, for contact/tally.h: of wires that are solved, and of those that wait. */
 struct sw_presses sw_contact_presses(const sw_contact *contact);
+struct sw_presses sw_contact_still_presses(const sw_contact *contact);
 /* Pressure on a node or on a segment. */
 typedef struct sw_contact_push {
   int obstacle;                  /* the owner's number */
@@ -214,8 +215,7 @@ int sw_contact_steady(const sw_contact *contact);
 double sw_contact_hardened(const sw_contact *contact);
 double sw_contact_unbent(const sw_contact *contact);  /* work of arcs that get flatter [J] */
 double sw_contact_fastest(const sw_contact *contact); /* fastest obstacle at the step's end [m/s] */
-/* 1: in this step wires come out of obstacles that they began in */
-int sw_contact_emerges(const sw_contact *contact);
+int sw_contact_emerges(const sw_contact *contact);    /* 1: wires come out of what they began in */
 double sw_contact_emerged(const sw_contact *contact); /* work of touches on wires that do so [J] */
 size_t sw_contact_impacts(const sw_contact *contact); /* impacts dealt with in the step [-] */
 double sw_contact_struck(const sw_contact *contact);  /* work of moving obstacles in them [J] */
@@ -231,7 +231,7 @@ sw_status sw_contact_set_memory(sw_contact *contact, const void *memory, size_t 
 int sw_contact_memory_fits(const void *memory, size_t bytes, size_t nodes, size_t obstacles);
 /* The touches at the accepted state, as a block for read-outs only. SW_EINVAL: the block names
  * nodes (of this many) or obstacles that do not exist. */
-const void *sw_contact_seen(const sw_contact *contact, size_t *bytes);
+const void *sw_contact_seen(sw_contact *contact, size_t *bytes);
 sw_status sw_contact_set_seen(sw_contact *contact, const void *seen, size_t bytes, size_t nodes);
 /* A number that changes with the layout of these blocks, from version to version. */
 size_t sw_contact_layout(void);

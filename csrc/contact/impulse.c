@@ -22,6 +22,10 @@ static sw_vec force_on(const sw_contact *c, const sw_touch *t) {
  * fingers of a tool share one pivot; otherwise their pressing forces would turn the tool while it
  * turns in a step. */
 static void add_now(const sw_contact *c, double share, sw_contact_load *(*at)(sw_contact_loads *)) {
+  for (size_t i = 0; c->still.any && i < c->busy_count; i++) {
+    sw_contact_loads *l = &c->loads[c->busy[i]];
+    *at(l) = sum(*at(l), share, l->resting);
+  }
   for (size_t i = 0; i < c->touch_count; i++) {
     const sw_touch *t = &c->touches[i];
     if (!t->press.active && !t->press.opened) continue;
@@ -87,7 +91,7 @@ void sw_contact_forget_blows(sw_contact *c) {
   for (size_t i = 0; i < c->busy_count; i++) {
     sw_contact_loads *l = &c->loads[c->busy[i]];
     const int busy = remembers(&l->past);
-    *l = (sw_contact_loads){.past = l->past, .busy = busy};
+    *l = (sw_contact_loads){.past = l->past, .resting = l->resting, .busy = busy};
     if (busy) c->busy[kept++] = c->busy[i];
   }
   c->busy_count = kept;
@@ -276,7 +280,7 @@ void sw_contact_recall(sw_contact *c, sw_contact_past_function past,
   c->busy_count = 0;
   for (size_t o = 0; o < c->count; o++) {
     const sw_contact_past *own = past(c->user, c->obstacles[o].id);
-    c->loads[o] = (sw_contact_loads){.past = *own};
+    c->loads[o] = (sw_contact_loads){.past = *own, .resting = c->loads[o].resting};
     if (remembers(own)) sw_contact_expect(c, (int)o);
   }
   sw_broad_know(&c->broad, c, moves);

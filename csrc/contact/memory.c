@@ -54,14 +54,31 @@ static sw_status remember(sw_contact *c, const sw_system *s, const sw_touch *t) 
   return SW_OK;
 }
 
+/* Copies the memory of a body that waits, from number m on. Returns the first number that is
+ * left. */
+static size_t carry_over(sw_contact *c, const sw_body *b, size_t m) {
+  const size_t end = b->first_node + b->plan->nodes;
+  while (m < c->memory_count && c->memory[m].node < b->first_node) m++;
+  for (; m < c->memory_count && c->memory[m].node < end; m++) {
+    if (sw_grow((void **)&c->next_memory, &c->next_capacity, c->next_count + 1,
+                sizeof *c->next_memory) == SW_OK)
+      c->next_memory[c->next_count++] = c->memory[m];
+  }
+  return m;
+}
+
 void sw_contact_commit(sw_contact *c, sw_system *s) {
   c->next_count = 0;
   c->fresh = sw_contact_emerges(c) ? SW_CONTACT_EMERGING : 0;
   sw_contact_conclude(c, s);
   (void)sw_grow_empty((void **)&c->next_memory, &c->next_capacity, c->touch_count,
                       sizeof *c->next_memory);
-  for (size_t i = 0; i < c->touch_count; i++)
-    if (remember(c, s, &c->touches[i]) != SW_OK) break; /* a lost anchor just begins again */
+  for (size_t b = 0, i = 0, m = 0; b < s->body_count; b++) {
+    if (c->still.any && c->still.kept[b]) m = carry_over(c, &s->bodies[b], m);
+    for (; i < c->touch_count && c->touches[i].body == b; i++)
+      (void)remember(c, s, &c->touches[i]); /* a lost anchor just begins again */
+  }
+  c->still.accepted = 1;
   SW_SWAP(c->memory, c->next_memory);
   SW_SWAP(c->memory_capacity, c->next_capacity);
   c->memory_count = c->next_count;
@@ -81,13 +98,16 @@ sw_status sw_contact_set_memory(sw_contact *c, const void *memory, size_t bytes,
   c->memory_count = n;
   c->fresh = fresh;
   c->touch_count = 0;
+  c->still.accepted = 0;
+  sw_contact_forget_still(c);
   sw_contact_ask_again(c);
   return SW_OK;
 }
 
 size_t sw_contact_layout(void) { return 4096 * sizeof(sw_memory) + sizeof(sw_touch); }
 
-const void *sw_contact_seen(const sw_contact *c, size_t *bytes) {
+const void *sw_contact_seen(sw_contact *c, size_t *bytes) {
+  if (sw_contact_put_back(c) != SW_OK) c->touch_count = 0, c->still.accepted = 0;
   *bytes = c->touch_count * sizeof *c->touches;
   return c->touches;
 }
@@ -111,6 +131,7 @@ sw_status sw_contact_set_seen(sw_contact *c, const void *seen, size_t bytes, siz
       return SW_EINVAL;
   }
   c->touch_count = n;
+  c->still.accepted = 1;
   return SW_OK;
 }
 

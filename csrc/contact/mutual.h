@@ -39,6 +39,8 @@ int sw_mutual_idle(const sw_mutual *mutual);
 
 /* Marks the bodies that may touch others or themselves in this step as coupled (system/part.h). */
 void sw_pairs_mark(const sw_mutual *pairs, sw_system *system);
+/* Those bodies do not wait. 1 if some did. */
+int sw_pairs_wake(const sw_mutual *pairs, sw_system *system);
 
 /* These correspond to the functions of sw_contact. */
 sw_status sw_mutual_begin_step(sw_mutual *mutual, sw_system *system, sw_contact_regime regime,

@@ -54,6 +54,18 @@ sw_status sw_pairs_new(const sw_system *s, const sw_pair_rule *rules, sw_mutual 
   return SW_ENOMEM;
 }
 
+int sw_pairs_wake(const sw_mutual *m, sw_system *s) {
+  const sw_pairs *p = (const sw_pairs *)(const void *)m;
+  int any = 0;
+  for (size_t i = 0; i < m->pair_count; i++)
+    for (int k = 0; k < 2; k++) {
+      sw_body *b = &s->bodies[p->pairs[i].body[k]];
+      any |= b->waits;
+      b->waits = 0;
+    }
+  return any;
+}
+
 void sw_pairs_mark(const sw_mutual *m, sw_system *s) {
   const sw_pairs *p = (const sw_pairs *)(const void *)m;
   for (size_t i = 0; i < m->pair_count; i++)

@@ -154,10 +154,11 @@ typedef struct sw_strikers {
 typedef struct sw_contact_loads {
   sw_contact_past past;
   sw_contact_load stage[SW_BOOK_STAGES]; /* impulse from the step's start, without blows [N s] */
-  sw_contact_load blows; /* impulse of impacts that changed the starting velocities [N s] */
-  sw_contact_load trial; /* load at the end of a trial [N] */
-  sw_strikers strikers;  /* of the last trial, see sw_contact_find_strikers */
-  int busy;              /* 1: in the list `busy` of loaded obstacles */
+  sw_contact_load blows;   /* impulse of impacts that changed the starting velocities [N s] */
+  sw_contact_load trial;   /* load at the end of a trial [N] */
+  sw_contact_load resting; /* of the wires that wait (contact/wait.c) [N], [N m] */
+  sw_strikers strikers;    /* of the last trial, see sw_contact_find_strikers */
+  int busy;                /* 1: in the list `busy` of loaded obstacles */
 } sw_contact_loads;
 
 /* Data of a stage that is solved by parts, here of bodies: the current part. */

@@ -45,7 +45,11 @@ void sw_contact_forget_strikers(sw_contact *c) {
 }
 
 void sw_contact_find_strikers(sw_contact *c, const sw_system *s) {
-  sw_contact_forget_strikers(c);
+  for (size_t i = 0; i < c->busy_count; i++) {
+    sw_contact_loads *l = &c->loads[c->busy[i]];
+    const sw_vec waits = l->resting.force;
+    l->strikers = (sw_strikers){.rest_start = waits, .rest_end = waits};
+  }
   for (size_t i = 0, first = 0, m = 0; i < c->touch_count; first = i) {
     const size_t body = c->touches[i].body;
     const double usual = sw_contact_usual_force(s, s->bodies[body].plan);
@@ -62,6 +66,8 @@ void sw_contact_find_strikers(sw_contact *c, const sw_system *s) {
   }
   for (size_t i = 0; i < c->busy_count; i++) {
     sw_strikers *l = &c->loads[c->busy[i]].strikers;
-    if (!(l->usual > 0)) *l = (sw_strikers){.usual = l->all};
+    const sw_vec waits = c->loads[c->busy[i]].resting.force;
+    if (l->usual > 0) continue;
+    *l = (sw_strikers){.usual = l->all, .rest_start = waits, .rest_end = waits};
   }
 }

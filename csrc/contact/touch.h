@@ -7,6 +7,7 @@
 #include "contact/broad.h"
 #include "contact/contact.h"
 #include "contact/record.h"
+#include "contact/wait.h"
 
 struct sw_contact {
   sw_contact_obstacle *obstacles;
@@ -44,6 +45,7 @@ struct sw_contact {
   size_t candidate_count, candidate_capacity;
   sw_touch *touches, *last; /* of this iterate and of the previous one */
   size_t touch_count, touch_capacity, last_count, last_capacity;
+  sw_still still;      /* those of bodies that wait */
   sw_pressed *pressed; /* touches that had a force at the end of a stage of this trial */
   size_t pressed_count, pressed_capacity, pressed_before; /* the last: those of earlier stages */
   sw_turn *turns; /* (pressed_count) order of impacts in a review */
@@ -64,14 +66,12 @@ struct sw_contact {
   size_t range_capacity;
   double *room; /* refinement: solutions of a wire's equations */
   size_t room_capacity;
-  int unmarked;   /* 1: the marks are not valid: some touch slid, or there was no memory */
-  int looked;     /* 1: the touches of the next evaluation are already found */
-  size_t stage;   /* number of the stage; it grows from step to step */
-  double first;   /* share of the step's first stage in the state that this stage begins from [-] */
-  double time, h; /* the step's start and size [s] */
-  double stage_time; /* time that obstacles were last placed for [s] */
-  double nominal;    /* the run's full step [s] */
-  double asked;      /* part (substep) that was first tried, before any was refused [s] */
+  int unmarked, looked; /* 1: the marks are not valid; the next evaluation's touches are found */
+  size_t stage;         /* number of the stage; it grows from step to step */
+  double first; /* share of the step's first stage in the state that this stage begins from [-] */
+  double time, h, stage_time; /* the step's start and size; when obstacles were placed last [s] */
+  double nominal;             /* the run's full step [s] */
+  double asked;               /* part (substep) that was first tried, before any was refused [s] */
   sw_contact_regime regime;
   int plastic;     /* 1: nothing rebounds in this step */
   int hasty;       /* 1: this trial ends before friction of a striking wire is settled */

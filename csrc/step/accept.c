@@ -12,6 +12,7 @@
 #include "step/restart.h"
 #include "step/run.h"
 #include "system/system.h"
+#include "system/wait.h"
 #include "watch/observe.h"
 
 /* When this many parts (substeps) cover less than this share of their steps on average, the run
@@ -26,6 +27,7 @@ void sw_ladder_accept(sw_ladder *p, double h, double t) {
   sw_stepper_accept(&c->stepper, system, h);
   system->judged = c->stepper.trial_x;
   sw_scene_commit_contact(s);
+  if (sw_scene_contact(s) && !sw_course_lumps(c)) sw_waits_stop(system);
   sw_restart_taken(s);
   c->span = h;
   if (c->method->flags & SW_INTEGRATOR_NO_CONTACT) sw_scene_remark_contact(s);

@@ -13,6 +13,7 @@
 #include "step/energy.h"
 #include "step/step.h"
 #include "system/system.h"
+#include "system/wait.h"
 #include "watch/observe.h"
 
 /* Energy gained by steps over the energy in play: above REMARK an event, above FAILURE the run
@@ -85,6 +86,7 @@ sw_status sw_ledger_open(sw_scene *s, sw_error *err) {
   int any;
   if (b->known) return SW_OK;
   sw_energies e;
+  sw_waits_find(system, 0);
   weigh(s);
   sw_system_energies(system, sw_course_lumps(sw_scene_course(s)), NULL, &e);
   b->has_powers = sw_system_has_powers(system);

@@ -68,7 +68,10 @@ typedef struct sw_body {
   int web_slow;       /* 1: in this step such iterations were too slow */
   int bridged;        /* its matrix is part of the bridges' matrix (system/bridge.h) */
   int coupled;        /* in this stage: SW_JOINED, SW_TOUCHING, both, or 0 (system/part.h) */
-  double pushed;      /* largest push for which buckling was checked [N] */
+  int waits;          /* 1: it rests, and is not solved in this step (system/wait.h) */
+  int weighed;        /* 1: the next three are known, while it waits */
+  double gravity, stored, loads; /* its energies, see sw_energies [J] */
+  double pushed;                 /* largest push for which buckling was checked [N] */
 } sw_body;
 
 /* Axial stiffness of an edge or spring: force over strain [N]. */

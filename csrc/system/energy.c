@@ -67,21 +67,33 @@ static void commit_aside(const sw_system *s, sw_body *b, sw_term *term, sw_commi
   term->history = room;
 }
 
-void sw_system_energies(sw_system *s, int lumped, sw_committed *end, sw_energies *out) {
+static void weigh(sw_system *s, sw_body *b, int lumped, sw_committed *end, sw_energies *out) {
   sw_error ignored;
+  aim(s, b, lumped);
+  b->field.want = SW_WANT_ENERGY;
+  for (size_t i = 0; i < b->term_count; i++) {
+    const sw_force_class *cls = b->terms[i].cls;
+    if (has_power(cls)) continue;
+    sw_term term = b->terms[i];
+    if (end && cls->commit) commit_aside(s, b, &term, end);
+    b->field.energy = b->field.bending = 0;
+    if (sw_term_eval(&term, &b->field, &ignored) == SW_OK) *place_of(cls, out) += b->field.energy;
+  }
+}
+
+/* A body that waits is weighed in the first trial only. */
+void sw_system_energies(sw_system *s, int lumped, sw_committed *end, sw_energies *out) {
   *out = (sw_energies){.kinetic = sw_system_kinetic(s, lumped)};
   if (end) end->lost = 0;
   SW_ITEMS(sw_body, b, s->bodies, s->body_count) {
-    aim(s, b, lumped);
-    b->field.want = SW_WANT_ENERGY;
-    for (size_t i = 0; i < b->term_count; i++) {
-      const sw_force_class *cls = b->terms[i].cls;
-      if (has_power(cls)) continue;
-      sw_term term = b->terms[i];
-      if (end && cls->commit) commit_aside(s, b, &term, end);
-      b->field.energy = b->field.bending = 0;
-      if (sw_term_eval(&term, &b->field, &ignored) == SW_OK) *place_of(cls, out) += b->field.energy;
+    sw_energies own = {.gravity = b->gravity, .stored = b->stored, .loads = b->loads};
+    if (!end || !b->weighed) {
+      own = (sw_energies){0};
+      weigh(s, b, lumped, end, &own);
+      b->gravity = own.gravity, b->stored = own.stored, b->loads = own.loads;
+      b->weighed = end && b->waits;
     }
+    out->gravity += own.gravity, out->stored += own.stored, out->loads += own.loads;
   }
 }
 
@@ -130,6 +142,7 @@ sw_status sw_system_powers(sw_system *s, double time, sw_powers *out, sw_error *
   memcpy(s->velocity, s->v, 3 * s->nodes * sizeof *s->velocity);
   sw_strain_show_held_rates(s, s->velocity);
   SW_ITEMS(sw_body, b, s->bodies, s->body_count) {
+    if (b->waits) continue; /* forces without potential have no power on it */
     b->field.v = s->velocity + 3 * b->first_node;
     SW_ITEMS(const sw_term, term, b->terms, b->term_count) {
       double power;

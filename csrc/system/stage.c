@@ -25,6 +25,7 @@
 #include "system/strain.h"
 #include "system/system.h"
 #include "system/twist.h"
+#include "system/wait.h"
 #include "system/web.h"
 
 /* Computes axial forces after delta by the linearised law. Returns the square of the largest
@@ -217,6 +218,7 @@ static sw_status begin(sw_system *s, const sw_stage *stage, int statics, sw_erro
   sw_parts_begin(s);
   for (size_t i = 0; i < s->freedoms; i++)
     stage->y[i] = s->yhat[i] = stage->xhat[i] + h * stage->vhat[i];
+  if (s->waiting) sw_waits_place(s, stage);
   s->from = stage->from, s->to = stage->to;
   const sw_status status = sw_system_place_holds(s, stage->time, stage->y, stage->v, stage->a, err);
   s->from = s->to = 0;
@@ -256,6 +258,7 @@ static void finish(sw_system *s, const sw_stage *stage, int statics) {
                 stage->a);
   else
     for (size_t i = 0; i < s->freedoms; i++) stage->v[i] = (stage->y[i] - stage->xhat[i]) * rate;
+  if (s->waiting) sw_waits_finish(s, stage);
   SW_ITEMS(sw_held_node, h, s->held, s->held_count) {
     sw_held_react(s, h);
     sw_system_held_velocity(s, h, stage->v + 3 * h->node);
@@ -331,7 +334,7 @@ static sw_status iterate_parts(sw_system *s, const sw_stage *stage, const sw_new
   const sw_counters before = s->counters;
   for (size_t b = 0; b < s->body_count && status == SW_OK; b++) {
     group |= s->bodies[b].coupled;
-    if (s->bodies[b].coupled) continue;
+    if (s->bodies[b].coupled || s->bodies[b].waits) continue;
     s->part = b, s->part_end = b + 1;
     status = iterate_part(s, stage, newton, report, err);
   }
@@ -345,12 +348,15 @@ static sw_status iterate_parts(sw_system *s, const sw_stage *stage, const sw_new
   return status;
 }
 
+/* 1 if there is only one body, and it waits. */
+static int all_waits(const sw_system *s) { return s->body_count == 1 && s->bodies[0].waits; }
+
 static sw_status solve(sw_system *s, const sw_stage *stage, const sw_newton *newton,
                        sw_stage_report *report, sw_error *err) {
   SW_TRY(begin(s, stage, newton->statics, err));
   if (sw_parts_any(s, newton))
     SW_TRY(iterate_parts(s, stage, newton, report, err));
-  else
+  else if (!all_waits(s))
     SW_TRY(iterate(s, stage, newton, report, err));
   finish(s, stage, newton->statics);
   return SW_OK;

@@ -188,16 +188,23 @@ static void aim(sw_system *s, sw_body *b) {
 
 /* 1 if its geometry is still that of the trial that became the state. */
 static int is_measured(const sw_system *s, const sw_body *b) {
+  if (b->waits && b->field.is_judged) return 1;
   if (!b->field.is_judged || !s->judged) return 0;
   const double *x = s->judged + 3 * b->first_node;
   return memcmp(x, b->field.x, 3 * b->plan->nodes * sizeof *x) == 0;
+}
+
+/* A body that waits needs no new measuring until it is solved again. */
+static void measure(sw_body *b) {
+  sw_field_geometry(&b->field);
+  b->field.is_judged = b->waits;
 }
 
 void sw_system_refresh(sw_system *s) {
   sw_system_add_up_pull(s);
   SW_ITEMS(sw_body, body, s->bodies, s->body_count) {
     aim(s, body);
-    if (!is_measured(s, body)) sw_field_geometry(&body->field);
+    if (!is_measured(s, body)) measure(body);
     body->field.twist = body->has_twist ? s->twist + body->first_span : NULL;
     if (body->spin_block) sw_spin_show(s, body);
   }
@@ -287,7 +294,7 @@ double sw_system_kinetic(const sw_system *s, int lumped) {
 void sw_system_show(sw_system *s, size_t body) {
   sw_body *b = &s->bodies[body];
   aim(s, b);
-  sw_field_geometry(&b->field);
+  if (!(b->waits && b->field.is_judged)) measure(b);
   b->field.tension = s->tension + b->first_edge;
   b->field.twist = b->has_twist ? s->twist + b->first_span : NULL;
   if (b->spin_block) sw_spin_show(s, b);

@@ -26,13 +26,13 @@ enum { SW_NOT_MADE = 2, SW_MAY_BE_MADE };
 
 struct sw_system {
   size_t nodes, edges;
-  size_t rolls; /* edges of wires that roll */
-  size_t rail_count;
-  size_t freedoms; /* values in each of x, v, a: 3 x nodes + rolls + rails */
+  size_t rolls, rail_count; /* edges of wires that roll; rails */
+  size_t freedoms;          /* values in each of x, v, a: 3 x nodes + rolls + rails */
   sw_body *bodies;
   size_t body_count;
   size_t part, part_end; /* range of the bodies that are solved now (system/part.h), */
   int group;             /* 1: of these only the coupled ones */
+  int waiting, awake;    /* 1: some body waits; none may until a step is accepted (system/wait.h) */
   sw_held_node *held;
   size_t held_count;
   double *directors;             /* (holds x 2 x 3) in hold coordinates: arriving, leaving */

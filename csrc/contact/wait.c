@@ -1,0 +1,167 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "contact/wait.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "contact/broad.h"
+#include "contact/touch.h"
+
+/* Anything nearer to a wire than this many radii, and what may come as near, disturbs it [-]. */
+static const double NEAR = 2.0;
+
+static sw_bounds box_of(const sw_system *s, const sw_body *b) {
+  const double *x = s->x + 3 * b->first_node;
+  sw_bounds box = {sw_vec_at(x, 0), sw_vec_at(x, 0)};
+  for (size_t i = 1; i < b->plan->nodes; i++) {
+    const sw_vec p = sw_vec_at(x, i);
+    box.min = sw_v(fmin(box.min.x, p.x), fmin(box.min.y, p.y), fmin(box.min.z, p.z));
+    box.max = sw_v(fmax(box.max.x, p.x), fmax(box.max.y, p.y), fmax(box.max.z, p.z));
+  }
+  return box;
+}
+
+static int may_be_disturbed(const sw_contact *c, const sw_system *s, const sw_body *b) {
+  const sw_broad *all = &c->broad;
+  if (!all->mover_count && !c->pad_count) return 0;
+  const sw_bounds box = box_of(s, b);
+  const double reach =
+      NEAR * b->plan->beam.radius + sw_flight_reserve(c, s, sw_v(0, 0, 0)) + SW_FLIGHT_LEAST;
+  for (size_t k = 0; k < all->mover_count; k++)
+    if (sw_broad_disturbs(c, (size_t)all->mover[k], &box, reach)) return 1;
+  for (size_t k = 0; k < c->pad_count; k++)
+    if (sw_broad_disturbs(c, (size_t)c->pads[k], &box, reach)) return 1;
+  return 0;
+}
+
+typedef struct list {
+  sw_touch *touches;
+  size_t count;
+} list;
+
+/* Returns the body's touches. *at: number of the first one that may be its own; it moves on. */
+static list touches_of(const sw_body *b, sw_touch *all, size_t count, size_t *at) {
+  const size_t first = b->first_node, end = first + b->plan->nodes;
+  while (*at < count && all[*at].node < first) ++*at;
+  const size_t from = *at;
+  while (*at < count && all[*at].node < end) ++*at;
+  return (list){all + from, *at - from};
+}
+
+/* 1 if a wire is on its way out of an obstacle: its touches change in each step. */
+static int comes_out(const list *l) {
+  for (size_t i = 0; i < l->count; i++)
+    if (l->touches[i].forgiven > 0 || l->touches[i].let_out > 0) return 1;
+  return 0;
+}
+
+static void add_load(sw_contact *c, const sw_touch *t) {
+  const sw_vec f = sw_neg(sw_press_borne(&t->press, t->friction));
+  sw_contact_load *to = &c->loads[t->obstacle].resting;
+  if (!t->press.active && !t->press.opened) return;
+  to->force = sw_add(to->force, f);
+  to->moment = sw_add(to->moment, sw_cross(sw_sub(t->acts, c->start[t->obstacle].pivot), f));
+}
+
+/* Loads of the touches set aside. */
+static void load_obstacles(sw_contact *c) {
+  const sw_contact_load none = {.force = {.x = 0}};
+  c->still.pressing = 0;
+  for (size_t o = 0; o < c->count; o++) c->loads[o].resting = none;
+  for (size_t i = 0; i < c->still.count; i++) {
+    add_load(c, &c->still.list[i]);
+    c->still.pressing += c->still.list[i].press.normal_force > 0;
+  }
+}
+
+void sw_contact_forget_still(sw_contact *c) {
+  if (!c->still.count && !c->still.any) return;
+  c->still.count = 0, c->still.any = 0;
+  memset(c->still.kept, 0, c->still.bodies * sizeof *c->still.kept);
+  load_obstacles(c);
+}
+
+/* Makes room for a flag per body; without memory nothing waits. */
+static int has_room(sw_contact *c, size_t bodies) {
+  if (c->still.bodies == bodies) return 1;
+  sw_contact_forget_still(c);
+  sw_free(c->still.kept);
+  c->still.kept = sw_alloc(bodies, sizeof *c->still.kept);
+  c->still.bodies = c->still.kept ? bodies : 0;
+  return c->still.kept != NULL;
+}
+
+/* Decides which bodies wait. Returns 1 if they are not those whose touches are set aside. */
+static int choose(sw_contact *c, sw_system *s) {
+  int changed = 0;
+  size_t at = 0;
+  for (size_t b = 0; b < s->body_count; b++) {
+    sw_body *body = &s->bodies[b];
+    if (body->waits && may_be_disturbed(c, s, body)) body->waits = 0;
+    if (body->waits && !c->still.kept[b]) {
+      const list l = touches_of(body, c->touches, c->touch_count, &at);
+      if (!c->still.accepted || comes_out(&l)) body->waits = 0;
+    }
+    changed |= body->waits != c->still.kept[b];
+  }
+  return changed;
+}
+
+/* Sets the touches of the bodies that wait aside. */
+static sw_status set_aside(sw_contact *c, const sw_system *s) {
+  size_t from_touches = 0, from_still = 0, count = 0;
+  SW_TRY(sw_grow_empty((void **)&c->still.room, &c->still.room_capacity,
+                       c->still.count + c->touch_count, sizeof *c->still.room));
+  c->still.any = 0;
+  for (size_t b = 0; b < s->body_count; b++) {
+    const sw_body *body = &s->bodies[b];
+    if (!body->waits) continue;
+    const list l = c->still.kept[b] ? touches_of(body, c->still.list, c->still.count, &from_still)
+                                    : touches_of(body, c->touches, c->touch_count, &from_touches);
+    if (l.count) memcpy(c->still.room + count, l.touches, l.count * sizeof *l.touches);
+    count += l.count;
+    c->still.any = 1;
+  }
+  for (size_t b = 0; b < s->body_count; b++) {
+    if (!c->still.kept[b]) s->bodies[b].weighed = 0;
+    c->still.kept[b] = s->bodies[b].waits != 0;
+  }
+  SW_SWAP(c->still.list, c->still.room);
+  SW_SWAP(c->still.capacity, c->still.room_capacity);
+  c->still.count = count;
+  load_obstacles(c);
+  return SW_OK;
+}
+
+sw_status sw_contact_wait(sw_contact *c, sw_system *s) {
+  if (c->regime != SW_CONTACT_IMPLICIT || !has_room(c, s->body_count)) {
+    for (size_t b = 0; b < s->body_count; b++) s->bodies[b].waits = 0;
+    sw_contact_forget_still(c);
+  } else if ((s->waiting || c->still.any) && choose(c, s)) {
+    SW_TRY(set_aside(c, s));
+  }
+  c->still.accepted = 0;
+  for (size_t o = 0; c->still.any && o < c->count; o++)
+    if (sw_norm2(c->loads[o].resting.force) > 0) sw_contact_expect(c, (int)o);
+  return SW_OK;
+}
+
+void sw_still_free(sw_still *still) {
+  sw_free(still->list);
+  sw_free(still->room);
+  sw_free(still->kept);
+}
+
+sw_status sw_contact_put_back(sw_contact *c) {
+  const size_t all = c->touch_count + c->still.count;
+  if (!c->still.count) return SW_OK;
+  SW_TRY(sw_grow((void **)&c->touches, &c->touch_capacity, all, sizeof *c->touches));
+  for (size_t to = all, left = c->touch_count, tail = c->still.count; tail;) {
+    const int other = left && c->touches[left - 1].node > c->still.list[tail - 1].node;
+    c->touches[--to] = other ? c->touches[--left] : c->still.list[--tail];
+  }
+  c->touch_count = all;
+  sw_contact_forget_still(c);
+  return SW_OK;
+}

@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Bodies that wait: wires at rest, which nothing disturbs in a step, are not solved. Whether a body
+ * rests is part of the state: its velocities and accelerations are exactly zero. So a restored
+ * state goes on with the same bits. */
+#ifndef SW_SYSTEM_WAIT_H
+#define SW_SYSTEM_WAIT_H
+
+#include "system/system.h"
+
+/* A step is accepted: stops the wires that came to rest in it. */
+void sw_waits_stop(sw_system *system);
+/* A step begins: finds the bodies that wait in it. may: 0 = none does, for instance because the
+ * scene was changed. The couplings then wake those that they may disturb (sw_body.waits = 0). */
+void sw_waits_find(sw_system *system, int may);
+/* A stage begins, and is solved: the bodies that wait keep their places, without velocity. */
+void sw_waits_place(const sw_system *system, const sw_stage *stage);
+void sw_waits_finish(const sw_system *system, const sw_stage *stage);
+/* A step must be tried again with all bodies awake. */
+static inline void sw_waits_wake(sw_system *s) { s->awake = 1; }
+
+#endif
