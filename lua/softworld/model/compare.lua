@@ -17,10 +17,10 @@ local FEIGNED = 16 -- change over the allowed one that coarse edges cause only i
 local HIDDEN = 4   -- coarse edges and steps that blur a change may hide this many times as much [-]
 local HIDES = 2 / 3 -- largest change with hidden part over the allowed one; the rest is for edges, steps [-]
 local SEEN = 0.1   -- least share of a swing that steps must show to accept a blurred change [-]
-local BRIEF = 3e3 -- iterations times nodes beside which the next rung costs little: about 2 ms [-]
 local NONE = 0 / 0 -- value of a check's row that a computation lacks
 
 compare.levels = 3 -- coarse levels on which rungs are compared [-]
+compare.BRIEF = 3e3 -- iterations times nodes beside which the next rung costs little: about 2 ms [-]
 
 -- True if the next rung's run would need only one more level. Comparing there saves nothing, so the
 -- comparison ends if it takes more than a moment. above: the next rung on level k - 1, before: on k - 2.
@@ -76,7 +76,7 @@ end
 function compare.glance(context, state, rungs, above)
   local choice, k = state.choice, state.from or 1
   local here = choice.widen and probe.of(context, rungs, k)
-  if not here or not here.ok or here.work < BRIEF or jumps(here) then return nil end
+  if not here or not here.ok or here.work < compare.BRIEF or jumps(here) then return nil end
   if choice.toils and choice.toils(state.rung, here) then return nil end -- the full cost must be known
   local there = probe.glance(context, above, k, choice)
   if not there.ok or jumps(there) then return nil end

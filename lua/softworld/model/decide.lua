@@ -236,6 +236,23 @@ local function begins_finer(context, here)
   return true
 end
 
+-- Asks a choice for its free check on the coarsest level, and if that is worth it, on the next one. Returns
+-- what choice.free does.
+local function free_check(context, state, rungs, here)
+  local choice, rung = state.choice, state.rung
+  local f, share = here.facts[choice.name], change.tightest(context, here.values)
+  local why, more = choice.free(context, rung, f, share)
+  if why or not choice.again or here.work < compare.BRIEF or not choice.again(context, rung, f, share) then
+    return why, more
+  end
+  local finer = probe.of(context, rungs, 2)
+  if not finer.ok then return why, more end
+  share = change.tightest(context, finer.values)
+  local found, rest = choice.free(context, rung, finer.facts[choice.name], share)
+  if found then return found, rest end
+  return why, more
+end
+
 --- Takes one step in deciding a choice; true when it is settled.
 function decide.look(context, state)
   local choice, rungs = state.choice, decide.rungs(context)
@@ -259,9 +276,7 @@ function decide.look(context, state)
     return stay(state, "idle")
   end
   local why, more
-  if choice.free and not state.checked then
-    why, more = choice.free(context, rung, f, change.tightest(context, here.values))
-  end
+  if choice.free and not state.checked then why, more = free_check(context, state, rungs, here) end
   state.doubt = not why and more or nil
   if why then
     state.known, state.change = why, more and of_values(context, here.values, more)

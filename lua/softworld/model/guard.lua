@@ -79,7 +79,7 @@ end
 -- Returns the number of the first choice whose check does not hold, and why.
 local function broken(self, total)
   local run = { start = self.start, time = self.scene.time, jumps = total.jumps - self.jumps,
-    steps = total.steps, events = {} }
+    last_jump = total.last_jump, steps = total.steps, events = {} }
   for i, state in ipairs(self.open) do
     local f = state.choice.look(self.context, run)
     local why = state.choice.broken(f, self.share, state.rung)

@@ -5,11 +5,12 @@ local build = require "softworld.scene.build"
 local core = require "softworld.core"
 local facts = require "softworld.model.facts"
 local number = require "softworld.output.number"
+local quantity = require "softworld.quantity"
 local trust = require "softworld.run.trust"
 
 local POSES = 4       -- time between two poses over the step of a dynamic run [-]
 local PERIODS = 10    -- motions of at least this many first periods are slow [-]
-local INERTIA = 0.1   -- largest inertia over weight, over the tolerance, that poses may leave out [-]
+local INERTIA = 0.1   -- largest inertia over weight or forces, over the tolerance, that poses may omit [-]
 local SAFETY = 3     -- on changes: coarse steps do not show all of a swing [-]
 local SMALL = 0.1    -- acceleration over weight below which wires hardly swing [-]
 local TINY = 1e-9    -- over the time, or 1 s: frames this near count as one [-]
@@ -83,6 +84,14 @@ local function period_alone(scene)
   return longest
 end
 
+-- True if a wire has no period even with all it is joined to held fixed.
+local function lacks_period(scene)
+  for _, w in ipairs(build.data(scene).wires) do
+    if not period_of(w, true) then return true end
+  end
+  return false
+end
+
 -- Takes the longest period at the end of the first poses into account: a wire that is lifted off a table
 -- swings more slowly than it did there. If the scene is not at rest at its start, this tells how it swings,
 -- but not whether the motion is slow.
@@ -116,12 +125,68 @@ local function shortest_mean(context, run, span)
   return most > 0 and span / most or nil
 end
 
+-- Returns the mass of all wires [kg] and the length of the longest one [m].
+local function mass_of(scene)
+  local mass, longest = 0, 0
+  for _, w in ipairs(build.data(scene).wires) do
+    if core.exists(w.object) then
+      mass = mass + w.object:get().mass_per_length * w.object.length
+      longest = math.max(longest, w.object.length)
+    end
+  end
+  return mass, longest
+end
+
+-- Returns the acceleration that inertia is compared with: of weight; without weight, the one at which all
+-- wires together would push as much as the least of the forces and moments asked for [m/s2]. nil: there is no
+-- such force. How inertia changes places, bends, peaks or own quantities is not known without weight.
+local function reference(context, weight)
+  if weight > 0 then return weight end
+  local least, mass, length = math.huge, mass_of(context.scene)
+  for _, q in ipairs(context.job.quantities) do
+    local lever = q.unit == "N" and 1 or q.unit == "N m" and length or nil
+    local value = context.finest and context.finest.values[q.name]
+    if q.own or q.row or q.plain or not lever or value == nil then return nil end
+    local push = quantity.size(value) / (lever * mass)
+    local pushes = push > 0 -- false for NaN
+    if not pushes then return nil end
+    least = math.min(least, push)
+  end
+  return least < math.huge and least or nil
+end
+
+-- Returns what inertia is compared with, as text.
+local function base(f) return f.weight > 0 and "the weight" or "the forces asked for" end
+
+-- Returns the number of jumps from pose to pose. A jump in the first pose alone does not count if the scene
+-- rests at its start: on the edges of a level, cut from those of the script, it does not rest yet.
+local function jumps_of(context, run)
+  local first = run.start + 1.5 * (run.time - run.start) / math.max(1, run.steps)
+  local alone = run.jumps == 1 and context.job.rests and (run.last_jump or math.huge) <= first
+  return alone and 0 or run.jumps
+end
+
+--- True if poses need so many iterations each that they may cost more than dynamics.
+function motion.toils(rung, run) return rung == 1 and run.iterations > MANY * run.steps end
+
+-- True if poses may have jumped only because edges are too long for a bend: round a peg a wire then moves
+-- edge by edge. A jump that needs many iterations leads farther.
+local function is_coarse(run)
+  if motion.toils(1, run) then return false end
+  for _, e in ipairs(run.events) do
+    if e.kind == "edges" then return true end
+  end
+  return false
+end
+
 function motion.look(context, run)
   local scene = context.scene
   look_at_end(context)
   local _, _, acceleration, slower = facts.swept()
-  return { jumps = run.jumps, lasts = run.time - run.start, acceleration = acceleration, slower = slower,
-    weight = (scene:gravity()[1] ^ 2 + scene:gravity()[2] ^ 2 + scene:gravity()[3] ^ 2) ^ 0.5,
+  local gravity = quantity.size(scene:gravity())
+  return { jumps = jumps_of(context, run), lasts = run.time - run.start,
+    coarse = not context.watching and is_coarse(run),
+    acceleration = acceleration, slower = slower, weight = gravity, against = reference(context, gravity),
     period = context.period, swing = swing(context),
     dt = run.steps > 0 and (run.time - run.start) / run.steps or math.huge,
     shortest = not context.watching and shortest_mean(context, run, swing(context)) or nil }
@@ -129,7 +194,8 @@ end
 
 --- Finds the first period of the scene at rest at its start [s]. It takes the coarsest edges, because the
 -- cost of all modes grows with the cube of their number. look_at_end may find a longer period. Edges on which
--- a scene at rest has no equilibrium are too coarse for any model.
+-- a scene at rest has no equilibrium are too coarse for any model. On edges about as long as the radius of
+-- what a wire lies on, it hardly rests and no modes are found; then edges of half the length tell the period.
 function motion.begin(context)
   local job, scene = context.job, context.scene
   if not job.rests then return end
@@ -140,6 +206,11 @@ function motion.begin(context)
     return motion.begin(context)
   end
   context.period = rests and period(scene) or nil
+  if rests and not context.period and lacks_period(scene) then
+    job.restore()
+    core.remesh(scene, trust.counts(job, 2))
+    context.period = scene:settle().ok and period(scene) or nil
+  end
   context.alone = rests and not context.period and period_alone(scene) or nil
   job.restore()
 end
@@ -176,25 +247,36 @@ local function growth(f)
   return f.slower and f.slower > 0 and math.max(1, f.acceleration / f.slower) ^ 2 or 1
 end
 
-function motion.free(_, rung, f, share)
+function motion.free(context, rung, f, share)
   if rung ~= 1 then return nil end
   if f.jumps > 0 then
     return nil, ("poses jump from one equilibrium to another, %d times"):format(f.jumps)
   end
-  if not f.acceleration or not f.period or f.weight == 0 then return nil end
-  local inertia, long = growth(f) * f.acceleration / f.weight, f.lasts / f.period
+  local against = reference(context, f.weight) -- now known even if f is of the first run
+  if not f.acceleration or not f.period or not against then return nil end
+  local inertia, long = growth(f) * f.acceleration / against, f.lasts / f.period
   if long < PERIODS or inertia > INERTIA * share then return nil end
-  return ("the run lasts %.3g first periods of %s (slow from %d on), and inertia is at most %s of the weight "
-    .. "(limit %s)"):format(long, number.text(f.period, "s"), PERIODS, facts.percent(inertia),
+  return ("the run lasts %.3g first periods of %s (slow from %d on), and inertia is at most %s of %s "
+    .. "(limit %s)"):format(long, number.text(f.period, "s"), PERIODS, facts.percent(inertia), base(f),
     facts.percent(INERTIA * share))
+end
+
+--- True if the free check of poses is worth a second look, at poses of finer edges: it failed by jumps on
+-- edges too long for a bend, or by inertia that only successive poses show. Such edges cause both where a
+-- wire is drawn over something round. The finer poses belong to the run anyway, unless dynamics are chosen.
+function motion.again(context, rung, f, share)
+  local against = reference(context, f.weight)
+  if rung ~= 1 or not f.period or not against or f.lasts < PERIODS * f.period then return false end
+  if f.jumps > 0 then return f.coarse end
+  return (f.slower or math.huge) <= INERTIA * share * against
 end
 
 --- Returns why the free check of poses no longer holds, by what the run showed so far; nil: it holds.
 function motion.broken(f, share)
   if f.jumps > 0 then return "poses jumped from one equilibrium to another" end
-  local inertia = f.weight > 0 and f.acceleration and f.acceleration / f.weight or 0
+  local inertia = f.against and f.acceleration and f.acceleration / f.against or 0
   if inertia <= INERTIA * share then return nil end
-  return ("inertia was %s of the weight (limit %s)"):format(facts.percent(inertia),
+  return ("inertia was %s of %s (limit %s)"):format(facts.percent(inertia), base(f),
     facts.percent(INERTIA * share))
 end
 
@@ -212,9 +294,6 @@ function motion.onward(context, options)
     end
   end
 end
-
---- True if poses need so many iterations each that they may cost more than dynamics.
-function motion.toils(rung, run) return rung == 1 and run.iterations > MANY * run.steps end
 
 --- Returns a sentence if poses cost no less than dynamics. On finer levels poses are nearer to each other and
 -- need fewer iterations each, unlike steps: from level to level dynamics take twice as many, poses hardly
