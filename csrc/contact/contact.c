@@ -70,11 +70,11 @@ void sw_contact_keep(sw_contact *c, const size_t *ids, size_t count) {
 
 void sw_contact_free(sw_contact *c) {
   if (!c) return;
-  void *const blocks[] = {c->obstacles, c->loads,   c->start,       c->now,        c->flat,
-                          c->sunk,      c->spaced,  c->bounds,      c->candidates, c->touches,
-                          c->last,      c->memory,  c->next_memory, c->pressed,    c->turns,
-                          c->barriers,  c->impacts, c->impact_at,   c->marks,      c->room,
-                          c->reach,     c->ahead,   c->ranges};
+  void *const blocks[] = {c->obstacles, c->loads,   c->start,       c->now,          c->flat,
+                          c->sunk,      c->spaced,  c->bounds,      c->candidates,   c->touches,
+                          c->last,      c->memory,  c->next_memory, c->pressed,      c->turns,
+                          c->barriers,  c->impacts, c->impact_at,   c->marks,        c->room,
+                          c->reach,     c->ahead,   c->ranges,      c->singles.first};
   for (size_t k = 0; k < sizeof blocks / sizeof blocks[0]; k++) sw_free(blocks[k]);
   sw_broad_free(&c->broad);
   sw_still_free(&c->still);

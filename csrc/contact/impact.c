@@ -31,7 +31,7 @@ static int dealt_with(const sw_contact *c, const sw_pressed *t, size_t *looks) {
          (t->node + 1 < c->places && was_struck(c, t, t->node + 1, looks));
 }
 
-static void note_impact(sw_contact *c, const sw_pressed *t) {
+static void note_impact(sw_contact *c, const sw_pressed *t, sw_vec kick) {
   if (sw_grow((void **)&c->impacts, &c->impact_capacity, c->impact_count + 1, sizeof *c->impacts) !=
       SW_OK)
     return;
@@ -39,6 +39,7 @@ static void note_impact(sw_contact *c, const sw_pressed *t) {
                                               .segment = t->segment,
                                               .node = t->node,
                                               .at = t->at,
+                                              .kick = kick,
                                               .before = c->impact_at[t->node]};
   c->impact_at[t->node] = (uint32_t)c->impact_count;
 }
@@ -257,11 +258,12 @@ static int strike(sw_contact *c, sw_system *s, const sw_pressed *t, double h) {
     kicked += w[k] * kick(s, b, t->spot.node[k], sw_scale(dv, w[k]));
   }
   c->struck += kicked * sw_dot(dv, e.wall);
-  sw_contact_add_blow(c, t->obstacle, e.at, sw_scale(dv, -kicked));
+  const sw_vec impulse = sw_scale(dv, -kicked);
+  sw_contact_add_blow(c, t->obstacle, e.at, impulse);
   if (levers.count)
     sw_levers_kick(b->plan, &levers, sw_scale(brake, mass),
                    s->delta + 3 * s->nodes + b->first_roll);
-  note_impact(c, t);
+  note_impact(c, t, impulse);
   return 1;
 }
 

@@ -51,6 +51,7 @@ void sw_contact_book(void *contact, const sw_booking *b) {
     l->stage[b->stage] = sum(all, -b->before, l->past.gained);
   }
   c->last_stage = b->stage;
+  sw_contact_book_singles(c, b);
   if (b->own != 0) add_now(c, b->own, b->stage ? second_of : first_of);
 }
 
@@ -203,18 +204,17 @@ double sw_contact_jolt_of(double size, double usual, double h) {
   return fmax(size / usual, sqrt(h / LONGEST_PART));
 }
 
-/* Load of the strikers alone, as a mean over the step, at its start and at its end [N]. */
-typedef struct blow {
-  sw_vec mean, start, end;
-} blow;
-
-static blow blow_on(const sw_contact *c, const sw_contact_loads *l) {
+/* Load of the only striker: the obstacle's, without that of wires that rest. Among several strikers
+ * a wire has its own: many that shake a little would hide the blow of one. */
+static sw_blow blow_on(const sw_contact *c, const sw_contact_loads *l, double usual) {
   const sw_strikers *k = &l->strikers;
+  if (k->count > 1) return sw_contact_own_blow(c, k, usual);
   const sw_vec impulse = sw_add(l->stage[c->last_stage].force, l->blows.force);
   const sw_vec resting = sw_scale(sw_add(k->rest_start, k->rest_end), 0.5);
-  return (blow){.mean = sw_sub(sw_scale(impulse, 1.0 / c->h), resting),
-                .start = sw_sub(l->past.end.force, k->rest_start),
-                .end = sw_sub(l->trial.force, k->rest_end)};
+  return (sw_blow){.usual = k->usual,
+                   .mean = sw_sub(sw_scale(impulse, 1.0 / c->h), resting),
+                   .start = sw_sub(l->past.end.force, k->rest_start),
+                   .end = sw_sub(l->trial.force, k->rest_end)};
 }
 
 /* 1 if some touch may be a blow. A touch that pressed before only slips or sticks, unless it
@@ -225,7 +225,22 @@ static int any_may_strike(const sw_contact *c, int followed) {
   return 0;
 }
 
-/* Pads of a gripper are left out; a gripper has other means to close slowly on a wire. */
+/* Jolt by a touch of a wire whose hardest blow so far is *own [N]. Pads of a gripper are left out;
+ * a gripper has other means to close slowly on a wire. */
+static double jolt_of(sw_contact *c, const sw_system *s, const sw_touch *t, int followed,
+                      double *own) {
+  sw_contact_loads *l = &c->loads[t->obstacle];
+  const sw_plan *p = s->bodies[t->body].plan;
+  if (c->obstacles[t->obstacle].grips > 0 || (!followed && t->known)) return 0;
+  const sw_blow b = blow_on(c, l, sw_contact_usual_force(s, p));
+  const double size = sw_norm(b.mean);
+  if (!(size > sw_contact_least_blow(b.usual, fmin(l->past.hardest, *own), followed))) return 0;
+  if (size > p->beam.EA) return 0; /* a hold drives it in: a wire's blow is weaker */
+  if (!sw_contact_comes_and_goes(b.usual, b.start, b.mean, b.end)) return 0;
+  if (!followed) l->past.hardest = fmax(l->past.hardest, size), *own = fmax(*own, size);
+  return sw_contact_jolt_of(size, b.usual, c->h);
+}
+
 double sw_contact_jolt(sw_contact *c, const sw_system *s, int followed, sw_blow_of of, void *user) {
   const sw_contact_load none = {.force = {.x = 0}};
   double hardest = 0;
@@ -235,21 +250,9 @@ double sw_contact_jolt(sw_contact *c, const sw_system *s, int followed, sw_blow_
   for (size_t i = 0; i < c->busy_count; i++) c->loads[c->busy[i]].trial = none;
   add_now(c, 1.0, trial_of);
   sw_contact_find_strikers(c, s);
-  for (size_t i = 0; i < c->touch_count; i++) {
-    const sw_touch *t = &c->touches[i];
-    sw_contact_loads *l = &c->loads[t->obstacle];
-    const sw_plan *p = s->bodies[t->body].plan;
-    const blow b = blow_on(c, l);
-    const double size = sw_norm(b.mean), usual = l->strikers.usual;
-    double *const own = of(user, t->body);
-    const double least = sw_contact_least_blow(usual, fmin(l->past.hardest, *own), followed);
-    if (c->obstacles[t->obstacle].grips > 0 || !(size > least)) continue;
-    if (size > p->beam.EA) continue; /* a hold drives it in: a wire's blow is weaker */
-    if (!followed && t->known) continue;
-    if (!sw_contact_comes_and_goes(usual, b.start, b.mean, b.end)) continue;
-    if (!followed) l->past.hardest = fmax(l->past.hardest, size), *own = fmax(*own, size);
-    hardest = fmax(hardest, sw_contact_jolt_of(size, usual, c->h));
-  }
+  for (sw_wire_look w = {.first = 0}; sw_contact_look_at_next(c, s, &w);)
+    for (size_t i = w.first; i < w.end; i++)
+      hardest = fmax(hardest, jolt_of(c, s, &c->touches[i], followed, of(user, w.body)));
   return hardest;
 }
 

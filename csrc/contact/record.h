@@ -117,6 +117,7 @@ typedef struct sw_impact {
   int obstacle, segment;
   size_t node;
   double at;
+  sw_vec kick;     /* impulse on the obstacle [N s] */
   uint32_t before; /* the previous impact at its node: number + 1, or 0 */
 } sw_impact;
 
@@ -141,12 +142,34 @@ typedef struct sw_ahead {
   sw_vec force; /* force on the wire there as used by the solves [N] */
 } sw_ahead;
 
+/* A touch's pressing force on its obstacle at the end of a step's first stage [N]. */
+typedef struct sw_pressing {
+  size_t body;
+  int obstacle;
+  sw_vec force;
+} sw_pressing;
+
+/* Weights of forces in a stage's impulse: of those at the step's start, at the end of the first
+ * stage, and at the end of a later one [s]. */
+typedef struct sw_weights {
+  double start, first, later;
+} sw_weights;
+
+/* What the blows of single wires are found from, where several touch obstacles. */
+typedef struct sw_singles {
+  sw_pressing *first; /* (count) in the order of wires */
+  size_t count, capacity;
+  sw_weights stage[SW_BOOK_STAGES];
+} sw_singles;
+
 /* Who strikes an obstacle in a trial step. Without strikers, all its wires count as such. */
 typedef struct sw_strikers {
+  size_t count;                /* number of striking wires */
   double usual;                /* usual forces of the striking wires, added [N] */
   double all;                  /* the same of all its wires, while they are looked at [N] */
   sw_vec rest_start, rest_end; /* loads of the others at the step's start and end [N] */
-  sw_vec from, to;             /* the same of the wire looked at [N] */
+  sw_vec from, to, first;      /* the same of the wire looked at, and after the first stage [N] */
+  sw_vec kicks;                /* its impulse by impacts at the step's start [N s] */
   size_t looked;               /* number of that wire + 1, or 0 */
 } sw_strikers;
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Tells the wires that strike an obstacle from those that rest on it. Only for the files of this
- * folder. */
+/* Tells the wires that strike an obstacle from those that rest on it, and the blow of one from
+ * those of others. Only for the files of this folder. */
 #ifndef SW_CONTACT_STRIKERS_H
 #define SW_CONTACT_STRIKERS_H
 
@@ -12,5 +12,27 @@
 void sw_contact_find_strikers(sw_contact *c, const sw_system *s);
 /* A trial begins: nobody is known to strike. */
 void sw_contact_forget_strikers(sw_contact *c);
+
+/* A look at one wire after the other: the present one, its touches (end exclusive), and the first
+ * memory and force after the first stage behind it. Begins with zeros. */
+typedef struct sw_wire_look {
+  size_t body, first, end, memory, pressing;
+} sw_wire_look;
+
+/* Finds the forces of the next wire on the obstacles that it touches, for sw_contact_own_blow; 0:
+ * there are no more. */
+int sw_contact_look_at_next(sw_contact *c, const sw_system *s, sw_wire_look *at);
+
+/* A load as a mean over the step, at its start and at its end, and the usual force of the wires
+ * that make it [N]. */
+typedef struct sw_blow {
+  sw_vec mean, start, end;
+  double usual;
+} sw_blow;
+
+/* Pressing force of the wire looked at. usual: its usual force [N]. */
+sw_blow sw_contact_own_blow(const sw_contact *c, const sw_strikers *on, double usual);
+/* Notes what sw_contact_own_blow needs, if several wires touch obstacles. */
+void sw_contact_book_singles(sw_contact *c, const sw_booking *b);
 
 #endif

@@ -17,20 +17,20 @@ struct sw_contact {
   int informed; /* 1: the owner has told the obstacles' loads and which obstacles may move */
   sw_broad broad;
   int last_stage; /* last stage whose loads were booked in this trial */
-  size_t count;
+  sw_singles singles;
+  size_t count, pad_count;
   sw_contact_place place; /* places an obstacle at a time, with user */
   void *user;
   sw_contact_at *start, *now; /* (count) positions at the step's start and at the stage */
   int *flat;                  /* (count) 1: a half space, without contacts of segments */
   int *straight;              /* (count) 1: its faces meet at right angles */
   int *pads;                  /* (pad_count) numbers of the pads of grippers */
-  size_t pad_count;
-  int *pressing; /* (count) 1: a pad that pressed on something at the step's start */
-  int *sharp;    /* (count) 1: it has faces, edges and corners */
-  double *round; /* (count) radius of its round side; 0: no round side [m] */
-  int *wound;    /* (count) last body that goes round it in this step: number + 1, or 0 */
-  int *dense;    /* (count) 1: particles of the current body lie close to each other */
-  double *sunk;  /* (3 nodes) shift by which contact finds a node deeper; NULL: no node [m] */
+  int *pressing;              /* (count) 1: a pad that pressed on something at the step's start */
+  int *sharp;                 /* (count) 1: it has faces, edges and corners */
+  double *round;              /* (count) radius of its round side; 0: no round side [m] */
+  int *wound;   /* (count) last body that goes round it in this step: number + 1, or 0 */
+  int *dense;   /* (count) 1: particles of the current body lie close to each other */
+  double *sunk; /* (3 nodes) shift by which contact finds a node deeper; NULL: no node [m] */
   size_t sunk_capacity;
   sw_ahead *ahead; /* (2 ahead_count) statics: states of the touches in the search, then room */
   size_t ahead_count, ahead_capacity; /* ahead_count = 0: there is no search */

@@ -10,15 +10,18 @@ local CABLES = { "GXL 1.5", "H07V-K 4" }
 
 local function radius(cable) return sw.cable(cable).outer_diameter.value / 2 end
 
--- Two cables that cross on a table; the upper one is rubbed over the lower one by its ends.
+-- Two cables that cross on a table; the upper one is rubbed over the lower one by its ends. It is so light
+-- that the lower one does not strike the table.
 local function crossing(scene)
-  local r, half = radius "GXL 1.5", LENGTH / 2
-  scene:wire{ cable = "GXL 1.5", from = { 0, -1.5, r }, to = { LENGTH, -1.5, r }, segments = SEGMENTS }
-  local upper = scene:wire{ cable = "GXL 1.5", from = { half, -1.5 - half, 3 * r },
-    to = { half, -1.5 + half, 3 * r }, segments = SEGMENTS }
+  local under, over, half = radius "H07V-K 4", radius "FLRY-B 0.5", LENGTH / 2
+  local height = 2 * under + over
+  scene:wire{ cable = "H07V-K 4", from = { 0, -1.5, under }, to = { LENGTH, -1.5, under },
+    segments = SEGMENTS }
+  local upper = scene:wire{ cable = "FLRY-B 0.5", from = { half, -1.5 - half, height },
+    to = { half, -1.5 + half, height }, segments = SEGMENTS }
   for _, s in ipairs{ 0, LENGTH } do
     scene:pin(upper, { s = s }):follow(function(t)
-      return { half + 0.02 * (1 - math.cos(3 * t)), -1.5 - half + s, 3 * r - 0.002 * math.sin(3 * t) }
+      return { half + 0.02 * (1 - math.cos(3 * t)), -1.5 - half + s, height - 0.002 * math.sin(3 * t) }
     end)
   end
   scene:wire_contact{ friction = 0.3 }
