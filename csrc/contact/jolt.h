@@ -11,9 +11,9 @@
  * before. followed: 1 if a blow is being followed and this one continues it [N]. */
 double sw_contact_least_blow(double usual, double hardest, int followed);
 /* 1 if a force came and went within a step: its end, or the middle of its start and end, differs
- * much from its mean [N]. sw_contact_jolt_of returns the jolt of a force of this size in a step of
- * size h [-]. */
-int sw_contact_comes_and_goes(double usual, sw_vec start, sw_vec mean, sw_vec end);
+ * much from its mean [N]. followed: as above. sw_contact_jolt_of returns the jolt of a force of
+ * this size in a step of size h [-]. */
+int sw_contact_comes_and_goes(double usual, sw_vec start, sw_vec mean, sw_vec end, int followed);
 double sw_contact_jolt_of(double size, double usual, double h);
 /* Gives the hardest blow of a body so far, to read or to change [N]. A blow is followed if it is
  * harder than those before on its obstacle, or than those of its wire. */

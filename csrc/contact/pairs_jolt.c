@@ -50,7 +50,7 @@ static double jolt_of(const sw_mutual *m, const sw_system *s, const uint32_t bod
   const double size = sw_norm(mean), before = fmin(*hardest[0], *hardest[1]);
   if (!(size > sw_contact_least_blow(usual, before, followed))) return 0;
   if (size > DRIVEN * fmin(one->beam.EA, two->beam.EA) || (!followed && !p.fresh)) return 0;
-  if (!sw_contact_comes_and_goes(usual, p.start, mean, p.end)) return 0;
+  if (!sw_contact_comes_and_goes(usual, p.start, mean, p.end, followed)) return 0;
   for (int k = 0; k < 2 && !followed; k++) *hardest[k] = fmax(*hardest[k], size);
   return sw_contact_jolt_of(size, usual, m->h);
 }
