@@ -275,8 +275,9 @@ static void set_stiffness(sw_contact *c, const sw_system *s, size_t body, size_t
     k->usual = fmax(fmax(base, rate2 * k->mass), round_stiffness(c, &s->bodies[body], k));
     if (k->samples) k->usual *= SW_LEAST_SAMPLES / (double)k->samples;
     if (p->web && c->regime != SW_CONTACT_EXPLICIT)
-      k->usual = fmax(k->usual, sw_pad_mesh_stiffness(c, p, k->node - s->bodies[body].first_node,
-                                                      (size_t)k->obstacle));
+      k->usual =
+          fmax(k->usual, sw_pad_mesh_stiffness(c, p, k->node - s->bodies[body].first_node,
+                                               sw_vec_at(s->x, k->node), (size_t)k->obstacle));
     if (p->web || !(grips > 0)) continue;
     const double soft = sw_pad_stiffness(c, p, k, k->node - s->bodies[body].first_node);
     k->given = c->regime != SW_CONTACT_EXPLICIT;

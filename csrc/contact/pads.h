@@ -17,9 +17,9 @@ int sw_pad_samples(const sw_contact *c, const sw_plan *p, size_t i, size_t o);
 /* Stiffness of a pad's touch on a wire without a section: as soft as a section would be, and no
  * stiffer than its force needs. Between rigid things no force could be set [N/m]. */
 double sw_pad_stiffness(const sw_contact *c, const sw_plan *p, const sw_candidate *k, size_t edge);
-/* Least stiffness of an obstacle's touch on a particle of a mesh. 0: any; where all obstacles stand
- * still nothing squeezes [N/m]. */
-double sw_pad_mesh_stiffness(const sw_contact *c, const sw_plan *p, size_t particle,
+/* Least stiffness of an obstacle's touch on a particle of a mesh, at x. 0: any; where all obstacles
+ * stand still nothing squeezes [N/m]. */
+double sw_pad_mesh_stiffness(const sw_contact *c, const sw_plan *p, size_t particle, sw_vec x,
                              size_t obstacle);
 
 #endif

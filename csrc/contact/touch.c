@@ -241,6 +241,14 @@ static int closed_here(const sw_web *web, const sw_press *press, const sw_touch 
   return press->gap >= 0 && press->active && !slid;
 }
 
+/* 1 if a slide's reversals are counted, so that it sticks at last: in statics always for meshes of
+ * elements, whose particles between pads would else turn round in every other iterate. */
+static int counts_reversals(const sw_contact *c, const sw_system *s, const sw_touch *t) {
+  if (c->regime == SW_CONTACT_IMPLICIT) return c->updates > 0;
+  const sw_web *web = s->bodies[t->body].plan->web;
+  return (web && web->solid_rate2 > 0) || sw_contact_moves(c);
+}
+
 /* Begins friction of a touch. A new touch has moved freely, so it slides first. For a wire that
  * rolls, a long spring does not mean a slide: on a curved surface both its shift and its turn are
  * predicted less exactly than that. */
@@ -255,8 +263,7 @@ static void begin_friction(const sw_contact *c, const sw_system *s, const sw_mem
   else
     u = without_rounding(u, press->normal, t->point);
   sw_press_aim(press, u, last ? &last->press : NULL, last && last->stage == c->stage, c->first);
-  const int turned = last && last->press.reversals > 0, moving = c->regime == SW_CONTACT_IMPLICIT;
-  if (turned && (moving ? c->updates > 0 : sw_contact_moves(c)))
+  if (last && last->press.reversals > 0 && counts_reversals(c, s, t))
     press->reversals = last->press.reversals;
   const sw_contact_obstacle *o = &c->obstacles[t->obstacle];
   const int went_on = last && last->press.active, searches = last && c->ahead_count;
@@ -291,12 +298,13 @@ static double end_stiffness(const sw_contact *c, const sw_system *s, const sw_ca
   return fmax(k->usual, along * along * b->EA / b->plan->rest[e]);
 }
 
-/* Stiffness of a touch; usual: that of a new one [N/m]. */
+/* Stiffness of a touch; usual: that of a new one, which rises where pads come near [N/m]. */
 static double stiffness_of(const sw_contact *c, const sw_candidate *k, const sw_memory *m,
                            const sw_touch *last, double usual) {
   if (c->regime == SW_CONTACT_EXPLICIT) return k->usual;
   if (last) return last->stiffer;
-  return m ? m->kept.k : usual;
+  const double least = c->regime == SW_CONTACT_STATIC ? usual : 0.0;
+  return m ? fmax(m->kept.k, least) : usual;
 }
 
 /* 1 if a touch is that of the previous iterate, moved a little. */

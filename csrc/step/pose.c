@@ -22,7 +22,8 @@ enum { MOST_HALVINGS = 6 }; /* of a pose step [-] */
 /* Limit of a trial: a pose that needs more is found sooner in smaller steps [-]. */
 enum { FEW_ITERATIONS = 300 };
 
-/* The scene at the start of a pose in which a tie may break or a wire may enter a clip. */
+/* The scene at the start of a pose in which a tie may break, a wire may enter a clip, or pads may
+ * press a section. */
 typedef struct kept {
   sw_tape live;
   sw_jaw *jaws; /* (tools) */
@@ -120,6 +121,9 @@ static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_ar
     if (!helps || !halvings) return status;
     return by_the_middle(s, t1, halvings, how, report, start, err);
   }
+  const double part_of_jaws = start->jaws && squeezes ? sw_jaw_part(s, t1 - t0) : t1 - t0;
+  if (part_of_jaws < (t1 - t0) * (1 - 1e-9))
+    return again(s, t0, t0 + part_of_jaws, halvings, how, report, start, err);
   if (start->jaws && t1 - t0 > how->shortest &&
       sw_scene_check_ties(s, sw_scene_system(s)->x, &why) != SW_OK)
     return again(s, t0, 0.5 * (t0 + t1), halvings, how, report, start, err);
@@ -134,7 +138,8 @@ static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_ar
 static sw_status pose(sw_scene *s, double t1, int halvings, const sw_pose_args *how,
                       sw_run_report *report, sw_error *err) {
   kept start = {0};
-  if (sw_scene_may_break(s) || sw_passing_any(s)) SW_TRY(keep(s, &start, err));
+  if (sw_scene_may_break(s) || sw_passing_any(s) || sw_jaw_presses_sections(s))
+    SW_TRY(keep(s, &start, err));
   const sw_status status = one_pose(s, t1, halvings, how, report, &start, err);
   drop(&start);
   return status;

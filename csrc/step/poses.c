@@ -6,6 +6,7 @@
 #include "scene/course.h"
 #include "scene/parts.h"
 #include "step/energy.h"
+#include "step/jaw.h"
 #include "step/ladder.h"
 #include "step/passing.h"
 #include "step/rest.h"
@@ -22,7 +23,7 @@ static sw_status pose_steps(sw_ladder *p, double t, sw_error *err) {
                              shortest [s] */
   while (sw_scene_time(s) < t) {
     const double t0 = sw_scene_time(s);
-    double h = fmin(most, t - t0);
+    double h = sw_jaw_step(s, fmin(most, t - t0));
     if (p->interrupted && p->interrupted()) return SW_EINTR;
     SW_TRY(sw_quota_take(err));
     SW_TRY(sw_ladder_make_room(p, &h, err));
