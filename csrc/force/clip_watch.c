@@ -204,6 +204,30 @@ void sw_clip_follow(const sw_clip *c, const sw_clip_middle *m, double time, doub
 
 void sw_clip_begin_run(double *history) { history[SW_CLIP_RUN_PEAK] = -1; }
 
+/* Beside a clip a wire bends by the way that nodes lie in it. The smallest bend radius was off by
+ * up to OFF (edge / width)^2: three catalogue cables with a clamp 12 to 40 mm beside a clip of 8
+ * mm, at all places of nodes, edges of 2 to 8 mm (spec/scene/clip_edges_spec). It is told from
+ * edges of WIDE widths on, if the clip bends the wire by more than BENDS within an edge [-], [-],
+ * [rad]. */
+static const double OFF = 0.25, WIDE = 0.6, BENDS = 0.01;
+
+void sw_clip_watch_edges(const sw_clip *c, const sw_clip_middle *m, double EI, double *h) {
+  if (h[SW_CLIP_NEWS] != SW_CLIP_NO_NEWS || h[SW_CLIP_STATE] != SW_CLIP_SEATED) return;
+  if (!(m->edge > WIDE * c->width)) return;
+  if (sw_norm(m->force) * m->edge * m->edge > 2.0 * BENDS * EI)
+    tell(h, SW_CLIP_LONG_EDGES, m->edge, m->s);
+}
+
+static void write_edges(const sw_clip_args *args, double edge, sw_force_news *out) {
+  const double share = edge / args->width;
+  out->kind = "edges";
+  snprintf(
+      out->text, sizeof out->text,
+      "edges of %.3g mm in a clip of %.3g mm: bend radii beside it may be %.0f %% off; try edges "
+      "of %.3g mm (2 %%)",
+      1e3 * edge, 1e3 * args->width, 100.0 * OFF * share * share, 250.0 * args->width);
+}
+
 /* Says with which part of the lips' force a wire passed them, and why. */
 static void write_weak(const sw_clip_args *args, const double *h, sw_force_news *out) {
   const int what = (int)h[SW_CLIP_NEWS];
@@ -238,6 +262,8 @@ int sw_clip_news(const void *args, const double *history, sw_force_news *out) {
              "the wire comes out askew (%.2g degrees): its edges of %.3g mm are longer than a "
              "quarter of the clip's width, so the force may be 25 %% wrong",
              180.0 / M_PI * atan(fabs(history[SW_CLIP_PEAK_SLOPE])), 1e3 * value);
+  else if (what == SW_CLIP_LONG_EDGES)
+    write_edges(args, value, out);
   else if (what >= SW_CLIP_PEELED_IN)
     write_weak(args, history, out);
   else if (what == SW_CLIP_PASSED)

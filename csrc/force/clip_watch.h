@@ -52,7 +52,8 @@ enum {
   SW_CLIP_PEELED_IN,
   SW_CLIP_PEELED_OUT,
   SW_CLIP_UNSEEN_IN, /* steps have missed the lips' peak */
-  SW_CLIP_UNSEEN_OUT
+  SW_CLIP_UNSEEN_OUT,
+  SW_CLIP_LONG_EDGES
 };
 
 static inline int sw_clip_is_broken(const double *history) {
@@ -81,6 +82,11 @@ int sw_clip_breaks(const sw_clip *clip, const sw_clip_middle *middle, double tim
 /* After a step: updates the wire's state on its way in or out. */
 void sw_clip_follow(const sw_clip *clip, const sw_clip_middle *middle, double time,
                     double *history);
+
+/* After that: notes if edges are too long for the bend that the clip makes. EI: the wire's [N m2].
+ */
+void sw_clip_watch_edges(const sw_clip *clip, const sw_clip_middle *middle, double EI,
+                         double *history);
 
 /* See sw_force_class. */
 void sw_clip_begin_run(double *history);
