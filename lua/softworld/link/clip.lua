@@ -19,7 +19,7 @@ local vec = require "softworld.vec"
 local fixshape = require "softworld.link.fixshape"
 
 local properties = {}
-local Clip = fixing.class("clip", properties, { "on", "radius", "damper" })
+local Clip = fixing.class("clip", properties, { "on", "radius", "damper", "stiffness" })
 local EMPTY, INSERTING, SEATED = 0, 1, 2 -- the core's states
 local BROKEN = { "its floor", "a wall", "a wall from outside", [5] = "it within one step" }
 local SNAP = 2e-3 -- default time of the snap damping [s]
@@ -134,7 +134,7 @@ fixing.made(Clip, function(scene, given)
   force:call_it(name)
   return { name = name, object = force, at = args.at, damper = make_damper(scene, args, time, force),
     direction = args.direction, axis = args.axis, width = args.width, on = args.on, radius = args.radius,
-    insertion = args.insertion, retention = args.retention }
+    insertion = args.insertion, retention = args.retention, stiffness = args.stiffness }
 end)
 
 function Clip.exists(self) return core.exists(self.object) and self.object.held end

@@ -5,6 +5,7 @@ local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local choose = require "softworld.model.choose"
+local cliproom = require "softworld.link.cliproom"
 local document = require "softworld.run.document"
 local go = require "softworld.run.go"
 local kept = require "softworld.run.kept"
@@ -60,6 +61,7 @@ local function check_start(scene, args)
   if #data.wires + #data.particles + #data.processes == 0 and not data.going then -- a process may make some
     error(("scene '%s': there is no wire"):format(scene.name), 0)
   end
+  cliproom.check(scene)
 end
 
 -- Checks which frames to store.
