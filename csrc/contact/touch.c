@@ -303,8 +303,7 @@ static double stiffness_of(const sw_contact *c, const sw_candidate *k, const sw_
                            const sw_touch *last, double usual) {
   if (c->regime == SW_CONTACT_EXPLICIT) return k->usual;
   if (last) return last->stiffer;
-  const double least = c->regime == SW_CONTACT_STATIC ? usual : 0.0;
-  return m ? fmax(m->kept.k, least) : usual;
+  return !m ? usual : fmax(m->kept.k, c->regime == SW_CONTACT_STATIC ? usual : 0.0);
 }
 
 /* 1 if a touch is that of the previous iterate, moved a little. */
