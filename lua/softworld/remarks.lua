@@ -110,7 +110,8 @@ function remarks.tie(what, apart, args)
   if pull <= math.min(JERK, args.strength or JERK) or not remarks.wanted() then return end
   local breaks = args.strength and pull > args.strength and ", and breaks" or ""
   tell("tie", ("%s: the places are %.4g mm apart and the slack is %.4g mm: the tie pulls them together with "
-    .. "%.3g N at once%s; without `slack` its length is the present distance"):format(what, 1e3 * apart,
+    .. "%.3g N at once%s. Its pull at rest is right; its pull before and its peaks depend on the time step. "
+    .. "Without `slack` its length is the present distance"):format(what, 1e3 * apart,
       1e3 * args.slack, pull, breaks))
 end
 
