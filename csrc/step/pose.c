@@ -122,7 +122,7 @@ static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_ar
     return by_the_middle(s, t1, halvings, how, report, start, err);
   }
   const double part_of_jaws = start->jaws && squeezes ? sw_jaw_part(s, t1 - t0) : t1 - t0;
-  if (part_of_jaws < (t1 - t0) * (1 - 1e-9))
+  if (start->jaws && part_of_jaws < (t1 - t0) * (1 - 1e-9))
     return again(s, t0, t0 + part_of_jaws, halvings, how, report, start, err);
   if (start->jaws && t1 - t0 > how->shortest &&
       sw_scene_check_ties(s, sw_scene_system(s)->x, &why) != SW_OK)
