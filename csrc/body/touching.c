@@ -124,23 +124,29 @@ void sw_scene_inform_contact(sw_scene *s) {
   sw_contact_recall(s->contact, past_of, may_move);
 }
 
-/* Finds the wires that wait, and wakes those that may touch others. */
-static void find_waiting(sw_scene *s, sw_contact_regime regime) {
+/* Finds the wires that wait in the step. */
+static sw_status find_waiting(sw_scene *s, sw_contact_regime regime, double t, double h,
+                              double nominal, sw_error *err) {
   const int alone = !s->crowd && !s->grains && regime == SW_CONTACT_IMPLICIT;
   sw_waits_find(&s->system, alone && s->course.next == SW_AS_BEFORE);
-  if (s->pairs && s->system.waiting) (void)sw_pairs_wake(s->pairs, &s->system);
+  if (!s->system.waiting) return SW_OK;
+  if (s->contact) SW_TRY(sw_contact_wake(s->contact, &s->system, t, h, err));
+  if (!s->pairs) return SW_OK;
+  sw_mutual_regard(s->pairs, &s->system, regime, h, nominal);
+  const sw_status status = sw_mutual_wake(s->pairs, &s->system);
+  return status == SW_OK ? SW_OK : sw_fail(err, status, "contact of wires: out of memory");
 }
 
 sw_status sw_scene_begin_contact(sw_scene *s, sw_contact_regime regime, double t, double h,
                                  double nominal, sw_error *err) {
   if (s->contact && !sw_contact_informed(s->contact)) sw_scene_inform_contact(s);
-  if (s->pairs) SW_TRY(sw_mutual_begin_step(s->pairs, &s->system, regime, h, nominal, err));
-  find_waiting(s, regime);
+  SW_TRY(find_waiting(s, regime, t, h, nominal, err));
   if (s->contact) SW_TRY(sw_contact_begin_step(s->contact, &s->system, regime, t, h, nominal, err));
   const sw_status crowd = s->crowd ? sw_crowd_begin_step(s->crowd, &s->system, h) : SW_OK;
   if (crowd != SW_OK)
     return sw_fail(err, crowd, "particles that repel each other: %s",
                    crowd == SW_ELIMIT ? "too many are near each other" : sw_status_text(crowd));
+  if (s->pairs) SW_TRY(sw_mutual_begin_step(s->pairs, &s->system, regime, h, nominal, err));
   if (!s->grains) return SW_OK;
   if (!s->pairs) SW_TRY(sw_system_begin_plan(&s->system));
   return sw_mutual_begin_step(s->grains, &s->system, regime, h, nominal, err);
@@ -148,7 +154,7 @@ sw_status sw_scene_begin_contact(sw_scene *s, sw_contact_regime regime, double t
 
 /* A wider search may have found pairs with wires that wait: they have no touches with obstacles. */
 static int found_waiting(sw_scene *s) {
-  if (!s->pairs || !s->system.waiting || !sw_pairs_wake(s->pairs, &s->system)) return 0;
+  if (!s->pairs || !s->system.waiting || !sw_pairs_meet_waiting(s->pairs, &s->system)) return 0;
   sw_waits_wake(&s->system);
   return 1;
 }
@@ -241,6 +247,7 @@ size_t sw_scene_presses(const sw_scene *s, sw_presses list[SW_SCENE_PRESSES]) {
   if (s->contact) list[n++] = sw_contact_presses(s->contact);
   if (s->contact) list[n++] = sw_contact_still_presses(s->contact);
   if (s->pairs) list[n++] = sw_mutual_presses(s->pairs);
+  if (s->pairs) list[n++] = sw_mutual_still_presses(s->pairs);
   if (s->grains) list[n++] = sw_mutual_presses(s->grains);
   return n;
 }
@@ -258,7 +265,8 @@ double sw_scene_contact_energy(const sw_scene *s) { return sum_of(s, sw_presses_
 double sw_scene_rubbed(const sw_scene *s) { return sum_of(s, sw_presses_rubbed); }
 
 static size_t places_of(const sw_mutual *m) {
-  return m ? sw_presses_count(sw_mutual_presses(m)) : 0;
+  if (!m) return 0;
+  return sw_presses_count(sw_mutual_presses(m)) + sw_presses_count(sw_mutual_still_presses(m));
 }
 
 size_t sw_scene_places(const sw_scene *s) { return places_of(s->pairs) + places_of(s->grains); }

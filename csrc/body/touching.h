@@ -41,7 +41,7 @@ void sw_scene_commit_contact(sw_scene *scene);
 sw_status sw_scene_linearise(sw_scene *scene, const size_t *only, size_t count, sw_error *err);
 double sw_scene_deepest(const sw_scene *scene, size_t *node); /* deepest penetration [m] */
 /* Lists of all touches; returns how many lists. */
-enum { SW_SCENE_PRESSES = 4 };
+enum { SW_SCENE_PRESSES = 5 };
 size_t sw_scene_presses(const sw_scene *scene, sw_presses list[SW_SCENE_PRESSES]);
 double sw_scene_contact_energy(const sw_scene *scene); /* [J] */
 double sw_scene_rubbed(const sw_scene *scene);         /* lost by friction in the step [J] */

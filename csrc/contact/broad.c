@@ -124,13 +124,17 @@ static sw_bounds swept(sw_broad *b, const sw_contact *c, size_t o) {
   return (sw_bounds){sw_sub(box->min, w), sw_add(box->max, w)};
 }
 
+void sw_broad_bound_movers(sw_contact *c) {
+  for (size_t k = 0; k < c->broad.mover_count; k++) {
+    const size_t o = (size_t)c->broad.mover[k];
+    c->bounds[o] = world_bounds(c->obstacles[o].shape, &c->start[o].pose);
+  }
+}
+
 static void measure(sw_contact *c) {
   sw_broad *b = &c->broad;
   b->factor = 1.0, b->omega = 0, b->turning_time = c->h;
-  for (size_t k = 0; k < b->mover_count; k++) {
-    const size_t o = (size_t)b->mover[k];
-    c->bounds[o] = world_bounds(c->obstacles[o].shape, &c->start[o].pose);
-  }
+  sw_broad_bound_movers(c);
   for (size_t k = 0; k < b->group[1].count; k++)
     b->group[1].boxes[k] = swept(b, c, (size_t)b->group[1].member[k]);
 }

@@ -60,6 +60,8 @@ sw_status sw_broad_update(sw_contact *c);
 const int *sw_broad_near(sw_broad *broad, const sw_bounds *box, double reach, size_t *count,
                          size_t *looks);
 
+/* Updates the boxes of obstacles that may move, as placed at the step's start. */
+void sw_broad_bound_movers(sw_contact *c);
 /* 1 if the obstacle may come within reach of what lies still in the box, in the step. */
 int sw_broad_disturbs(const sw_contact *c, size_t o, const sw_bounds *box, double reach);
 

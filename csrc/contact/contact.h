@@ -68,11 +68,13 @@ void sw_contact_stiffness(sw_contact_regime regime, const sw_plan *plan, double 
 /* Least stiffness of touches of a particle with other objects, not in explicit steps [N/m]. */
 double sw_contact_hardness(const sw_web *web, size_t particle);
 
-/* Begins a step of size h at time t and the system's state: finds candidates. nominal: the run's
- * full step, which sets the stiffness. In statics both are the pseudo step, and h = 0 if there is
- * none. */
+/* Begins a step of size h at time t: finds candidates. nominal: the run's full step, which sets the
+ * stiffness. In statics both are the pseudo step, or h = 0 without one. */
 sw_status sw_contact_begin_step(sw_contact *contact, sw_system *system, sw_contact_regime regime,
                                 double t, double h, double nominal, sw_error *err);
+
+/* Before that: wakes the bodies that something may disturb in the step (system/wait.h). */
+sw_status sw_contact_wake(sw_contact *contact, sw_system *s, double t, double h, sw_error *err);
 
 /* Begins evaluations at the accepted state. Each touch gets the last step's force over depth as its
  * stiffness. */
@@ -97,9 +99,8 @@ int sw_contact_settled(void *contact, sw_system *system, const double *y, const 
 
 /* See sw_coupling. */
 void sw_contact_book(void *contact, const sw_booking *booking);
-/* Impulse and moment of impulse of the wires on an obstacle, booked so far in the step, about its
- * place; impacts are not included. id: the owner's number of an existing obstacle [N s], [N m s].
- */
+/* Impulse of the wires on an obstacle (the owner's number), booked so far in the step, about its
+ * place, without impacts [N s], [N m s]. */
 void sw_contact_gained(const sw_contact *contact, int id, sw_vec *force, sw_vec *moment);
 
 /* The owner's number of obstacle k; its load in the last accepted step. */
@@ -109,7 +110,7 @@ const sw_contact_past *sw_contact_past_of(const sw_contact *contact, size_t k);
 const int *sw_contact_busy(const sw_contact *contact, size_t *count);
 /* Numbers (count) of the obstacles that may move. */
 const int *sw_contact_movers(const sw_contact *contact, size_t *count);
-/* By the owner's number: the obstacle's load of the last step; 1 if the obstacle may move. */
+/* By the owner's number: the load of the last step; 1 if it may move. */
 typedef const sw_contact_past *(*sw_contact_past_function)(void *user, int id);
 typedef int (*sw_contact_moves_function)(void *user, int id);
 /* 1 if the owner has called sw_contact_recall since contact was built, got a memory, or an obstacle
@@ -126,8 +127,7 @@ int sw_contact_moves(const sw_contact *contact);
  * steps in which wires strike each other do. */
 typedef enum sw_contact_verdict {
   SW_CONTACT_ACCEPT,
-  SW_CONTACT_REDO, /* impacts or crossings: starting velocities have changed or contacts were added;
-                      restart the step */
+  SW_CONTACT_REDO,   /* starting velocities or contacts were changed: restart the step */
   SW_CONTACT_SOONER, /* a rebound within the step: end the step at sw_contact_soonest */
   SW_CONTACT_STRIKE, /* something struck: redo the step without rebound */
   SW_CONTACT_SMALLER /* wires got too deep or got free: only a smaller step helps */
@@ -235,7 +235,7 @@ const void *sw_contact_seen(sw_contact *contact, size_t *bytes);
 sw_status sw_contact_set_seen(sw_contact *contact, const void *seen, size_t bytes, size_t nodes);
 /* A number that changes with the layout of these blocks, from version to version. */
 size_t sw_contact_layout(void);
-/* 1: a node of a wire without particles, or a segment that begins or ends there, has a memory. */
+/* 1: a wire's node, or a segment that begins or ends there, has a memory. */
 int sw_contact_memory_names(const void *memory, size_t bytes, size_t node);
 /* Adds the memory of nodes from old_first up to old_end (exclusive), for these obstacles (count)
  * only. The nodes are renumbered to begin at new_first. SW_ENOMEM. */

@@ -87,6 +87,8 @@ typedef struct sw_finder {
   void (*forget)(sw_mutual *mutual);
   /* Chooses the pairs that may touch in the step. */
   sw_status (*choose)(sw_mutual *mutual, sw_system *system);
+  /* Wakes the bodies that may touch one that does not wait. NULL: none waits. */
+  sw_status (*wake)(sw_mutual *mutual, sw_system *system);
   /* Finds this iterate's touches at positions y. */
   sw_status (*find)(sw_mutual *mutual, const sw_system *system, const double *y);
   /* Chooses more pairs if a step to x1 met others: 1 = redo the step, -1 = out of memory. */
@@ -99,6 +101,15 @@ typedef struct sw_finder {
   /* Adds to the memory of a touch at a step's end. NULL: there is nothing to add. */
   void (*note)(const sw_mutual *mutual, const sw_system *system, const sw_meet *touch, sw_met *out);
 } sw_finder;
+
+/* Touches between bodies that wait (contact/mutual_wait.c). */
+typedef struct sw_still_meets {
+  sw_meet *list, *room; /* in the order of sw_ends_order; room for the next list */
+  size_t count, capacity, room_capacity;
+  unsigned char *kept; /* (bodies) 1: the body waits; its touches with such are in the list */
+  int any;             /* 1: some body waits */
+  int accepted;        /* 1: the other touches are those of the accepted state */
+} sw_still_meets;
 
 struct sw_mutual {
   const sw_finder *finder;
@@ -121,6 +132,7 @@ struct sw_mutual {
   size_t barrier_count;    /* barriers for the rest of the step */
   sw_meet *touches, *last; /* of this iterate and of the previous one, in the order of pairs */
   size_t touch_count, touch_capacity, last_count, last_capacity;
+  sw_still_meets still;
   void *grid; /* memory for the search for near things */
   size_t grid_capacity;
   sw_spots spots; /* memory for the refinement */
@@ -140,6 +152,11 @@ int sw_mutual_takes_part(const sw_mutual *mutual, size_t body);
 static inline const sw_pair_rule *sw_mutual_rule(const sw_mutual *m, const uint32_t body[2]) {
   return &m->rules[m->bodies * body[0] + body[1]];
 }
+/* A step begins, and it is known who waits: sets the touches between these aside. SW_ENOMEM. */
+sw_status sw_mutual_set_aside(sw_mutual *mutual, const sw_system *system);
+void sw_mutual_forget_still(sw_mutual *mutual);    /* drops them */
+sw_status sw_mutual_carry_over(sw_mutual *mutual); /* their memory, when a step is accepted */
+void sw_meets_free(sw_still_meets *still);
 /* Chooses again which pairs may touch in the step. */
 sw_status sw_mutual_choose(sw_mutual *mutual, sw_system *system);
 

@@ -18,7 +18,8 @@ sw_status sw_mutual_start(sw_mutual *m, const sw_finder *finder, const sw_pair_r
   m->rules = sw_alloc(bodies * bodies, sizeof *m->rules);
   m->base = sw_alloc(2 * bodies, sizeof *m->base);
   m->rubbing = sw_alloc(bodies, sizeof *m->rubbing);
-  if (!m->rules || !m->base || !m->rubbing) return SW_ENOMEM;
+  m->still.kept = sw_alloc(bodies, sizeof *m->still.kept);
+  if (!m->rules || !m->base || !m->rubbing || !m->still.kept) return SW_ENOMEM;
   m->largest = m->base + bodies;
   memcpy(m->rules, rules, bodies * bodies * sizeof *rules);
   return SW_OK;
@@ -36,6 +37,7 @@ void sw_mutual_free(sw_mutual *m) {
   void *const blocks[] = {m->grid, m->rules, m->base,   m->rubbing,     m->touches,
                           m->last, m->hits,  m->memory, m->next_memory, m->ways.list};
   for (size_t k = 0; k < sizeof blocks / sizeof blocks[0]; k++) sw_free(blocks[k]);
+  sw_meets_free(&m->still);
   sw_free(m);
 }
 
@@ -100,15 +102,21 @@ sw_status sw_mutual_choose(sw_mutual *m, sw_system *s) {
   return m->finder->choose(m, s);
 }
 
-sw_status sw_mutual_begin_step(sw_mutual *m, sw_system *s, sw_contact_regime regime, double h,
-                               double nominal, sw_error *err) {
+void sw_mutual_regard(sw_mutual *m, const sw_system *s, sw_contact_regime regime, double h,
+                      double nominal) {
   m->regime = regime;
   m->h = h, m->nominal = nominal;
-  m->hit_count = m->struck = m->barrier_count = 0;
   m->least_reserve = 0;
   m->fall = regime == SW_CONTACT_STATIC ? 0.0 : SW_RESERVE * sw_norm(sw_load(s->gravity)) * h * h;
+}
+
+sw_status sw_mutual_begin_step(sw_mutual *m, sw_system *s, sw_contact_regime regime, double h,
+                               double nominal, sw_error *err) {
+  sw_mutual_regard(m, s, regime, h, nominal);
+  m->hit_count = m->struck = m->barrier_count = 0;
+  if (sw_mutual_set_aside(m, s) != SW_OK) return fail(m, SW_ENOMEM, err);
   for (size_t b = 0; b < s->body_count; b++)
-    if (sw_mutual_takes_part(m, b))
+    if (!s->bodies[b].waits && sw_mutual_takes_part(m, b))
       sw_contact_stiffness(regime, s->bodies[b].plan, force_of(s, &s->bodies[b]), nominal,
                            &m->base[b], &m->rate2);
   const sw_status status = sw_mutual_choose(m, s);
@@ -212,6 +220,8 @@ void sw_mutual_commit(sw_mutual *m, sw_system *s) {
     *out = sw_meet_remember(s, t);
     if (m->finder->note) m->finder->note(m, s, t, out);
   }
+  (void)sw_mutual_carry_over(m);
+  m->still.accepted = 1;
   SW_SWAP(m->memory, m->next_memory);
   SW_SWAP(m->memory_capacity, m->next_capacity);
   m->memory_count = m->next_count;
@@ -227,31 +237,13 @@ sw_status sw_mutual_set_memory(sw_mutual *m, const void *memory, size_t bytes) {
   SW_TRY(sw_grow((void **)&m->memory, &m->memory_capacity, n, sizeof *m->memory));
   if (n) memcpy(m->memory, memory, bytes);
   m->memory_count = n;
-  m->touch_count = 0;
+  m->touch_count = 0, m->still.accepted = 0;
+  sw_mutual_forget_still(m);
   if (m->finder->forget) m->finder->forget(m);
   return SW_OK;
 }
 
 size_t sw_mutual_layout(void) { return 4096 * sizeof(sw_met) + sizeof(sw_meet); }
-
-const void *sw_mutual_seen(const sw_mutual *m, size_t *bytes) {
-  *bytes = m->touch_count * sizeof *m->touches;
-  return m->touches;
-}
-
-int sw_mutual_crowded(const sw_mutual *m, size_t most) {
-  uint32_t seen[SW_NEAR_MOST];
-  size_t count = 0;
-  for (size_t i = 0; i < 2 * m->touch_count; i++) {
-    const uint32_t body = m->touches[i / 2].of.body[i % 2];
-    size_t k = 0;
-    while (k < count && seen[k] != body) k++;
-    if (k < count) continue;
-    if (count == most || count == SW_NEAR_MOST) return 1;
-    seen[count++] = body;
-  }
-  return 0;
-}
 
 static int is_of(const size_t *first, size_t bodies, uint32_t body, uint32_t node) {
   return body < bodies && node >= first[body] && node < first[body + 1];
@@ -279,7 +271,7 @@ sw_status sw_mutual_set_seen(sw_mutual *m, const void *seen, size_t bytes, const
       const size_t range[2] = {b->first_node, b->first_node + b->plan->nodes};
       if (!is_of(range, 1, 0, e->node[k]) || !is_of(range, 1, 0, e->end[k])) return SW_EINVAL;
     }
-  m->touch_count = n;
+  m->touch_count = n, m->still.accepted = 1;
   return SW_OK;
 }
 
@@ -352,6 +344,17 @@ sw_presses sw_mutual_presses(const sw_mutual *m) {
   return SW_PRESSES(sw_meet, m->touches, m->touch_count);
 }
 
+sw_presses sw_mutual_still_presses(const sw_mutual *m) {
+  return SW_PRESSES(sw_meet, m->still.list, m->still.count);
+}
+
+/* Touch number k: those of bodies that are solved, then those of bodies that wait. */
+static const sw_meet *meet_at(const sw_mutual *m, size_t k) {
+  return k < m->touch_count ? &m->touches[k] : &m->still.list[k - m->touch_count];
+}
+
+static size_t all_of(const sw_mutual *m) { return m->touch_count + m->still.count; }
+
 static sw_pair_place place_of(const sw_meet *t) {
   return (sw_pair_place){.body = {t->of.body[0], t->of.body[1]},
                          .node = {t->of.node[0], t->of.node[1]},
@@ -365,8 +368,8 @@ static sw_pair_place place_of(const sw_meet *t) {
 }
 
 int sw_mutual_next_place(const sw_mutual *m, size_t body, size_t *next, sw_pair_place *out) {
-  while (*next < m->touch_count) {
-    const sw_meet *t = &m->touches[(*next)++];
+  while (*next < all_of(m)) {
+    const sw_meet *t = meet_at(m, (*next)++);
     const int is_of = body == SIZE_MAX || t->of.body[0] == body || t->of.body[1] == body;
     if (!is_of || !(t->press.normal_force > 0)) continue;
     *out = place_of(t);
@@ -377,8 +380,8 @@ int sw_mutual_next_place(const sw_mutual *m, size_t body, size_t *next, sw_pair_
 
 double sw_mutual_penetration(const sw_mutual *m, size_t *node) {
   double deepest = 0;
-  for (size_t i = 0; i < m->touch_count; i++) {
-    const sw_meet *t = &m->touches[i];
+  for (size_t i = 0; i < all_of(m); i++) {
+    const sw_meet *t = meet_at(m, i);
     const double depth = t->forgiven - t->press.gap_after - t->aslant;
     if (depth <= deepest) continue;
     deepest = depth;
@@ -390,7 +393,8 @@ double sw_mutual_penetration(const sw_mutual *m, size_t *node) {
 int sw_mutual_steady(const sw_mutual *m) {
   size_t before = 0;
   for (size_t i = 0; i < m->memory_count; i++) before += m->memory[i].kept.normal_force > 0;
-  return before == sw_presses_count(sw_mutual_presses(m)) && !m->struck;
+  const size_t still = sw_presses_count(sw_mutual_still_presses(m));
+  return before == sw_presses_count(sw_mutual_presses(m)) + still && !m->struck;
 }
 
 size_t sw_mutual_impacts(const sw_mutual *m) { return m->struck; }

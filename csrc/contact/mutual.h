@@ -39,8 +39,13 @@ int sw_mutual_idle(const sw_mutual *mutual);
 
 /* Marks the bodies that may touch others or themselves in this step as coupled (system/part.h). */
 void sw_pairs_mark(const sw_mutual *pairs, sw_system *system);
-/* Those bodies do not wait. 1 if some did. */
-int sw_pairs_wake(const sw_mutual *pairs, sw_system *system);
+/* 1 if a body that waits is among them. */
+int sw_pairs_meet_waiting(const sw_mutual *pairs, const sw_system *system);
+/* Before a step begins: wakes the bodies that may touch one that does not wait. SW_ENOMEM. Before
+ * that, sw_mutual_regard tells how long the step is. */
+void sw_mutual_regard(sw_mutual *mutual, const sw_system *system, sw_contact_regime regime,
+                      double h, double nominal);
+sw_status sw_mutual_wake(sw_mutual *mutual, sw_system *system);
 
 /* These correspond to the functions of sw_contact. */
 sw_status sw_mutual_begin_step(sw_mutual *mutual, sw_system *system, sw_contact_regime regime,
@@ -73,7 +78,7 @@ int sw_mutual_memory_names(const void *memory, size_t bytes, size_t node);
 enum { SW_NEAR_MOST = 16 };
 int sw_mutual_crowded(const sw_mutual *mutual, size_t most);
 /* Like sw_contact_seen. */
-const void *sw_mutual_seen(const sw_mutual *mutual, size_t *bytes);
+const void *sw_mutual_seen(sw_mutual *mutual, size_t *bytes);
 sw_status sw_mutual_set_seen(sw_mutual *mutual, const void *seen, size_t bytes,
                              const sw_system *system);
 size_t sw_mutual_layout(void); /* like sw_contact_layout */
@@ -100,6 +105,7 @@ int sw_mutual_next_place(const sw_mutual *mutual, size_t body, size_t *next, sw_
 double sw_mutual_penetration(const sw_mutual *mutual, size_t *node); /* [m] */
 /* Like those of sw_contact. */
 struct sw_presses sw_mutual_presses(const sw_mutual *mutual);
+struct sw_presses sw_mutual_still_presses(const sw_mutual *mutual); /* between bodies that wait */
 int sw_mutual_steady(const sw_mutual *mutual);
 size_t sw_mutual_impacts(const sw_mutual *mutual); /* [-] */
 

@@ -87,6 +87,7 @@ double sw_pair_radii(const sw_system *system, const uint32_t body[2]);
 
 /* See sw_finder. */
 sw_status sw_pairs_choose(sw_mutual *pairs, sw_system *system);
+sw_status sw_pairs_wake(sw_mutual *pairs, sw_system *system);
 sw_status sw_pairs_find(sw_mutual *pairs, const sw_system *system, const double *y);
 int sw_pairs_widen(sw_mutual *pairs, sw_system *system, const double *x1, double h);
 int sw_pairs_cross(sw_mutual *pairs, const sw_system *system, const double *x1);

@@ -35,6 +35,7 @@ static const sw_finder wires = {
     .free = free_own,
     .forget = forget,
     .choose = sw_pairs_choose,
+    .wake = sw_pairs_wake,
     .find = sw_pairs_find,
     .widen = sw_pairs_widen,
     .cross = sw_pairs_cross,
@@ -54,20 +55,30 @@ sw_status sw_pairs_new(const sw_system *s, const sw_pair_rule *rules, sw_mutual 
   return SW_ENOMEM;
 }
 
-int sw_pairs_wake(const sw_mutual *m, sw_system *s) {
+int sw_pairs_meet_waiting(const sw_mutual *m, const sw_system *s) {
   const sw_pairs *p = (const sw_pairs *)(const void *)m;
-  int any = 0;
   for (size_t i = 0; i < m->pair_count; i++)
-    for (int k = 0; k < 2; k++) {
-      sw_body *b = &s->bodies[p->pairs[i].body[k]];
-      any |= b->waits;
-      b->waits = 0;
-    }
-  return any;
+    for (int k = 0; k < 2; k++)
+      if (s->bodies[p->pairs[i].body[k]].waits) return 1;
+  return 0;
 }
 
 void sw_pairs_mark(const sw_mutual *m, sw_system *s) {
   const sw_pairs *p = (const sw_pairs *)(const void *)m;
   for (size_t i = 0; i < m->pair_count; i++)
     for (int k = 0; k < 2; k++) s->bodies[p->pairs[i].body[k]].coupled |= SW_TOUCHING;
+}
+
+int sw_mutual_crowded(const sw_mutual *m, size_t most) {
+  uint32_t seen[SW_NEAR_MOST];
+  size_t count = 0;
+  for (size_t i = 0; i < 2 * m->touch_count; i++) {
+    const uint32_t body = m->touches[i / 2].of.body[i % 2];
+    size_t k = 0;
+    while (k < count && seen[k] != body) k++;
+    if (k < count) continue;
+    if (count == most || count == SW_NEAR_MOST) return 1;
+    seen[count++] = body;
+  }
+  return 0;
 }

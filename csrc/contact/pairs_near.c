@@ -304,18 +304,46 @@ static int may_touch(sw_pairs *p, const sw_system *s, sw_near *n, double fast) {
   return n->distance - sum < reserve_of(p, sum, still ? 0.0 : sw_ends_speed(s, &ends));
 }
 
+/* Makes the list of segments near each other; *fast: bound of their relative speeds [m/s]. */
+static sw_status list_near(sw_pairs *p, const sw_system *s, double *fast) {
+  *fast = p->m.regime == SW_CONTACT_STATIC ? 0.0 : 2.0 * fastest(s);
+  for (size_t b = 0; b < s->body_count; b++)
+    if (sw_mutual_takes_part(&p->m, b)) p->edge[b] = longest_edge(s->bodies[b].plan);
+  return sw_pairs_list(p, s, reserve_of(p, 2.0 * widest_radius(p, s), *fast));
+}
+
+/* Who is woken wakes its neighbours. */
+sw_status sw_pairs_wake(sw_mutual *m, sw_system *s) {
+  sw_pairs *p = sw_pairs_of(m);
+  double fast;
+  SW_TRY(list_near(p, s, &fast));
+  for (int any = 1; any;) {
+    any = 0;
+    for (size_t k = 0; k < p->near_count; k++) {
+      sw_body *one = &s->bodies[p->near[k].body[0]], *two = &s->bodies[p->near[k].body[1]];
+      if (one->waits == two->waits || !may_touch(p, s, &p->near[k], fast)) continue;
+      one->waits = two->waits = 0;
+      any = 1;
+    }
+  }
+  return SW_OK;
+}
+
+static int both_wait(const sw_system *s, const sw_near *n) {
+  return s->bodies[n->body[0]].waits && s->bodies[n->body[1]].waits;
+}
+
 sw_status sw_pairs_choose(sw_mutual *m, sw_system *s) {
   sw_pairs *p = sw_pairs_of(m);
-  const double fast = m->regime == SW_CONTACT_STATIC ? 0.0 : 2.0 * fastest(s);
-  for (size_t b = 0; b < s->body_count; b++)
-    if (sw_mutual_takes_part(m, b)) p->edge[b] = longest_edge(s->bodies[b].plan);
-  SW_TRY(sw_pairs_list(p, s, reserve_of(p, 2.0 * widest_radius(p, s), fast)));
+  double fast;
+  SW_TRY(list_near(p, s, &fast));
   p->least_left = -HUGE_VAL;
   SW_TRY(sw_system_begin_plan(s));
   for (size_t k = 0; k < p->near_count; k++) {
     sw_near *n = &p->near[k];
     const double sum = sw_pair_radii(s, n->body);
     if (sw_interrupted()) return SW_EINTR;
+    if (s->waiting && both_wait(s, n)) continue;
     if (may_touch(p, s, n, fast))
       SW_TRY(add_pair(p, s, n, sum));
     else

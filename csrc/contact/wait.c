@@ -92,20 +92,27 @@ static int has_room(sw_contact *c, size_t bodies) {
   return c->still.kept != NULL;
 }
 
-/* Decides which bodies wait. Returns 1 if they are not those whose touches are set aside. */
-static int choose(sw_contact *c, sw_system *s) {
-  int changed = 0;
+sw_status sw_contact_wake(sw_contact *c, sw_system *s, double t, double h, sw_error *err) {
   size_t at = 0;
+  c->h = h;
+  if (!has_room(c, s->body_count)) return sw_fail(err, SW_ENOMEM, "contact: out of memory");
+  SW_TRY(sw_broad_place(c, t, c->start, err));
+  sw_broad_bound_movers(c);
   for (size_t b = 0; b < s->body_count; b++) {
     sw_body *body = &s->bodies[b];
     if (body->waits && may_be_disturbed(c, s, body)) body->waits = 0;
-    if (body->waits && !c->still.kept[b]) {
-      const list l = touches_of(body, c->touches, c->touch_count, &at);
-      if (!c->still.accepted || comes_out(&l)) body->waits = 0;
-    }
-    changed |= body->waits != c->still.kept[b];
+    if (!body->waits || c->still.kept[b]) continue;
+    const list l = touches_of(body, c->touches, c->touch_count, &at);
+    if (!c->still.accepted || comes_out(&l)) body->waits = 0;
   }
-  return changed;
+  return SW_OK;
+}
+
+/* 1 if the bodies that wait are not those whose touches are set aside. */
+static int has_changed(const sw_contact *c, const sw_system *s) {
+  for (size_t b = 0; b < s->body_count; b++)
+    if (s->bodies[b].waits != c->still.kept[b]) return 1;
+  return 0;
 }
 
 /* Sets the touches of the bodies that wait aside. */
@@ -138,7 +145,7 @@ sw_status sw_contact_wait(sw_contact *c, sw_system *s) {
   if (c->regime != SW_CONTACT_IMPLICIT || !has_room(c, s->body_count)) {
     for (size_t b = 0; b < s->body_count; b++) s->bodies[b].waits = 0;
     sw_contact_forget_still(c);
-  } else if ((s->waiting || c->still.any) && choose(c, s)) {
+  } else if ((s->waiting || c->still.any) && has_changed(c, s)) {
     SW_TRY(set_aside(c, s));
   }
   c->still.accepted = 0;

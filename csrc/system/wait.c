@@ -5,6 +5,8 @@
 #include <string.h>
 
 #include "base/each.h"
+#include "system/join.h"
+#include "system/part.h"
 
 /* A wire came to rest if no node is faster than SLOW [m/s], nor accelerated by more than BALANCED,
  * a billionth of gravity [m/s2]. Wires on a table get there by themselves, down to rounding: 1e-13
@@ -41,8 +43,8 @@ void sw_waits_stop(sw_system *s) {
   SW_ITEMS(sw_body, b, s->bodies, s->body_count) {
     double *v = s->v + 3 * b->first_node, *a = s->a + 3 * b->first_node;
     const size_t n = 3 * b->plan->nodes;
-    if (b->waits || b->coupled || !(largest(v, n) < SLOW) || !(largest(a, n) < BALANCED) ||
-        !may_wait(b))
+    if (b->waits || b->coupled & SW_JOINED || !(largest(v, n) < SLOW) ||
+        !(largest(a, n) < BALANCED) || !may_wait(b))
       continue;
     memset(v, 0, n * sizeof *v);
     memset(a, 0, n * sizeof *a);
@@ -58,9 +60,11 @@ static int is_zero(const double *values, size_t n) {
 void sw_waits_find(sw_system *s, int may) {
   s->waiting = 0;
   may &= !s->awake;
+  for (size_t b = 0; b < s->body_count; b++) s->bodies[b].coupled = 0;
+  if (may) sw_joins_mark(s);
   SW_ITEMS(sw_body, b, s->bodies, s->body_count) {
     const size_t at = 3 * b->first_node, n = 3 * b->plan->nodes;
-    b->waits = may && is_zero(s->v + at, n) && is_zero(s->a + at, n) && may_wait(b);
+    b->waits = may && !b->coupled && is_zero(s->v + at, n) && is_zero(s->a + at, n) && may_wait(b);
     s->waiting |= b->waits;
     b->weighed &= b->waits;
     may &= !b->plan->web;
