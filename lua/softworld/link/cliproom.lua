@@ -9,7 +9,7 @@ local vec = require "softworld.vec"
 
 local cliproom = {}
 
-local MOST, SHARE = 1e-4, 0.1 -- a wire may begin this deep: [m], of its radius [-]
+local MOST, SHARE = 1e-4, 0.25 -- a wire may begin this deep: [m], of its radius [-]
 local APART = 0.25 -- distance of places that are looked at, over the wire's radius [-]
 local WINDOW = 0.25 -- places up to this share of the width from the middle, where the clip acts most [-]
 local STIFFNESS = 50 -- default, see help "clip": over the larger force and per radius [-]
