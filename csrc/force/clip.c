@@ -295,10 +295,10 @@ static void inherit(const sw_plan *old, const double *from, const sw_field *f, d
 /* --- read-outs --------------------------------------------------------------------- */
 
 static const char *const outputs[] = {
-    "share",    "u",        "v",        "s",        "force_x",    "force_y",     "force_z",
-    "way",      "out",      "state",    "peak",     "insertions", "in_time",     "in_s",
-    "in_peak",  "removals", "out_time", "out_peak", "broken",     "broken_time", "broken_force",
-    "strength", "run_peak", NULL};
+    "share",    "u",        "v",          "s",        "force_x",    "force_y",     "force_z",
+    "way",      "out",      "state",      "peak",     "insertions", "in_time",     "in_s",
+    "in_peak",  "removals", "out_time",   "out_peak", "broken",     "broken_time", "broken_force",
+    "strength", "run_peak", "peak_slope", NULL};
 
 static void read(const void *args, const sw_field *f, const double *history, double *out) {
   const sw_clip c = clip_of(args, f, history);
@@ -332,7 +332,8 @@ static void read(const void *args, const sw_field *f, const double *history, dou
                            history[SW_CLIP_BROKEN_TIME],
                            history[SW_CLIP_BROKEN_FORCE],
                            c.law.strength,
-                           history[SW_CLIP_RUN_PEAK]};
+                           history[SW_CLIP_RUN_PEAK],
+                           history[SW_CLIP_PEAK_SLOPE]};
   for (size_t k = 0; k < sizeof values / sizeof values[0]; k++) out[k] = values[k];
 }
 

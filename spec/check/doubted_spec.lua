@@ -28,6 +28,28 @@ describe("run:check", function()
     assert.are.equal("PASS", row.verdict)
   end)
 
+  -- Pushed by 1 % of its length along itself, a wire between clamps buckles. A straight one that nothing
+  -- bends stays straight, and its bend radius would pass any limit.
+  it("leaves a wire open that should have buckled", function()
+    local verdicts = {}
+    for _, sag in ipairs{ 0, 1e-4 } do
+      local scene = sw.scene{ gravity = { 0, 0, 0 } }
+      local wire = scene:wire{ name = "rod", E = 5e6, density = 1500, radius = 0.002, segments = 20,
+        path = { { 0, 0, 0 }, { 0.15, 0, sag }, { 0.3, 0, 0 } } }
+      scene:force{ kind = "damping", on = wire, mass = 3, stiffness = 0.003 }
+      scene:clamp(wire, { s = 0 })
+      local far = scene:clamp(wire, { s = wire.length })
+      far:follow(sw.trajectory{ points = { { 0, 0, 0 }, { -0.003, 0, 0 } }, duration = 0.5,
+        relative = true })
+      local run = scene:run{ dt = 0.005, duration = 0.6 }
+      local check = run:check{ limits = { min_bend_radius = { min = 0.2, sure = true } } }
+      local row = check:row "rod.min_bend_radius"
+      verdicts[#verdicts + 1] = row.verdict
+      if sag == 0 then assert.truthy(row.note:find("buckl", 1, true), row.note) end
+    end
+    assert.same({ "OPEN", "FAIL" }, verdicts)
+  end)
+
   it("does not pass what breaks its limit", function()
     local check = landed(33):check{ limits = { min_bend_radius = { min = 10, sure = true } } }
     assert.are.equal("FAIL", check:row "wire1.min_bend_radius".verdict)
@@ -45,7 +67,7 @@ describe("an event doubts", function()
     assert.truthy(why(coarse):find("dt = 0.0012 s", 1, true))
     assert.is_nil(why(coarse, {}))
     assert.is_nil(why(coarse, nil, { value = 1, error = 0.1 }))
-    assert.is_nil(why{ kind = "kink", object = "a", text = "" })
+    assert.is_nil(why{ kind = "removed", object = "a", text = "" })
   end)
 
   it("those of the wire whose end it names", function()
@@ -53,6 +75,35 @@ describe("an event doubts", function()
       local event = { kind = kind, object = "a", text = "an end of wire 'a'" }
       assert.truthy(why(event):find(kind, 1, true))
       assert.is_nil(why(event, nil, nil, "b"))
+      assert.truthy(why(event, { peaks = true, on = "gripper" }, nil, "hand")) -- it may hold the wire
+      assert.truthy(why(event, { places = true }))
     end
+  end)
+
+  it("values that no error bar tells of", function()
+    local bar = { value = 1, error = 0.1 }
+    for _, kind in ipairs{ "crash", "overload", "breaking", "integrator", "walls", "kink", "clip",
+      "buckling" } do
+      assert.truthy(why({ kind = kind, object = "a", text = "" }, nil, bar), kind)
+    end
+  end)
+
+  it("nothing where the model is right: a clip that breaks, steps that were redone", function()
+    assert.is_nil(why{ kind = "clip", object = "a", text = "clip 'a': OVERLOADED, the wire breaks" })
+    local made = { kind = "energy", object = "", text = "steps made 0.1 J from nowhere, 3 % of" }
+    assert.truthy(why(made))
+    made.text = "11 steps were redone, more than 1 % of all, because they made energy, the worst at"
+    assert.is_nil(why(made))
+  end)
+
+  it("forces of grippers by the share of energy from nowhere", function()
+    local gap = { kind = "energy", object = "", value = 0.07,
+      text = "1 J come from nowhere, 7 % of the energy in play" }
+    local hand = { on = "gripper", unit = "N" }
+    local v = doubted.widen({ value = 2 }, hand, { events = { gap } })
+    assert.is_near(2 * 0.93, v.low, 1e-12)
+    assert.is_near(2 * 1.07, v.high, 1e-12)
+    assert.is_nil(doubted.widen({ value = 2, error = 0.1 }, hand, { events = { gap } }).high)
+    assert.is_nil(doubted.widen({ value = 2 }, { on = "wire", unit = "N" }, { events = { gap } }).high)
   end)
 end)

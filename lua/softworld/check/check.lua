@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- run:check: decides whether a process passes. Rows with value, limit, margin and verdict. See help "check".
 -- @module softworld.check.check
+local askew = require "softworld.check.askew"
 local build = require "softworld.scene.build"
 local bendrule = require "softworld.wire.bendrule"
 local checks = require "softworld.checks"
@@ -180,8 +181,10 @@ local function judge_one(self, member, entry, context, list)
   end
   with_error(value, error_bar(self.run, entry.name, member.name))
   if not self.several then edges.widen(value, member.edges, entry, self.run) end
+  askew.widen(value, member, entry, context)
+  doubted.widen(value, member, self.run)
   local function fresh() return start_row(self, member.name, entry.name, member.label, member.unit, value) end
-  value.doubt = doubted.why(member, value, entry, self.run)
+  value.doubt = value.doubt or doubted.why(member, value, entry, self.run)
   local known, why = known_limit(member, entry, context)
   if given then
     local reference = member.reference and member.reference(entry, context)

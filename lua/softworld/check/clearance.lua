@@ -5,7 +5,7 @@
 -- @module softworld.check.clearance
 local core = require "softworld.core"
 
-return { name = "clearance", unit = "m", side = "min", on = "wire",
+return { name = "clearance", unit = "m", side = "min", places = true, on = "wire",
   label = "smallest distance from forbidden zones", missing = "wanted distance",
   value = function(entry)
     local best

@@ -1,32 +1,78 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Rows of peaks that an event of the run doubts: such a row does not pass, because the true peak may be
--- larger. A value with an error bar is not doubted: its bar comes from other steps.
+--- Rows whose value an event of the run doubts: such a row does not pass, because the true value may be
+-- worse.
 -- @module softworld.check.doubted
+local checks = require "softworld.checks"
+
 local doubted = {}
 
--- For each kind of event: what the row says, before the step to compare with; and true if it holds only for
--- the wire that the event names.
+-- What is wrong after an event of this kind, as the row says it.
+--   own: only rows of the wire that the event names are in doubt, and those of grippers and ties, which may
+--     hold it
+--   places: places are in doubt too, not only peaks
+--   always: an error bar says nothing of it. Other doubts end with a bar, which comes from other steps
+--   only, unless: pattern of the event's text that such an event has, or has not
 local kinds = {
   coarse = { "a step was too long for peaks" },
-  threshold = { "an end nearly slips, or hardly: little decides its peaks", true },
-  rebound = { "an end strikes again: little decides its peaks", true },
+  threshold = { "an end nearly slips, or hardly: little decides its peaks", own = true, places = true },
+  rebound = { "an end strikes again: little decides its peaks", own = true, places = true },
+  energy = { "steps made energy: smaller steps would tell", only = "^steps made .* from nowhere" },
+  buckling = { "a straight or plane wire should have buckled", own = true, places = true, always = true },
+  integrator = { "the integrator gains energy in contact; tr-bdf2 would tell", always = true },
+  crash = { "forces are wrong after a crash", always = true },
+  overload = { "a hold overloads a wire: forces are wrong", always = true },
+  breaking = { "the wire would have torn; the run goes on with a whole one", always = true },
+  walls = { "walls of a mesh meet, which its springs do not feel", own = true, always = true },
+  kink = { "the walls of a fold do not touch each other: forces are too low", own = true, always = true },
+  clip = { "the clip's model does not cover this", always = true, unless = "OVERLOADED" },
 }
 
+local UNKNOWN = "come from nowhere" -- in events `energy` about a gap that no step made
+
+-- Members without `peaks` that depend on forces of holds all the same.
+local mean = checks.set "mean_force"
+
+-- True if the event doubts the row of this object.
+local function concerns(kind, e, member, entry)
+  if kind.only and not e.text:find(kind.only) then return false end
+  if kind.unless and e.text:find(kind.unless) then return false end
+  local held = member.on == "gripper" or member.on == "tie"
+  return not kind.own or held or e.object == entry.name
+end
+
 --- Returns why the row of an object may not pass, or nil.
--- @tparam table member of softworld.check.registry; peaks: true if its value is a peak of the motion
+-- @tparam table member of softworld.check.registry; peaks: true if its value is a peak of the motion; places:
+-- if it is a place
 -- @tparam table value of the row
 -- @tparam table entry { name =, object = }
 -- @tparam table run
 function doubted.why(member, value, entry, run)
-  if not member.peaks or value.error then return nil end
+  local peaks = member.peaks or mean[member.name]
+  if not peaks and not member.places then return nil end
   for _, e in ipairs(run.events) do
     local kind = kinds[e.kind]
-    if kind and (not kind[2] or e.object == entry.name) then
+    local asked = kind and (peaks or kind.places) and (kind.always or not value.error)
+    if asked and concerns(kind, e, member, entry) then
       local dt = e.text:match "with dt = ([%d.e-]+) s"
       return ("%s (event '%s')%s"):format(kind[1], e.kind, dt and (": dt = %s s, or tolerance, would tell")
         :format(dt) or "")
     end
   end
+end
+
+--- Widens the range of a gripper's forces where energy comes from nowhere: they are no more exact than its
+-- share of the energy in play. A value with an error bar keeps it.
+function doubted.widen(value, member, run)
+  local force = member.on == "gripper" and (member.unit == "N" or member.unit == "N m")
+  for _, e in ipairs(force and not value.error and run.events or {}) do
+    if e.kind == "energy" and e.text:find(UNKNOWN, 1, true) then
+      value.low, value.high = (value.low or value.value) * (1 - math.min(1, e.value)),
+        (value.high or value.value) * (1 + e.value)
+      value.note = ("%senergy from nowhere: not more exact than %.2g %%"):format(
+        value.note and value.note .. "; " or "", 100 * e.value)
+    end
+  end
+  return value
 end
 
 return doubted

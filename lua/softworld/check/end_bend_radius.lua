@@ -7,7 +7,8 @@ local cable = require "softworld.cable"
 
 local USE = "fixed"
 
-return { name = "end_bend_radius", unit = "m", side = "min", on = "wire", edges = "low", asked = true,
+return { name = "end_bend_radius", unit = "m", side = "min", places = true, on = "wire", edges = "low",
+  asked = true,
   label = "smallest radius of the inside of a bend at the end",
   missing = "bend (its wire has no entry of the catalogue)",
   wanted = function(context) return context.use ~= nil and context.use ~= USE end,

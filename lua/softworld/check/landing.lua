@@ -85,7 +85,7 @@ local function value(entry, context)
     note = uncovered(wanted, points, far, wire.radius) }
 end
 
-return { name = "landing_error", unit = "m", side = "max", on = "wire", asked = true,
+return { name = "landing_error", unit = "m", side = "max", places = true, on = "wire", asked = true,
   label = "largest distance from the wanted path at the end", missing = "allowed landing error",
   wanted = function(context) return context.landing ~= nil end, value = value,
   reference = function(entry) return entry.object.length / 100 end }

@@ -62,6 +62,8 @@ rows.calls{
     "{x, y, z} [N]" },
   { "clip:ratio", "wire", "largest pull so far over retention; at 1 it came out", "-" },
   { "clip:run_ratio", "wire", "the same of the last run, for wires that are in it now", "-" },
+  { "clip:tilt", "wire", "rise of the seated wire within the clip's width at its largest pull, over the "
+    .. "length of the lips' inner flank; tilted, it comes out at less than the retention", "-" },
   { "clip:height", "wire", "height of the wire over the seat, and of the lips; nil when no wire passes",
     "m, m" },
   { "clip:release", "", "takes the clip away" },
@@ -213,6 +215,17 @@ function Clip:run_ratio(wire)
     most = math.max(most, r.state == SEATED and r.run_peak or 0)
   end
   return most / self.retention
+end
+
+--- Returns how askew the seated wire was at its largest pull: its rise within the clip's width, over the
+-- length of the lips' inner flank [-].
+function Clip:tilt(wire)
+  local most = 0
+  for _, r in ipairs(chosen(self, wire, "tilt")) do
+    local pulled = r.state == SEATED and r.peak > 0
+    most = math.max(most, pulled and math.abs(r.peak_slope) * self.width / r.out or 0)
+  end
+  return most
 end
 
 --- Returns the height of the wire over the seat towards the mouth, and the lips' height [m]; nil if
