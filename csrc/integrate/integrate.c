@@ -369,6 +369,7 @@ void sw_stepper_accept(sw_stepper *p, sw_system *s, double h) {
 
 double sw_stepper_next_h(const sw_stepper *p, double h, double error, double tolerance) {
   const double safety = 0.9, most = 2.0, least = 0.2; /* of the last step [-] */
+  if (error == 0) return h * most; /* nothing moves */
   if (!(error > 0)) return h;
   const double factor = safety * pow(tolerance / error, 1.0 / (sw_stepper_order(p) + 1));
   return h * fmin(most, fmax(least, factor));

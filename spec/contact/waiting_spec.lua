@@ -253,4 +253,18 @@ describe("wires at rest", function()
       assert.is_true(math.abs(sums[1][kind] - sums[2][kind]) < 1e-9 * math.abs(sums[2].total))
     end
   end)
+
+  -- A step that ends where a run ends may be short. The next ones double: 15 of them from 1 us to 20 ms.
+  it("let steps of a run by tolerance grow", function()
+    for _, count in ipairs{ 1, 3 } do
+      local scene = table_with(count)
+      rest(scene)
+      local args = { dt = 0.02, tolerance = 1e-5 }
+      assert.is_true(scene:advance(args, scene.time + 1e-6).ok)
+      local row = scene:advance(args, scene.time + 1)
+      assert.is_true(row.ok, row.reason)
+      tools.below(1 / args.dt + 15, row.steps, "steps")
+      scene:close()
+    end
+  end)
 end)
