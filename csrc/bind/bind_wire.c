@@ -201,10 +201,14 @@ static int push_extreme(lua_State *L, double value, const sw_extreme *e) {
   return 3;
 }
 
-/* Smallest bend radius [m], where [m], when [s]; math.huge for a straight wire. */
+/* Smallest bend radius [m], where [m], when [s]; math.huge for a straight wire. Then how sharp the
+ * bend is: the second difference of the curvature from node to node over the curvature [-]. */
 static int meth_min_bend_radius(lua_State *L) {
-  const sw_extreme x = read_extremes(L).curvature;
-  return push_extreme(L, x.value > 0 ? 1.0 / x.value : HUGE_VAL, &x);
+  const sw_wire_extremes e = read_extremes(L);
+  const sw_extreme x = e.curvature;
+  (void)push_extreme(L, x.value > 0 ? 1.0 / x.value : HUGE_VAL, &x);
+  lua_pushnumber(L, x.value > 0 ? e.uneven / x.value : 0.0);
+  return 4;
 }
 
 typedef struct tension_args {
@@ -269,8 +273,7 @@ static int meth_max_torsion(lua_State *L) {
 static int meth_max_ovalisation(lua_State *L) {
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   const sw_extreme x = read_extremes(L).ovalisation;
-  if (sw_scene_wire_calibration(w.scene, w.id) || x.value > 0)
-    return push_extreme(L, x.value, &x);
+  if (sw_scene_wire_calibration(w.scene, w.id) || x.value > 0) return push_extreme(L, x.value, &x);
   return luaL_error(L,
                     "wire:max_ovalisation: wire '%s' is a %s, whose section does not change; this "
                     "is for meshes of particles",

@@ -48,22 +48,27 @@ double sw_scene_clamp_curvature(const sw_system *s, const sw_body *b, const sw_c
   return sw_clamp_curvature(h, s->directors_now, s->normals_now, t);
 }
 
-static void curvature_extreme(const sw_system *s, const sw_body *b, sw_extreme *out) {
+static void curvature_extreme(const sw_system *s, const sw_body *b, sw_extreme *out,
+                              double *uneven) {
   const sw_plan *p = b->plan;
   const sw_field *f = &b->field;
   const double bound2 =
       largest_curvature2(p->nodes, p->hinge, f->tangent[0], f->tangent[1], f->tangent[2]);
   *out = (sw_extreme){.s = p->s[0]};
+  *uneven = 0;
   for (size_t i = 1; i + 1 < p->nodes; i++) {
     if (!(p->hinge[i] > 0)) continue;
     const double chord = sw_scene_hinge_chord(f, i);
     if (chord * chord < (1 - 1e-12) * bound2 * p->hinge[i] * p->hinge[i]) continue;
     *out = (sw_extreme){.value = sw_angle_of_chord(chord) / p->hinge[i], .s = p->s[i]};
+    *uneven = sw_scene_uneven(s, b, i);
     break;
   }
   SW_ITEMS(const sw_clamp_hinge, h, p->clamps, p->clamp_count) {
     const double value = sw_scene_clamp_curvature(s, b, h);
-    if (value > out->value) *out = (sw_extreme){.value = value, .s = p->s[h->node]};
+    if (!(value > out->value)) continue;
+    *out = (sw_extreme){.value = value, .s = p->s[h->node]};
+    *uneven = sw_scene_uneven_at_clamp(s, b, h);
   }
 }
 
@@ -148,7 +153,7 @@ static void wire_now(sw_scene *s, size_t w, double *tension, sw_wire_extremes *n
     now->torsion.time = sw_scene_time(s);
     return;
   }
-  curvature_extreme(system, &system->bodies[w], &now->curvature);
+  curvature_extreme(system, &system->bodies[w], &now->curvature, &now->uneven);
   const sw_body *b = &system->bodies[w];
   largest_tension(b, sw_system_pull(system, b), &now->tension);
   strain_extreme(system, &system->bodies[w], &now->strain);
@@ -271,6 +276,7 @@ void sw_scene_run_tension(const sw_scene *s, size_t w, const sw_wire_extremes *n
 }
 
 void sw_scene_keep_extremes(sw_wire_extremes *kept, const sw_wire_extremes *now) {
+  if (now->curvature.value > kept->curvature.value) kept->uneven = now->uneven;
   keep_largest(&kept->curvature, &now->curvature);
   keep_largest(&kept->strain, &now->strain);
   keep_largest(&kept->ovalisation, &now->ovalisation);
@@ -297,7 +303,7 @@ void sw_scene_reset_extremes(sw_scene *s) {
   for (size_t w = 0; w < sw_scene_wire_slots(s); w++) {
     const sw_extreme least = {.value = -HUGE_VAL};
     sw_scene_wire_in(s, w)->extremes =
-        (sw_wire_extremes){least, least, least, least, least, least, least, 0};
+        (sw_wire_extremes){least, least, least, least, least, least, least, 0, 0};
     sw_scene_wire_in(s, w)->blow = 0;
     sw_window_forget(&sw_scene_wire_in(s, w)->window);
     sw_wear_free(&sw_scene_wire_in(s, w)->wear);

@@ -30,5 +30,10 @@ static inline double sw_angle_of_chord(double chord) { return 2.0 * asin(fmin(1.
 double sw_scene_hinge_chord(const sw_field *field, size_t i);
 double sw_scene_clamp_curvature(const sw_system *system, const sw_body *body,
                                 const sw_clamp_hinge *hinge);
+/* Second difference of the curvature from node to node: about an inner node, or from a clamp on. At
+ * a free end the curvature is zero [1/m]. */
+double sw_scene_uneven(const sw_system *system, const sw_body *body, size_t node);
+double sw_scene_uneven_at_clamp(const sw_system *system, const sw_body *body,
+                                const sw_clamp_hinge *hinge);
 
 #endif

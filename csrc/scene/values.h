@@ -24,6 +24,8 @@ typedef struct sw_wire_extremes {
   sw_extreme raw;         /* tension of a single step; `tension` is that of means over the window
                              [N] */
   double raw_span;        /* size of that step; 0: it was an equilibrium [s] */
+  double uneven;          /* second difference of the curvature from node to node, where and when it
+                             is largest [1/m] */
 } sw_wire_extremes;
 
 /* One recorded row per step of a hold: time, force, moment, held point. */

@@ -19,9 +19,9 @@ return { name = "min_bend_radius", unit = "m", side = "min", peaks = true, on = 
   label = "smallest radius of the inside of a bend",
   missing = "bend (its wire has no entry of the catalogue)",
   value = function(entry)
-    local radius, s, time = entry.object:min_bend_radius()
+    local radius, s, time, uneven = entry.object:min_bend_radius()
     local skin = entry.object.radius
-    return { value = radius - skin, inside = skin, s = s, time = time }
+    return { value = radius - skin, inside = skin, uneven = uneven, s = s, time = time }
   end,
   limit = limit,
   reference = function(entry) return 8 * entry.object.radius end }

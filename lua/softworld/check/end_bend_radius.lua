@@ -13,9 +13,9 @@ return { name = "end_bend_radius", unit = "m", side = "min", places = true, on =
   missing = "bend (its wire has no entry of the catalogue)",
   wanted = function(context) return context.use ~= nil and context.use ~= USE end,
   value = function(entry, context)
-    local radius, s = entry.object:min_bend_radius{ now = true }
+    local radius, s, _, uneven = entry.object:min_bend_radius{ now = true }
     local skin = entry.object.radius
-    return { value = radius - skin, inside = skin, s = s, time = context.run.time }
+    return { value = radius - skin, inside = skin, uneven = uneven, s = s, time = context.run.time }
   end,
   limit = function(entry)
     local known = entry.object:cable()
