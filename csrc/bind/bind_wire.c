@@ -201,14 +201,18 @@ static int push_extreme(lua_State *L, double value, const sw_extreme *e) {
   return 3;
 }
 
-/* Smallest bend radius [m], where [m], when [s]; math.huge for a straight wire. Then how sharp the
- * bend is: the second difference of the curvature from node to node over the curvature [-]. */
+/* Smallest bend radius [m], where [m], when [s]; math.huge for a straight wire. */
 static int meth_min_bend_radius(lua_State *L) {
+  const sw_extreme x = read_extremes(L).curvature;
+  return push_extreme(L, x.value > 0 ? 1.0 / x.value : HUGE_VAL, &x);
+}
+
+/* How sharp that bend is for the wire's edges: the second difference of the curvature from node to
+ * node over the curvature [-]. */
+static int meth_bend_sharpness(lua_State *L) {
   const sw_wire_extremes e = read_extremes(L);
-  const sw_extreme x = e.curvature;
-  (void)push_extreme(L, x.value > 0 ? 1.0 / x.value : HUGE_VAL, &x);
-  lua_pushnumber(L, x.value > 0 ? e.uneven / x.value : 0.0);
-  return 4;
+  lua_pushnumber(L, e.curvature.value > 0 ? e.uneven / e.curvature.value : 0.0);
+  return 1;
 }
 
 typedef struct tension_args {
@@ -354,6 +358,7 @@ static const luaL_Reg methods[] = {{"position", meth_position},
                                    {"velocities", meth_velocities},
                                    {"set_velocity", meth_set_velocity},
                                    {"min_bend_radius", meth_min_bend_radius},
+                                   {"bend_sharpness", meth_bend_sharpness},
                                    {"max_tension", meth_max_tension},
                                    {"strain", meth_strain},
                                    {"stress", meth_stress},

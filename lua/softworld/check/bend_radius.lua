@@ -19,8 +19,8 @@ return { name = "min_bend_radius", unit = "m", side = "min", peaks = true, on = 
   label = "smallest radius of the inside of a bend",
   missing = "bend (its wire has no entry of the catalogue)",
   value = function(entry)
-    local radius, s, time, uneven = entry.object:min_bend_radius()
-    local skin = entry.object.radius
+    local radius, s, time = entry.object:min_bend_radius()
+    local skin, uneven = entry.object.radius, entry.object:bend_sharpness()
     return { value = radius - skin, inside = skin, uneven = uneven, s = s, time = time }
   end,
   limit = limit,

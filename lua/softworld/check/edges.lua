@@ -12,9 +12,9 @@ local edges = {}
 local SHARE = 1.25
 -- It may be wider by `uneven`, at most by this share: up to 0.037 was measured, beside grips and clamps [-].
 local WIDER = 0.04
--- Below SMOOTH edges are fine for the bend. From ZIGZAG on, curvature alternates from node to node, and is as
--- sharp as edges can show: bends were up to ten times sharper [-].
-local SMOOTH, ZIGZAG = 0.02, 1.5
+-- Below SMOOTH edges are fine for the bend. From ZIGZAG on, curvature alternates between nodes: bends were
+-- up to ten times sharper, so SHARPER times are taken [-].
+local SMOOTH, ZIGZAG, SHARPER = 0.02, 1.5, 12
 
 -- Returns the event of a wire, or nil.
 local function event_of(run, name)
@@ -32,19 +32,18 @@ local function widen_bend(value, entry)
   if not (value.uneven and value.uneven > SMOOTH and value.value < math.huge) then return nil end
   local wire, known = entry.object, value.uneven < ZIGZAG
   local axis, uneven, inside = value.value + value.inside, value.uneven, value.inside
-  local least = known and axis / (1 + SHARE * uneven) - inside or 0
+  local least = axis / (known and 1 + SHARE * uneven or SHARPER) - inside
   value.low = math.max(0, math.min(value.low or value.value, least))
   value.high = math.max(value.high or value.value, axis * (1 + math.min(uneven, WIDER)) - inside)
   local most = number.text(value.high, "m")
-  return ("%s: edges of %s are coarse for this bend; more segments, or tolerance, would tell"):format(
-    known and ("between %s and %s"):format(number.text(value.low, "m"), most) or "at most " .. most,
-    number.text(wire.length / wire.segments, "m"))
+  return ("between %s and %s: edges of %s are coarse for this bend; more segments, or tolerance, would tell")
+    :format(number.text(value.low, "m"), most, number.text(wire.length / wire.segments, "m"))
 end
 
 --- Widens the range of a value. A bend of radius R in edges of length h may be sharper by h / (0.4 R), as
 -- many times as more segments are needed; a tension may be off by this factor to either side. A value with
 -- an error bar keeps it. value.inside: what the value is less than the radius of the centre line, to which
--- the factor applies [m]. value.uneven: how sharp a bend is for its edges, see wire:min_bend_radius [-].
+-- the factor applies [m]. value.uneven: how sharp a bend is for its edges, see wire:bend_sharpness [-].
 -- @tparam table value { value =, low =, high = }
 -- @tparam string way "low", "high" or "both": the side to which the value may be off; nil: it does not
 -- depend on bends

@@ -13,8 +13,8 @@ return { name = "end_bend_radius", unit = "m", side = "min", places = true, on =
   missing = "bend (its wire has no entry of the catalogue)",
   wanted = function(context) return context.use ~= nil and context.use ~= USE end,
   value = function(entry, context)
-    local radius, s, _, uneven = entry.object:min_bend_radius{ now = true }
-    local skin = entry.object.radius
+    local radius, s = entry.object:min_bend_radius{ now = true }
+    local skin, uneven = entry.object.radius, entry.object:bend_sharpness{ now = true }
     return { value = radius - skin, inside = skin, uneven = uneven, s = s, time = context.run.time }
   end,
   limit = function(entry)
