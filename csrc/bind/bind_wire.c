@@ -181,15 +181,16 @@ static int meth_velocities(lua_State *L) {
 /* wire:set_velocity(v [, omega [, about]]) */
 static int meth_set_velocity(lua_State *L) { return lsw_set_velocity(L, &lsw_class_wire); }
 
-/* Returns the run's extremes; with the options table { now = true } the present values. */
-static sw_wire_extremes read_extremes(lua_State *L) {
+/* Returns the run's extremes; with the options table { now = true } the present values. method: its
+ * name, for messages. */
+static sw_wire_extremes read_extremes(lua_State *L, const char *method) {
   sw_wire_extremes present, run;
   int now = 0;
   static const sw_param rows[] = {{"now", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, 0,
                                    "present value instead of the run's extreme"}};
   static const sw_params params = SW_PARAMS("wire", rows);
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
-  lsw_arguments(L, 2, "wire", &params, &now);
+  lsw_arguments(L, 2, method, &params, &now);
   LSW_DO(L, sw_scene_wire_extremes, w.scene, w.id, &present, &run);
   return now ? present : run;
 }
@@ -203,14 +204,14 @@ static int push_extreme(lua_State *L, double value, const sw_extreme *e) {
 
 /* Smallest bend radius [m], where [m], when [s]; math.huge for a straight wire. */
 static int meth_min_bend_radius(lua_State *L) {
-  const sw_extreme x = read_extremes(L).curvature;
+  const sw_extreme x = read_extremes(L, "wire:min_bend_radius").curvature;
   return push_extreme(L, x.value > 0 ? 1.0 / x.value : HUGE_VAL, &x);
 }
 
 /* How sharp that bend is for the wire's edges: the second difference of the curvature from node to
  * node over the curvature [-]. */
 static int meth_bend_sharpness(lua_State *L) {
-  const sw_wire_extremes e = read_extremes(L);
+  const sw_wire_extremes e = read_extremes(L, "wire:bend_sharpness");
   lua_pushnumber(L, e.curvature.value > 0 ? e.uneven / e.curvature.value : 0.0);
   return 1;
 }
@@ -252,20 +253,20 @@ static int meth_max_tension(lua_State *L) {
 
 /* Largest strain of an outermost fibre [-], where [m], when [s]. */
 static int meth_max_strain(lua_State *L) {
-  const sw_extreme x = read_extremes(L).strain;
+  const sw_extreme x = read_extremes(L, "wire:max_strain").strain;
   return push_extreme(L, x.value, &x);
 }
 
 /* Largest stress of an outermost fibre [Pa], where [m], when [s]. */
 static int meth_max_stress(lua_State *L) {
-  const sw_extreme x = read_extremes(L).strain;
+  const sw_extreme x = read_extremes(L, "wire:max_stress").strain;
   return push_extreme(L, x.value * modulus(L), &x);
 }
 
 /* Largest torsion M_t / GJ [rad/m], where [m], when [s]. */
 static int meth_max_torsion(lua_State *L) {
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
-  const sw_extreme x = read_extremes(L).torsion;
+  const sw_extreme x = read_extremes(L, "wire:max_torsion").torsion;
   if (isfinite(x.value)) return push_extreme(L, x.value, &x);
   return luaL_error(L,
                     "wire:max_torsion: wire '%s' is a %s without GJ or without sections, so its "
@@ -276,7 +277,7 @@ static int meth_max_torsion(lua_State *L) {
 /* Largest ovalisation of a section while the wire was a mesh [-], where [m], when [s]. */
 static int meth_max_ovalisation(lua_State *L) {
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
-  const sw_extreme x = read_extremes(L).ovalisation;
+  const sw_extreme x = read_extremes(L, "wire:max_ovalisation").ovalisation;
   if (sw_scene_wire_calibration(w.scene, w.id) || x.value > 0) return push_extreme(L, x.value, &x);
   return luaL_error(L,
                     "wire:max_ovalisation: wire '%s' is a %s, whose section does not change; this "
@@ -287,7 +288,7 @@ static int meth_max_ovalisation(lua_State *L) {
 /* Where [m] and when [s] a section of springs first folded through itself in the run; its forces
  * are wrong from then on. Nothing if no section has. */
 static int meth_folded(lua_State *L) {
-  const sw_extreme x = read_extremes(L).folding;
+  const sw_extreme x = read_extremes(L, "wire:folded").folding;
   if (!(x.value > 0)) return 0;
   lua_pushnumber(L, x.s);
   lua_pushnumber(L, x.time);
