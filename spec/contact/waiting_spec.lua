@@ -43,12 +43,6 @@ local function places(wires)
   return list
 end
 
-local function apart(a, b)
-  local most = 0
-  for i = 1, #a do most = math.max(most, math.abs(a[i] - b[i])) end
-  return most
-end
-
 -- Places after a run of what `disturb` does to wires that rest, and how far they moved.
 local function moved(disturb, never, time)
   local scene, wires, table_ = table_with(3, never)
@@ -58,7 +52,7 @@ local function moved(disturb, never, time)
   steps(scene, math.ceil((time or 0.4) / DT))
   local after = places(wires)
   scene:close()
-  return after, apart(before, after)
+  return after, tools.largest_difference(before, after)
 end
 
 local function lever(point) return { relative = true, duration = 0.4, points = { { 0, 0, 0 }, point } } end
@@ -127,7 +121,7 @@ describe("wires at rest", function()
       local waited, way = moved(disturb)
       local never = moved(disturb, true)
       tools.above(1e-3, way, "moved [m]")
-      tools.below(1e-7, apart(waited, never), "difference [m]")
+      tools.below(1e-7, tools.largest_difference(waited, never), "difference [m]")
     end)
   end
 
@@ -145,7 +139,7 @@ describe("wires at rest", function()
       tools.above(1e-6, math.max(table.unpack(wires[1]:velocities())), "its speed [m/s]")
       scene:close()
     end
-    tools.below(1e-7, apart(ends[1], ends[2]), "difference [m]")
+    tools.below(1e-7, tools.largest_difference(ends[1], ends[2]), "difference [m]")
   end)
 
   -- Nine cables in three layers.
@@ -196,11 +190,11 @@ describe("wires at rest", function()
         disturb(scene, wires)
         steps(scene, 10)
         ends[k] = places(wires)
-        way = apart(before, ends[k])
+        way = tools.largest_difference(before, ends[k])
         scene:close()
       end
       tools.above(1e-3, way, "moved [m]")
-      tools.below(1e-7, apart(ends[1], ends[2]), "difference [m]")
+      tools.below(1e-7, tools.largest_difference(ends[1], ends[2]), "difference [m]")
     end)
   end
 
