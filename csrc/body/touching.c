@@ -124,10 +124,26 @@ void sw_scene_inform_contact(sw_scene *s) {
   sw_contact_recall(s->contact, past_of, may_move);
 }
 
+/* 1 if the hold does not move after time t. */
+static int stands(const sw_hold *h, double t) {
+  const sw_drive *d = &h->drive;
+  if (d->tool || sw_hold_passes(h) || h->cls->hold->rail) return 0;
+  return !d->motion || sw_motion_end(d->motion) <= t - d->start;
+}
+
+/* Tells which holds stand, and what they bear while their wire waits. */
+static void inform_holds(sw_scene *s, double t) {
+  for (size_t k = 0; k < s->system.hold_count; k++) {
+    const sw_hold *h = sw_scene_held_by(s, k);
+    s->system.standing[k] = (sw_standing){stands(h, t), h->wire, {h->end_force, h->end_moment}};
+  }
+}
+
 /* Finds the wires that wait in the step. */
 static sw_status find_waiting(sw_scene *s, sw_contact_regime regime, double t, double h,
                               double nominal, sw_error *err) {
   const int alone = !s->crowd && !s->grains && regime == SW_CONTACT_IMPLICIT;
+  inform_holds(s, t);
   sw_waits_find(&s->system, alone && s->course.next == SW_AS_BEFORE);
   if (!s->system.waiting) return SW_OK;
   if (s->contact) SW_TRY(sw_contact_wake(s->contact, &s->system, t, h, err));
@@ -150,6 +166,13 @@ sw_status sw_scene_begin_contact(sw_scene *s, sw_contact_regime regime, double t
   if (!s->grains) return SW_OK;
   if (!s->pairs) SW_TRY(sw_system_begin_plan(&s->system));
   return sw_mutual_begin_step(s->grains, &s->system, regime, h, nominal, err);
+}
+
+void sw_scene_stop_wires(sw_scene *s) {
+  if (!sw_waits_stopping(&s->system)) return;
+  sw_contact_keep_moving(s->contact, &s->system);
+  if (s->pairs) sw_mutual_keep_moving(s->pairs, &s->system);
+  sw_waits_stop(&s->system);
 }
 
 /* A wider search may have found pairs with wires that wait: they have no touches with obstacles. */

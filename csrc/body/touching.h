@@ -36,6 +36,8 @@ sw_contact_verdict sw_scene_review_contact(sw_scene *scene, const double *x1, co
                                            double h);
 int sw_scene_review_static(sw_scene *scene, const double *x1);
 void sw_scene_commit_contact(sw_scene *scene);
+/* A step was accepted: stops the wires that came to rest (system/wait.h). */
+void sw_scene_stop_wires(sw_scene *scene);
 /* Computes the built system's stiffness at its state, with contact as it presses now: of these
  * obstacles (count), or of all (NULL). */
 sw_status sw_scene_linearise(sw_scene *scene, const size_t *only, size_t count, sw_error *err);

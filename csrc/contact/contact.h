@@ -72,10 +72,10 @@ double sw_contact_hardness(const sw_web *web, size_t particle);
  * stiffness. In statics both are the pseudo step, or h = 0 without one. */
 sw_status sw_contact_begin_step(sw_contact *contact, sw_system *system, sw_contact_regime regime,
                                 double t, double h, double nominal, sw_error *err);
-
-/* Before that: wakes the bodies that something may disturb in the step (system/wait.h). */
+/* Before that: wakes the bodies that something may disturb in the step (system/wait.h). And after
+ * the step: keeps bodies from stopping that are on their way out of an obstacle. */
 sw_status sw_contact_wake(sw_contact *contact, sw_system *s, double t, double h, sw_error *err);
-
+void sw_contact_keep_moving(const sw_contact *contact, sw_system *system);
 /* Begins evaluations at the accepted state. Each touch gets the last step's force over depth as its
  * stiffness. */
 sw_status sw_contact_begin_look(sw_contact *contact, sw_system *system, double t, sw_error *err);

@@ -338,6 +338,10 @@ static double eased(const sw_press *p, double usual, double k, double deepest) {
   return fmax(usual, EASING * k);
 }
 
+int sw_press_eases(const sw_press *p, double usual, double stiffer, double deepest) {
+  return eased(p, usual, stiffer, deepest) < stiffer;
+}
+
 sw_kept sw_press_keep(const sw_press *p, double usual, double stiffer, double deepest) {
   sw_kept out = {.normal_force = p->normal_force,
                  .depth = p->normal_force / p->k,

@@ -82,6 +82,8 @@ static inline double sw_depth_for(double depth, double radius) {
  * from the next iterate on [N/m]. A touch keeps its stiffness, because a change would be a kick. A
  * needlessly high stiffness falls slowly. */
 sw_kept sw_press_keep(const sw_press *press, double usual, double stiffer, double deepest);
+/* 1 if it falls in this step. */
+int sw_press_eases(const sw_press *press, double usual, double stiffer, double deepest);
 /* Hardens a squeezed touch. A squeezed wire cannot come out: letting it out would create energy,
  * and the step would be refused. So a touch that is too deep gets stiffer from the next step on at
  * the same force, and the rest of the depth stays (left). axial: stiffness of the wire's edge, the

@@ -157,9 +157,13 @@ void sw_meet_add(sw_mutual *m, const sw_system *s, const double *y, sw_meet *t, 
 
 /* Lines that go on to press each other become as little deep as in obstacles: with the usual depth
  * the pull of a twisted pair of cables was 5 % too low. */
-sw_met sw_meet_remember(const sw_system *s, const sw_meet *t) {
+double sw_meet_depth(const sw_meet *t) {
   const double usual = sw_meet_deepest(t), shallow = 0.5 * SW_SHALLOW * t->reach;
-  const double deepest = t->squeezed ? fmin(usual, shallow) : usual;
+  return t->squeezed ? fmin(usual, shallow) : usual;
+}
+
+sw_met sw_meet_remember(const sw_system *s, const sw_meet *t) {
+  const double deepest = sw_meet_depth(t);
   sw_met out = {.of = t->of,
                 .kind = t->kind,
                 .at = {t->at[0], t->at[1]},

@@ -69,6 +69,8 @@ typedef struct sw_met {
 
 /* Makes the memory of a touch at a step's end. */
 sw_met sw_meet_remember(const sw_system *system, const sw_meet *touch);
+/* Depth up to which its stiffness is needlessly high [m]. */
+double sw_meet_depth(const sw_meet *touch);
 
 /* A touch that pressed at the end of a stage and may have struck. */
 typedef struct sw_hit {

@@ -46,6 +46,8 @@ int sw_pairs_meet_waiting(const sw_mutual *pairs, const sw_system *system);
 void sw_mutual_regard(sw_mutual *mutual, const sw_system *system, sw_contact_regime regime,
                       double h, double nominal);
 sw_status sw_mutual_wake(sw_mutual *mutual, sw_system *system);
+/* As sw_contact_keep_moving. */
+void sw_mutual_keep_moving(const sw_mutual *mutual, sw_system *system);
 
 /* These correspond to the functions of sw_contact. */
 sw_status sw_mutual_begin_step(sw_mutual *mutual, sw_system *system, sw_contact_regime regime,

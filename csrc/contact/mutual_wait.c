@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "contact/meet.h"
 
 static int wait(const sw_system *s, const uint32_t body[2]) {
@@ -27,6 +28,17 @@ void sw_meets_free(sw_still_meets *still) {
 
 /* 1 if wires that were placed in each other still come out: their touches change in each step. */
 static int come_out(const sw_meet *t) { return t->let_out > 0 || t->emerges; }
+
+static int changes(const sw_meet *t) {
+  return come_out(t) || sw_press_eases(&t->press, t->usual, t->stiffer, sw_meet_depth(t));
+}
+
+void sw_mutual_keep_moving(const sw_mutual *m, sw_system *s) {
+  SW_ITEMS(const sw_meet, t, m->touches, m->touch_count) {
+    sw_body *one = &s->bodies[t->of.body[0]], *two = &s->bodies[t->of.body[1]];
+    if ((one->stops || two->stops) && changes(t)) one->stops = two->stops = 0;
+  }
+}
 
 /* Wakes the bodies whose touches are not known, or change. */
 static void wake_unknown(const sw_mutual *m, sw_system *s) {

@@ -5,7 +5,9 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "contact/broad.h"
+#include "contact/depth.h"
 #include "contact/touch.h"
 
 /* Anything nearer to a wire than this many radii, and what may come as near, disturbs it [-]. */
@@ -50,10 +52,24 @@ static list touches_of(const sw_body *b, sw_touch *all, size_t count, size_t *at
 }
 
 /* 1 if a wire is on its way out of an obstacle: its touches change in each step. */
-static int comes_out(const list *l) {
+static int comes_out(const sw_touch *t) { return t->forgiven > 0 || t->let_out > 0; }
+
+static int any_comes_out(const list *l) {
   for (size_t i = 0; i < l->count; i++)
-    if (l->touches[i].forgiven > 0 || l->touches[i].let_out > 0) return 1;
+    if (comes_out(&l->touches[i])) return 1;
   return 0;
+}
+
+/* 1 if a touch gets softer from step to step after a blow: its wire still sinks. */
+static int eases(const sw_contact *c, const sw_system *s, const sw_touch *t) {
+  return sw_press_eases(&t->press, t->usual, t->stiffer, sw_contact_deepest(c, s, t));
+}
+
+void sw_contact_keep_moving(const sw_contact *c, sw_system *s) {
+  SW_ITEMS(const sw_touch, t, c->touches, c->touch_count) {
+    sw_body *b = &s->bodies[t->body];
+    if (b->stops) b->stops = !comes_out(t) && !eases(c, s, t);
+  }
 }
 
 static void add_load(sw_contact *c, const sw_touch *t) {
@@ -103,7 +119,7 @@ sw_status sw_contact_wake(sw_contact *c, sw_system *s, double t, double h, sw_er
     if (body->waits && may_be_disturbed(c, s, body)) body->waits = 0;
     if (!body->waits || c->still.kept[b]) continue;
     const list l = touches_of(body, c->touches, c->touch_count, &at);
-    if (!c->still.accepted || comes_out(&l)) body->waits = 0;
+    if (!c->still.accepted || any_comes_out(&l)) body->waits = 0;
   }
   return SW_OK;
 }

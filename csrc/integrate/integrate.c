@@ -7,6 +7,7 @@
 #include "base/alloc.h"
 #include "base/simd.h"
 #include "integrate/turning.h"
+#include "system/wait.h"
 
 #define X(name) extern const sw_integrator sw_integrator_##name;
 #include "integrate/list.def"
@@ -133,10 +134,12 @@ static void prepare_strains(const sw_stepper *p, const sw_stage_row *row, const 
   if (row->x1 != 0) add(m, row->x1, p->strain[0], p->strain_past);
   if (row->xp != 0) add(m, row->xp, p->strain_before, p->strain_past);
   combine(m, 1.0, p->strain_past, hbar, s->strain_rate, guess);
+  if (s->waiting) sw_waits_strain(s, guess);
 }
 
 static void find_rates(const sw_stepper *p, const sw_system *s, double hbar, const double *strain) {
   combine(s->strains, 1.0 / hbar, strain, -1.0 / hbar, p->strain_past, p->strain_rate);
+  if (s->waiting) sw_waits_strain_rate(s, p->strain_rate);
 }
 
 static void book(sw_system *s, sw_booking booking) {
@@ -369,7 +372,7 @@ void sw_stepper_accept(sw_stepper *p, sw_system *s, double h) {
 
 double sw_stepper_next_h(const sw_stepper *p, double h, double error, double tolerance) {
   const double safety = 0.9, most = 2.0, least = 0.2; /* of the last step [-] */
-  if (error == 0) return h * most; /* nothing moves */
+  if (error == 0) return h * most;                    /* nothing moves */
   if (!(error > 0)) return h;
   const double factor = safety * pow(tolerance / error, 1.0 / (sw_stepper_order(p) + 1));
   return h * fmin(most, fmax(least, factor));

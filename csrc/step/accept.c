@@ -7,18 +7,24 @@
 #include "scene/course.h"
 #include "scene/parts.h"
 #include "step/believe.h"
+#include "step/blow.h"
 #include "step/energy.h"
 #include "step/jaw.h"
 #include "step/restart.h"
 #include "step/run.h"
 #include "system/system.h"
-#include "system/wait.h"
 #include "watch/observe.h"
 
 /* When this many parts (substeps) cover less than this share of their steps on average, the run
  * stops and says what holds it back [-]. Adaptive steps may be much smaller. */
 enum { MOST_SMALL = 20000, MOST_SMALL_ADAPTIVE = 20000 };
 static const double SMALL = 1.0 / 512, SMALL_ADAPTIVE = 2e-5;
+
+/* 1 if the parts of a blow are short: touches are as hard as these need, and wires that stopped now
+ * would lie higher than after whole steps. */
+static int is_followed(const sw_ladder *p) {
+  return sw_blow_part(p->s, p->args->dt) < p->args->dt;
+}
 
 void sw_ladder_accept(sw_ladder *p, double h, double t) {
   sw_scene *s = p->s;
@@ -27,7 +33,7 @@ void sw_ladder_accept(sw_ladder *p, double h, double t) {
   sw_stepper_accept(&c->stepper, system, h);
   system->judged = c->stepper.trial_x;
   sw_scene_commit_contact(s);
-  if (sw_scene_contact(s) && !sw_course_lumps(c)) sw_waits_stop(system);
+  if (sw_scene_contact(s) && !sw_course_lumps(c) && !is_followed(p)) sw_scene_stop_wires(s);
   sw_restart_taken(s);
   c->span = h;
   if (c->method->flags & SW_INTEGRATOR_NO_CONTACT) sw_scene_remark_contact(s);

@@ -69,6 +69,7 @@ typedef struct sw_body {
   int bridged;        /* its matrix is part of the bridges' matrix (system/bridge.h) */
   int coupled;        /* in this stage: SW_JOINED, SW_TOUCHING, both, or 0 (system/part.h) */
   int waits;          /* 1: it rests, and is not solved in this step (system/wait.h) */
+  int stops;          /* 1: it came to rest in the step that was just accepted */
   int weighed;        /* 1: the next three are known, while it waits */
   double gravity, stored, loads; /* its energies, see sw_energies [J] */
   double pushed;                 /* largest push for which buckling was checked [N] */

@@ -18,6 +18,18 @@ typedef struct sw_hold_state {
   sw_vec v, a, omega, alpha; /* [m/s], [m/s2], [rad/s], [rad/s2] */
 } sw_hold_state;
 
+/* Force and moment that a hold puts on its wire [N], [N m]. */
+typedef struct sw_hold_load {
+  sw_vec force, moment;
+} sw_hold_load;
+
+/* A hold of a wire that may wait (system/wait.h). */
+typedef struct sw_standing {
+  int stands;        /* 1: it does not move in this step */
+  size_t body;       /* the wire */
+  sw_hold_load load; /* at the end of the last step, about its place */
+} sw_standing;
+
 /* A node that follows a hold: x = pose * local. */
 typedef struct sw_held_node {
   size_t node; /* in the system's arrays */

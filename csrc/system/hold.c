@@ -52,6 +52,15 @@ void sw_system_held_velocity(const sw_system *s, const sw_held_node *held, doubl
   place_node(&s->hold_states[held->hold], held->local, NULL, v, NULL);
 }
 
+/* 1 if the hold's wire waits: what it bears is that of an earlier step. */
+static int bears_still(const sw_system *s, int hold) {
+  return s->waiting && s->standing[hold].stands && s->bodies[s->standing[hold].body].waits;
+}
+
+static void move_moment(sw_hold_load *load, sw_vec from, sw_vec to) {
+  load->moment = sw_add(load->moment, sw_cross(sw_sub(from, to), load->force));
+}
+
 /* Adds the moments of clamps on directions: of hold `hold` to *out, or for -1 of every hold to
  * out[hold]. */
 static void add_clamp_moments(const sw_system *s, int hold, sw_hold_load *out) {
@@ -74,6 +83,12 @@ static void add_clamp_moments(const sw_system *s, int hold, sw_hold_load *out) {
 void sw_system_reaction(const sw_system *s, int hold, sw_vec point, sw_vec *force, sw_vec *moment) {
   sw_hold_load sum = {.force = {0, 0, 0}};
   int rail = 0;
+  if (bears_still(s, hold)) {
+    sum = s->standing[hold].load;
+    move_moment(&sum, s->hold_states[hold].pose.p, point);
+    *force = sum.force, *moment = sum.moment;
+    return;
+  }
   SW_ITEMS(const sw_held_node, h, s->held, s->held_count) {
     if (h->hold != hold) continue;
     rail |= h->rail != 0;
@@ -82,9 +97,9 @@ void sw_system_reaction(const sw_system *s, int hold, sw_vec point, sw_vec *forc
     sum.moment = sw_add(sum.moment, sw_cross(arm, h->reaction));
   }
   if (s->loads_kept && !rail) {
-    *force = s->loads[hold].force;
-    *moment =
-        sw_add(s->loads[hold].moment, sw_cross(sw_sub(s->hold_states[hold].pose.p, point), *force));
+    sum = s->loads[hold];
+    move_moment(&sum, s->hold_states[hold].pose.p, point);
+    *force = sum.force, *moment = sum.moment;
     return;
   }
   add_clamp_moments(s, hold, &sum);
@@ -101,6 +116,8 @@ void sw_system_hold_loads(const sw_system *s, sw_hold_load *out) {
     to->moment = sw_add(to->moment, sw_cross(arm, h->reaction));
   }
   add_clamp_moments(s, -1, out);
+  for (size_t k = 0; k < s->hold_count; k++)
+    if (bears_still(s, (int)k)) out[k] = s->standing[k].load;
 }
 
 void sw_system_keep_loads(sw_system *s) {

@@ -260,7 +260,7 @@ static void finish(sw_system *s, const sw_stage *stage, int statics) {
     for (size_t i = 0; i < s->freedoms; i++) stage->v[i] = (stage->y[i] - stage->xhat[i]) * rate;
   if (s->waiting) sw_waits_finish(s, stage);
   SW_ITEMS(sw_held_node, h, s->held, s->held_count) {
-    sw_held_react(s, h);
+    if (!s->bodies[h->body].waits) sw_held_react(s, h);
     sw_system_held_velocity(s, h, stage->v + 3 * h->node);
   }
   sw_bridges_react(s);

@@ -44,8 +44,9 @@ struct sw_system {
   int still;                     /* 1: holds count as standing even if they move (statics) */
   int rough; /* 1: the last update turned edges too far to be the stage's last; see above */
   sw_hold_state *hold_states; /* (hold_count) at the last stage */
-  struct sw_hold_load *loads; /* (hold_count) of the last stage about the holds' places, */
+  sw_hold_load *loads;        /* (hold_count) of the last stage about the holds' places, */
   int loads_kept;             /* 1: which are read out (sw_system_keep_loads) */
+  sw_standing *standing;      /* (hold_count) set by the coupling's owner when a step begins */
   size_t hold_count;
   double gravity[3];  /* [m/s2] */
   const double *dead; /* (nodes x 3) further forces on nodes, such as inertia; or NULL [N] */
@@ -225,9 +226,6 @@ void sw_system_refresh(sw_system *system);
 void sw_system_reaction(const sw_system *system, int hold, sw_vec point, sw_vec *force,
                         sw_vec *moment);
 /* The same for all holds about their places, from the last solved stage; out: (holds). */
-typedef struct sw_hold_load {
-  sw_vec force, moment; /* [N], [N m] */
-} sw_hold_load;
 void sw_system_hold_loads(const sw_system *system, sw_hold_load *out);
 /* The state will lie beyond the last solved stage, where wire and holds are not in balance. Keeps
  * the stage's loads, so that read-outs go on to show them. */

@@ -236,6 +236,7 @@ static void take_turns(sw_system *s) {
 
 void sw_system_follow(sw_system *s, const double *x) {
   SW_ITEMS(sw_body, body, s->bodies, s->body_count) {
+    if (body->waits) continue;
     if (body->spin_block) sw_spin_follow(s, body, x);
     for (size_t k = 0; body->has_twist && k < body->plan->span_count; k++)
       s->twist[body->first_span + k] +=

@@ -18,15 +18,31 @@ static int is_steady(const sw_term *t) {
   return !t->history && !(t->cls->flags & (SW_FORCE_EXPLICIT | SW_FORCE_DRIVEN));
 }
 
-/* 1 if the body may wait: a line that nothing holds, with steady forces. The others have unknowns
- * besides their nodes, or reactions. */
-static int may_wait(const sw_body *b) {
-  if (b->plan->web || b->roll_block || b->spin_block || b->has_twist || b->viscosity > 0) return 0;
-  for (size_t i = 0; i < b->plan->nodes; i++)
-    if (b->plan->held[i] != SW_FREE) return 0;
+/* For each of the body's held nodes. */
+#define HELD_EACH(s, b, h)                                                      \
+  for (const sw_held_node *h = (b)->held ? &(s)->held[(b)->held - 1] : NULL; h; \
+       h = h->next ? &(s)->held[h->next - 1] : NULL)
+
+/* 1 if the body may wait: a line with steady forces, whose holds stand. The others have unknowns
+ * besides their nodes. */
+static int may_wait(const sw_system *s, const sw_body *b) {
+  if (b->plan->web || b->roll_block || b->spin_block) return 0;
+  HELD_EACH(s, b, h)
+  if (!s->standing[h->hold].stands) return 0;
   SW_ITEMS(const sw_term, t, b->terms, b->term_count)
     if (!is_steady(t)) return 0;
   return 1;
+}
+
+/* Copies what belongs to a body in arrays of strains: of its edges, at its clamps, of held nodes.
+ * from NULL: zeros. */
+static void copy_strains(const sw_system *s, const sw_body *b, const double *from, double *to) {
+  const size_t at[2] = {b->first_edge, b->first_clamp};
+  const size_t count[2] = {sw_plan_axial(b->plan), 3 * b->kept_clamps};
+  for (int k = 0; k < 2; k++)
+    for (size_t i = at[k]; i < at[k] + count[k]; i++) to[i] = from ? from[i] : 0.0;
+  HELD_EACH(s, b, h)
+  for (size_t c = 0; h->kept && c < 3; c++) to[h->kept + c] = from ? from[h->kept + c] : 0.0;
 }
 
 static double largest(const double *values, size_t n) {
@@ -38,16 +54,26 @@ static double largest(const double *values, size_t n) {
   return most;
 }
 
-void sw_waits_stop(sw_system *s) {
+int sw_waits_stopping(sw_system *s) {
+  int any = 0;
   s->awake = 0;
   SW_ITEMS(sw_body, b, s->bodies, s->body_count) {
-    double *v = s->v + 3 * b->first_node, *a = s->a + 3 * b->first_node;
+    const double *v = s->v + 3 * b->first_node, *a = s->a + 3 * b->first_node;
     const size_t n = 3 * b->plan->nodes;
-    if (b->waits || b->coupled & SW_JOINED || !(largest(v, n) < SLOW) ||
-        !(largest(a, n) < BALANCED) || !may_wait(b))
-      continue;
-    memset(v, 0, n * sizeof *v);
-    memset(a, 0, n * sizeof *a);
+    b->stops = !b->waits && !(b->coupled & SW_JOINED) && largest(v, n) < SLOW &&
+               largest(a, n) < BALANCED && may_wait(s, b);
+    any |= b->stops;
+  }
+  return any;
+}
+
+void sw_waits_stop(sw_system *s) {
+  SW_ITEMS(const sw_body, b, s->bodies, s->body_count) {
+    const size_t at = 3 * b->first_node, size = 3 * b->plan->nodes * sizeof *s->v;
+    if (!b->stops) continue;
+    memset(s->v + at, 0, size);
+    memset(s->a + at, 0, size);
+    if (s->strain) copy_strains(s, b, NULL, s->strain_rate);
   }
 }
 
@@ -57,14 +83,26 @@ static int is_zero(const double *values, size_t n) {
   return 1;
 }
 
+static int is_straining(const sw_system *s, const sw_body *b) {
+  if (!s->strain) return 0;
+  HELD_EACH(s, b, h)
+  if (h->kept && !is_zero(s->strain_rate + h->kept, 3)) return 1;
+  return !is_zero(s->strain_rate + b->first_edge, sw_plan_axial(b->plan)) ||
+         !is_zero(s->strain_rate + b->first_clamp, 3 * b->kept_clamps);
+}
+
+static int rests(const sw_system *s, const sw_body *b) {
+  const size_t at = 3 * b->first_node, n = 3 * b->plan->nodes;
+  return is_zero(s->v + at, n) && is_zero(s->a + at, n) && !is_straining(s, b);
+}
+
 void sw_waits_find(sw_system *s, int may) {
   s->waiting = 0;
   may &= !s->awake;
   for (size_t b = 0; b < s->body_count; b++) s->bodies[b].coupled = 0;
   if (may) sw_joins_mark(s);
   SW_ITEMS(sw_body, b, s->bodies, s->body_count) {
-    const size_t at = 3 * b->first_node, n = 3 * b->plan->nodes;
-    b->waits = may && !b->coupled && is_zero(s->v + at, n) && is_zero(s->a + at, n) && may_wait(b);
+    b->waits = may && !b->coupled && rests(s, b) && may_wait(s, b);
     s->waiting |= b->waits;
     b->weighed &= b->waits;
     may &= !b->plan->web;
@@ -88,4 +126,14 @@ void sw_waits_finish(const sw_system *s, const sw_stage *stage) {
     memset(stage->v + at, 0, n * sizeof *s->v);
     if (stage->a) memset(stage->a + at, 0, n * sizeof *s->a);
   }
+}
+
+void sw_waits_strain(const sw_system *s, double *guess) {
+  SW_ITEMS(const sw_body, b, s->bodies, s->body_count)
+    if (b->waits) copy_strains(s, b, s->strain, guess);
+}
+
+void sw_waits_strain_rate(const sw_system *s, double *rate) {
+  SW_ITEMS(const sw_body, b, s->bodies, s->body_count)
+    if (b->waits) copy_strains(s, b, NULL, rate);
 }

@@ -70,6 +70,23 @@ function benchcrowds.wires(count, touching)
   return landing / 30 / (51 * count), lying / 30 / (51 * count)
 end
 
+-- A cable is laid on a table beside count others that lie there, clamped by one end, with dashpots. Returns
+-- the CPU time of the laying [s].
+function benchcrowds.board(count)
+  local scene, r = sw.scene{}, sw.cable("GXL 1.5").outer_diameter.value / 2
+  local function cable(y, z)
+    return scene:wire{ cable = "GXL 1.5", from = { 0, y, z }, to = { 0.6, y, z }, segments = 60 }
+  end
+  scene:obstacle{ shape = "plane", friction = 0.3 }
+  for i = 1, count do scene:clamp(cable(0.03 * i, r), { s = 0 }) end
+  scene:force{ kind = "damping", mass = 2, stiffness = 1e-3 }
+  scene:clamp(cable(-0.05, 0.05), { s = 0 }):follow{ relative = true, duration = 1.5,
+    points = { { 0, 0, 0 }, { 0.1, 0, -0.045 }, { 0.3, -0.1, -0.045 } } }
+  local time = cost(scene, 2)
+  scene:close()
+  return time
+end
+
 -- count wires fall on a table in a bundle, then lie there. Returns the time per simulated second of the first
 -- 0.2 s and of the next 0.2 s [s/s], and the solves per step in both. cable: an entry of the catalogue;
 -- apart: the wires do not touch each other.

@@ -111,6 +111,11 @@ function special.crowds()
         1e6 * landing, 1e6 * lying))
     end
   end
+  local alone = crowds.board(0)
+  for _, count in ipairs{ 10, 40 } do
+    print(("%6d clamped wires on a table, and one is laid there: %.1f times the time of it alone"):format(
+      count, crowds.board(count) / alone))
+  end
 end
 
 function special.bundles()
