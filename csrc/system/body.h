@@ -20,6 +20,14 @@ typedef struct sw_term {
   double *history; /* its part of the system's state, or NULL */
 } sw_term;
 
+/* A straight wire that is pushed along itself, see watch/unbent.c. */
+typedef struct sw_unbent {
+  double growth;    /* logarithm of the growth of a real wire's bend so far; 0: not pushed [-] */
+  double seen;      /* time of the last look [s] */
+  double due, push; /* when a real wire had left its line; the largest since [N] */
+  double at;        /* place of the largest push, as arc length [m] */
+} sw_unbent;
+
 typedef struct sw_body {
   sw_plan *plan;
   size_t first_node, first_edge; /* place in the system's arrays */
@@ -73,6 +81,7 @@ typedef struct sw_body {
   int weighed;        /* 1: the next three are known, while it waits */
   double gravity, stored, loads; /* its energies, see sw_energies [J] */
   double pushed;                 /* largest push for which buckling was checked [N] */
+  sw_unbent unbent;
 } sw_body;
 
 /* Axial stiffness of an edge or spring: force over strain [N]. */

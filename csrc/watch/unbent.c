@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reports wires that stay straight under a push for longer than real wires do, and then buckle. The
+ * bend of a real wire grows from its own crookedness. In a perfectly straight one it grows from
+ * rounding, so steps and edges decide how hard the push is when the wire buckles: hundreds of
+ * times too hard. A push that is still borne at the end of a run is reported by watch/straight.c.
+ */
+#include <math.h>
+
+#include "scene/events.h"
+#include "scene/parts.h"
+#include "scene/wire.h"
+#include "system/system.h"
+#include "watch/observe.h"
+
+/* Directions of all edges of a straight wire differ from its chord by at most this. Real wires are
+ * bent by a thousandth of their length, which is ten times as much [-]. */
+static const double STRAIGHT = 3e-4;
+/* Bend of a real wire over its length [-]. */
+static const double CROOKED = 1e-3;
+/* After this much growth, as its logarithm, the bend of a real wire would be its own length three
+ * times over. A wire that is bent by a few millionths of its length, as by its weight, has left its
+ * line, too [-]. */
+static const double GROWTH = 8.0;
+/* Edges with at least this share of the largest push are pushed [-]. */
+static const double PUSHED = 0.5;
+
+/* A piece of a wire that is pushed. */
+typedef struct pushed {
+  double push, length; /* mean [N], [m] */
+  size_t edge;         /* in its middle */
+} pushed;
+
+static double push_in(const sw_system *system, const sw_body *b, size_t e) {
+  return fmax(0, -system->tension[b->first_edge + e]);
+}
+
+/* Returns the piece around the largest push from edge `first` to the next held node; *end: the edge
+ * after that. */
+static pushed next_piece(const sw_system *system, const sw_body *b, size_t first, size_t *end) {
+  const sw_plan *p = b->plan;
+  size_t most = first, e = first;
+  for (; e < p->edges; e++) {
+    if (e > first && p->held[e] != SW_FREE) break;
+    if (push_in(system, b, e) > push_in(system, b, most)) most = e;
+  }
+  *end = e;
+  const double least = PUSHED * push_in(system, b, most);
+  size_t from = most, to = most + 1;
+  while (from > first && push_in(system, b, from - 1) >= least) from--;
+  while (to < *end && push_in(system, b, to) >= least) to++;
+  pushed out = {.edge = (from + to) / 2};
+  for (size_t k = from; k < to; k++)
+    out.push += push_in(system, b, k) * p->rest[k], out.length += p->rest[k];
+  out.push /= out.length;
+  return out;
+}
+
+/* Returns the rate at which the bend of a real wire grows; 0: it does not [1/s]. A wave of
+ * wavenumber k grows at the rate r, m r^2 = k^2 (P - EI k^2): at most at k^2 = P/(2 EI), but no
+ * wave is longer than a piece whose ends are held. On a table the weight must be lifted off the
+ * bend that the wire has. */
+static double rate_of(const sw_scene *s, const sw_beam *beam, const pushed *p) {
+  const double longest = 2 * M_PI / p->length;
+  const double k2 = fmax(p->push / (2 * beam->EI), longest * longest);
+  const double r2 = k2 * (p->push - beam->EI * k2) / beam->mass -
+                    sw_norm(sw_scene_gravity(s)) / (CROOKED * p->length);
+  return r2 > 0 ? sqrt(r2) : 0;
+}
+
+/* Returns the fastest such rate of the wire's pieces, and that piece [1/s]. */
+static double fastest(const sw_scene *s, const sw_body *b, pushed *most) {
+  const sw_system *system = sw_scene_system((sw_scene *)s);
+  double rate = 0;
+  for (size_t e = 0; e < b->plan->edges;) {
+    const pushed p = next_piece(system, b, e, &e);
+    const double r = p.push > 0 ? rate_of(s, &b->plan->beam, &p) : 0;
+    if (r > rate) rate = r, *most = p;
+  }
+  return rate;
+}
+
+static int is_straight(const sw_system *system, const sw_body *b) {
+  const double *x = system->x + 3 * b->first_node;
+  const size_t last = b->plan->nodes - 1;
+  const sw_vec chord = sw_unit_or(sw_sub(sw_vec_at(x, last), sw_vec_at(x, 0)), sw_v(1, 0, 0));
+  for (size_t e = 0; e < last; e++) {
+    const sw_vec edge = sw_sub(sw_vec_at(x, e + 1), sw_vec_at(x, e));
+    if (!(sw_norm(sw_cross(chord, edge)) <= STRAIGHT * sw_norm(edge))) return 0;
+  }
+  return 1;
+}
+
+static void tell(sw_scene *s, size_t wire, const sw_unbent *u) {
+  const char *name = sw_scene_wire_in(s, wire)->name;
+  sw_scene_tell(
+      s, "buckling", name, u->at, u->push,
+      "wire '%s' stayed straight up to a push of %.3g N, until rounding let it buckle; a "
+      "real wire buckles under %.3g N at most: forces until then depend on the step; draw "
+      "it bent by a thousandth of its length",
+      name, u->push, u->due);
+}
+
+void sw_scene_watch_unbent(sw_scene *s, size_t wire) {
+  sw_system *system = sw_scene_system(s);
+  sw_body *b = &system->bodies[wire];
+  sw_unbent *u = &b->unbent;
+  const double time = sw_scene_time(s), since = time - u->seen;
+  pushed most = {0};
+  u->seen = time;
+  if (b->plan->web || b->waits || !(b->plan->beam.EI > 0)) return;
+  const double rate = fastest(s, b, &most);
+  if (rate > 0 && since > 0 && is_straight(system, b)) {
+    u->growth += rate * since;
+    if (u->growth < GROWTH) return;
+    if (!(u->due > 0)) u->due = most.push;
+    if (most.push > u->push) u->push = most.push, u->at = b->plan->s[most.edge] - b->plan->s[0];
+    return;
+  }
+  if (u->due > 0 && rate > 0) tell(s, wire, u);
+  *u = (sw_unbent){.seen = time};
+}
