@@ -80,6 +80,12 @@ describe("an event doubts", function()
     end
   end)
 
+  it("forces of a hold that presses a rod on something, unless a bar tells of them", function()
+    local event = { kind = "pressed", object = "hand", text = "" }
+    assert.truthy(why(event):find("edges decide the force", 1, true))
+    assert.is_nil(why(event, nil, { value = 1, error = 0.1 }))
+  end)
+
   it("values that no error bar tells of", function()
     local bar = { value = 1, error = 0.1 }
     for _, kind in ipairs{ "crash", "overload", "breaking", "integrator", "walls", "kink", "clip",

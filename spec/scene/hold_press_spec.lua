@@ -1,0 +1,75 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Holds that press a wire a tenth of a millimetre into something. That is no crash, but the force there is
+-- that of the first free edge: 3 EI d/h^3 for the depth d and the edge h, without a limit as h gets shorter.
+local sw = require "softworld"
+local t = require "physics.tools"
+
+local function of_kind(list, kind)
+  local found = {}
+  for _, e in ipairs(list) do if e.kind == kind then found[#found + 1] = e end end
+  return found
+end
+
+-- A cable lies on a table, turned by o.turn [rad]; a hold at its place s = 0.1 m goes down by `down` [m].
+local function pressed(cable, down, o)
+  local scene, r = sw.scene{}, sw.cable(cable).outer_diameter.value / 2
+  scene:obstacle{ name = "table", shape = "plane", friction = 0.3 }
+  local c, s = math.cos(o.turn or 0), math.sin(o.turn or 0)
+  local wire = scene:wire{ name = "w", cable = cable, from = { 0, 0, r }, to = { 0.3 * c, 0.3 * s, r },
+    segments = o.segments or 40 }
+  scene:force{ kind = "damping", mass = 5, stiffness = 1e-3 }
+  local hold = o.make(scene, wire)
+  if down ~= 0 then
+    hold:follow{ relative = true, points = { { 0, 0, 0 }, { 0, 0, -down } }, duration = 0.2 }
+  end
+  local run = t.fine(scene:run{ dt = o.dt or 0.01, duration = 0.3 })
+  return of_kind(run.events, "pressed"), hold:over().peak_force, of_kind(run.events, "crash"), run
+end
+
+local makers = {
+  grip = function(scene, wire) return scene:grip(wire, { name = "h", s = 0.1, width = 0.01 }) end,
+  clamp = function(scene, wire) return scene:clamp(wire, { name = "h", s = 0.1 }) end,
+}
+
+describe("a hold that presses a cable a little into a table", function()
+  for kind, make in pairs(makers) do
+    for _, cable in ipairs{ "FLRY-B 0.5", "GXL 1.5", "H07V-K 4" } do
+      it(("is told of with the force: %s, %s"):format(kind, cable), function()
+        local forces, down = {}, 0.1 * sw.cable(cable).outer_diameter.value / 2
+        for _, o in ipairs{ { segments = 30 }, { segments = 60, dt = 0.002, turn = 0.8 },
+          { segments = 75, dt = 0.005 } } do
+          o.make = make
+          local told, peak, crash = pressed(cable, down, o)
+          assert.equal(1, #told)
+          assert.equal(0, #crash)
+          assert.equal("h", told[1].object)
+          t.near(0.1, told[1].s, 0.002, "place [m]")
+          t.near(1e3 * down, tonumber(told[1].text:match "presses wire 'w' ([%d.e-]+) mm into 'table'"),
+            0.02e3 * down, "depth told [mm]")
+          -- Besides the table the hold bears the weight of what it lifts off, less than the whole; the peak
+          -- is a mean over 10 ms of a force that rises in 0.2 s.
+          t.near(peak, told[1].value, 0.1 * peak + 9.81 * 0.3 * sw.cable(cable).mass_per_length.value,
+            "force told [N]")
+          forces[#forces + 1] = peak
+        end
+        -- Why it is told: the first free edge is 10, 5 and 4 mm long beside the clamp, and 5, 5 and 3 mm
+        -- beside the grip, so the force grows at least by (5/3)^3 = 4.6; half of that is asked for.
+        t.above(2.3 * forces[1], forces[3], "force with shorter edges [N]")
+      end)
+    end
+  end
+
+  it("is not told of where it does not press", function()
+    for _, make in pairs(makers) do
+      for _, down in ipairs{ 0, -1e-3, 1e-6 } do
+        local told, _, crash = pressed("GXL 1.5", down, { make = make })
+        assert.same({ 0, 0 }, { #told, #crash })
+      end
+    end
+  end)
+
+  it("is a crash from a quarter of the radius on", function()
+    local _, _, crash = pressed("GXL 1.5", 0.4e-3, { make = makers.clamp })
+    assert.equal(1, #crash)
+  end)
+end)
