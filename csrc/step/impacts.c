@@ -50,11 +50,13 @@ sw_status sw_rung_strike(sw_ladder *p, const sw_rung *below, double h, sw_error 
   sw_restart_try(p);
   if (!sw_scene_has_contact(s)) return sw_rung_go(p, below, h, err);
   memcpy(p->v_start, system->v, system->freedoms * sizeof(double));
+  const int stops = c->method->flags & SW_INTEGRATOR_IMPLICIT && sw_restart_stops(s, h);
   sw_status status = sw_scene_begin_contact(
       s, c->method->flags & SW_INTEGRATOR_IMPLICIT ? SW_CONTACT_IMPLICIT : SW_CONTACT_EXPLICIT,
       sw_scene_time(s), h, sw_blow_part(s, p->args->dt), err);
   if (contact) sw_contact_cut(contact, shortest_cut(p));
   if (contact && p->asked > 0) sw_contact_ask(contact, p->asked);
+  if (stops) c->stepper.plastic = 1;
   int expected = status == SW_OK && begin_dully(p, h);
   for (int redo = 0; status == SW_OK && redo < MOST_REDOS; redo++) {
     status = sw_rung_go(p, below, h, err);

@@ -20,6 +20,10 @@ void sw_restart_try(sw_ladder *p);
 void sw_restart_struck(sw_scene *scene, int dull);
 /* Call when the trial is taken: the next step starts anew if a shock ended in it. */
 void sw_restart_taken(sw_scene *scene);
+/* 1 if a drive comes to rest softly in the step, or did in the step before, while wires slide. Such
+ * a step is tried with implicit Euler: a method of second order lets nodes swing back by its error,
+ * and friction, which needs nanometres to change its direction, stays reversed. */
+int sw_restart_stops(const sw_scene *scene, double h);
 /* Call when the part was refused. cut: only because it has to end sooner. */
 void sw_restart_refused(sw_ladder *p, int cut);
 
