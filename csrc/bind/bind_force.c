@@ -159,6 +159,7 @@ int lsw_scene_force(lua_State *L) {
   double args[SW_FORCE_ARGS_MAX / sizeof(double)] = {0};
   sw_callback_args callback = {call_force, NULL};
   sw_error err = {""};
+  sw_status status = SW_EINVAL;
   sw_handle wire = {0, 0};
   char none;
   lua_settop(L, 2);
@@ -185,9 +186,10 @@ int lsw_scene_force(lua_State *L) {
     callback.user = (void *)(size_t)number; /* a number, not an address */
     memcpy(args, &callback, sizeof callback);
   }
-  const sw_status status =
-      sw_scene_add_force(owner->h.object, cls, wire, args, sizeof args, &child->id, &err);
+  if (lsw_is_open(L))
+    status = sw_scene_add_force(owner->h.object, cls, wire, args, sizeof args, &child->id, &err);
   if (function) mark_function(L, number, status == SW_OK ? &child->id : NULL);
+  lsw_still_open(L);
   lsw_must(L, status, &err);
   return 1;
 }

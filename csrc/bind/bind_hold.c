@@ -230,6 +230,7 @@ static int meth_feed(lua_State *L) {
   length_args a = {.speed = NAN, .duration = NAN, .acceleration = NAN};
   const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
   lsw_arguments(L, 2, "feed:feed", &length_params, &a);
+  lsw_still_open(L);
   const sw_waypoint points[2] = {{.t = NAN}, {.p = {a.length, 0, 0}, .t = NAN}};
   sw_motion_plan plan = sw_motion_plan_empty();
   plan.name = "feed:feed", plan.law = a.law[0] ? a.law : NULL;

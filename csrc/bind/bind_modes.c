@@ -29,16 +29,16 @@ int lsw_wire_frequencies(lua_State *L) {
   lua_settop(L, 2);
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   lsw_arguments(L, 2, "wire:frequencies", &sw_modes_params, &args);
-  LSW_DO(L, sw_scene_wire_nodes, w.scene, w.id, &nodes);
-  const size_t modes = (size_t)args.modes, n = 3 * nodes;
+  const size_t modes = (size_t)args.modes, each = args.shapes ? 3 * modes : 0;
   sw_modes_result r = {.frequencies = lua_newuserdatauv(L, modes * sizeof(double), 0)};
-  if (args.shapes) r.shapes = lua_newuserdatauv(L, modes * n * sizeof(double), 0);
+  double *shapes = lsw_room(L, w, sw_scene_wire_nodes, each, &nodes);
+  if (args.shapes) r.shapes = shapes;
   lua_getiuservalue(L, 1, 1); /* Lua functions as forces need the scene at index 1 */
   lua_replace(L, 1);
   LSW_DO_FORCES(L, sw_scene_wire_modes, w.scene, w.id, &args, sw_interrupted, &r);
   lsw_push_flat(L, r.frequencies, r.count);
   lsw_set_integer(L, "unstable", r.unstable);
   if (r.unstable) push_note(L, &r);
-  if (args.shapes) push_shapes(L, &r, n);
+  if (args.shapes) push_shapes(L, &r, 3 * nodes);
   return 1;
 }

@@ -78,6 +78,7 @@ static int m_placed(lua_State *L) {
   base.p = lsw_vector(L, 2, "trajectory: position to be displaced", "m");
   base.q = lsw_rotation(L, 3, "trajectory: rotation to be displaced");
   lsw_handle *h = lsw_new(L, &lsw_class_trajectory, 0);
+  lsw_still_open(L);
   const sw_status status = sw_motion_relative(motion, base, &seen);
   return open_view(L, h, status, seen);
 }
@@ -87,6 +88,7 @@ static int m_delayed(lua_State *L) {
   sw_motion *seen = NULL, *motion = check(L);
   const double delay = lsw_number(L, 2, "trajectory: the delay", "s");
   lsw_handle *h = lsw_new(L, &lsw_class_trajectory, 0);
+  lsw_still_open(L);
   const sw_status status = sw_motion_shifted(motion, delay, &seen);
   return open_view(L, h, status, seen);
 }

@@ -9,12 +9,14 @@ int lsw_scene_obstacle(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
   sw_obstacle_args args;
   sw_error err = {""};
+  sw_status status = SW_EINVAL;
   const lsw_section extra = {&sw_obstacle_params, &args};
   lua_settop(L, 2);
   lsw_child *child = lsw_new_child(L, &lsw_class_obstacle);
   sw_shape *shape = lsw_shape_from_table(L, 2, &extra, 1);
-  const sw_status status = sw_scene_add_obstacle(scene, shape, &args, &child->id, &err);
+  if (lsw_is_open(L)) status = sw_scene_add_obstacle(scene, shape, &args, &child->id, &err);
   sw_shape_release(shape);
+  lsw_still_open(L);
   lsw_must(L, status, &err);
   lua_pushvalue(L, 3);
   return 1;
@@ -73,13 +75,13 @@ static int meth_set(lua_State *L) {
   LSW_DO(L, sw_scene_obstacle_args, o.scene, o.id, &args);
   lsw_changes(L, 2, "obstacle:set", &sw_obstacle_params, &args);
   const int rubs = given(L, "friction"), slides = given(L, "kinetic_friction");
+  const int placed = given(L, "at") || given(L, "rotation"), bounces = given(L, "restitution");
   if (rubs && !slides) args.kinetic = args.friction;
-  if (given(L, "at") || given(L, "rotation")) {
+  if (placed) { /* all has been read: an argument that raises changes nothing */
     const sw_pose pose = {args.at, args.rotation};
     LSW_DO(L, sw_scene_object_put, o.scene, SW_OF_OBSTACLE, o.id, pose);
   }
-  if (rubs || slides || given(L, "restitution"))
-    LSW_DO(L, sw_scene_obstacle_set_surface, o.scene, o.id, &args);
+  if (rubs || slides || bounces) LSW_DO(L, sw_scene_obstacle_set_surface, o.scene, o.id, &args);
   return 0;
 }
 

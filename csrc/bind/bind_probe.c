@@ -44,17 +44,24 @@ static void push_result(lua_State *L, const sw_probe *at, const sw_probe_result 
   lsw_set_flat(L, "product", r->product, n);
 }
 
+/* Raises unless the wire still has n coordinates: a metamethod of an argument or a finaliser may
+ * have changed it, and the arrays are of the old size. */
+static void check_size(lua_State *L, lsw_self w, size_t n) {
+  size_t nodes;
+  LSW_DO(L, sw_scene_wire_particles, w.scene, w.id, &nodes);
+  if (3 * nodes != n) luaL_error(L, "scene:evaluate: the wire was changed meanwhile");
+}
+
 /* scene:evaluate(wire, {...}) -> { kind = { count, energy [J], force [N],
  * product [N] } } for every kind of force on the wire; changes nothing. */
 int lsw_scene_evaluate(lua_State *L) {
-  const lsw_handle *owner = lsw_check(L, 1, &lsw_class_scene);
-  sw_scene *scene = owner->object;
+  sw_scene *scene = lsw_check_scene(L);
   size_t nodes;
   probe_args args;
   lua_settop(L, 3);
-  const sw_handle wire = lsw_check_body_of(L, 2, scene, "scene:evaluate");
+  const lsw_self w = {scene, lsw_check_body_of(L, 2, scene, "scene:evaluate")};
   lsw_arguments(L, 3, "scene:evaluate", &params, &args);
-  LSW_DO(L, sw_scene_wire_particles, scene, wire, &nodes);
+  LSW_DO(L, sw_scene_wire_particles, scene, w.id, &nodes);
   const size_t n = 3 * nodes;
   const int table = lua_isnil(L, 3) ? 0 : 3;
   const sw_probe at = {.positions = read_flat(L, table, "positions", n),
@@ -67,7 +74,8 @@ int lsw_scene_evaluate(lua_State *L) {
   lua_newtable(L);
   for (size_t i = 0; sw_force_all()[i]; i++) {
     const sw_force_class *cls = sw_force_all()[i];
-    LSW_DO_FORCES(L, sw_scene_probe, scene, wire, cls, &at, &r);
+    check_size(L, w, n);
+    LSW_DO_FORCES(L, sw_scene_probe, scene, w.id, cls, &at, &r);
     if (r.terms == 0) continue;
     push_result(L, &at, &r, n);
     lua_setfield(L, -2, cls->name);

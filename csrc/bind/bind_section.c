@@ -51,9 +51,8 @@ int lsw_wire_section(lua_State *L) {
   size_t n;
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   const double s = lsw_number(L, 2, "wire:section: s", "m");
-  LSW_DO(L, sw_scene_wire_outline, w.scene, w.id, &n);
   LSW_DO(L, sw_scene_wire_beam, w.scene, w.id, &beam);
-  double *room = lua_newuserdatauv(L, 8 * n * sizeof *room, 0);
+  double *room = lsw_room(L, w, sw_scene_wire_outline, 8, &n);
   sw_section_shape p = {
       .particles = room, .surface = room + 3 * n, .axial = room + 6 * n, .hoop = room + 7 * n};
   LSW_DO(L, sw_scene_wire_section, w.scene, w.id, s, &p);
@@ -94,8 +93,7 @@ typedef struct pressed {
 /* Returns the contact forces on all particles; pushes the userdata that owns the arrays. */
 static pressed read_pressed(lua_State *L, lsw_self w) {
   pressed p;
-  LSW_DO(L, sw_scene_wire_particles, w.scene, w.id, &p.n);
-  p.x = lua_newuserdatauv(L, 9 * p.n * sizeof *p.x, 0);
+  p.x = lsw_room(L, w, sw_scene_wire_particles, 9, &p.n);
   p.force = p.x + 3 * p.n, p.arc = p.force + 3 * p.n;
   p.normal = p.arc + p.n, p.area = p.normal + p.n;
   LSW_DO(L, sw_scene_wire_pressed, w.scene, w.id, p.force, p.normal, p.area, p.arc);
@@ -152,9 +150,9 @@ int lsw_wire_von_mises(lua_State *L) {
   size_t n, best = 0;
   lua_Integer count = 0;
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
-  LSW_DO(L, sw_scene_wire_elements, w.scene, w.id, &n);
+  LSW_DO(L, sw_scene_wire_elements, w.scene, w.id, &n); /* refuses a wire without elements first */
   const double s = read_place(L, w, "wire:von_mises: s");
-  double *mises = lua_newuserdatauv(L, 6 * n * sizeof *mises, 0);
+  double *mises = lsw_room(L, w, sw_scene_wire_elements, 6, &n);
   double *middle = mises + n, *arc = middle + 3 * n;
   LSW_DO(L, sw_scene_wire_mises, w.scene, w.id, mises, middle, arc);
   lua_newtable(L);

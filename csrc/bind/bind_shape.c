@@ -176,6 +176,7 @@ static int meth_distance(lua_State *L) {
   sw_closest c;
   const sw_vec p = lsw_vector(L, 2, "shape:distance: point", "m");
   const double reach = optional_length(L, 3, "shape:distance: reach", HUGE_VAL);
+  lsw_still_open(L);
   if (!sw_shape_point(shape, p, reach, &c)) return 0;
   lua_pushnumber(L, c.gap);
   lsw_push_vector(L, c.normal);
@@ -191,6 +192,7 @@ static int meth_segment(lua_State *L) {
   const sw_vec a = lsw_vector(L, 2, "shape:segment: first end", "m");
   const sw_vec b = lsw_vector(L, 3, "shape:segment: second end", "m");
   const double reach = optional_length(L, 4, "shape:segment: reach", HUGE_VAL);
+  lsw_still_open(L);
   const int count = sw_shape_segment(shape, a, b, reach, found);
   lua_createtable(L, count, 0);
   for (int i = 0; i < count; i++) {
@@ -211,6 +213,7 @@ static int meth_sweep(lua_State *L) {
   const sw_vec b1 = lsw_vector(L, 5, "shape:sweep: second end after", "m");
   const double margin = optional_length(L, 6, "shape:sweep: margin", 0);
   if (margin < 0) return luaL_error(L, "shape:sweep: margin = %f m must be at least 0 m", margin);
+  lsw_still_open(L);
   if (!sw_shape_sweep(shape, a0, b0, a1, b1, margin, &c, &when)) return lua_pushnil(L), 1;
   lua_pushnumber(L, when);
   push_closest(L, &c);

@@ -147,9 +147,9 @@ static size_t node_count(lua_State *L, lsw_self w) {
 
 /* wire:positions() -> flat {x1, y1, z1, x2, ...} of all nodes [m], their arc lengths [m] */
 static int meth_positions(lua_State *L) {
+  size_t n;
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
-  const size_t n = node_count(L, w);
-  double *x = lua_newuserdatauv(L, 4 * n * sizeof *x, 0);
+  double *x = lsw_room(L, w, sw_scene_wire_nodes, 4, &n);
   LSW_DO(L, sw_scene_wire_copy, w.scene, w.id, x, x + 3 * n, NULL);
   lsw_push_flat(L, x, 3 * n);
   lsw_push_flat(L, x + 3 * n, n);
@@ -161,8 +161,7 @@ static int meth_positions(lua_State *L) {
 static int meth_particles(lua_State *L) {
   size_t n;
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
-  LSW_DO(L, sw_scene_wire_particles, w.scene, w.id, &n);
-  double *x = lua_newuserdatauv(L, 4 * n * sizeof *x, 0);
+  double *x = lsw_room(L, w, sw_scene_wire_particles, 4, &n);
   LSW_DO(L, sw_scene_wire_particle_copy, w.scene, w.id, x, x + 3 * n, NULL);
   lsw_push_flat(L, x, 3 * n);
   lsw_push_flat(L, x + 3 * n, n);
@@ -170,9 +169,9 @@ static int meth_particles(lua_State *L) {
 }
 
 static int meth_velocities(lua_State *L) {
+  size_t n;
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
-  const size_t n = node_count(L, w);
-  double *v = lua_newuserdatauv(L, 3 * n * sizeof *v, 0);
+  double *v = lsw_room(L, w, sw_scene_wire_nodes, 3, &n);
   LSW_DO(L, sw_scene_wire_copy, w.scene, w.id, NULL, NULL, v);
   lsw_push_flat(L, v, 3 * n);
   return 1;

@@ -10,6 +10,7 @@ static int mod_zone(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
   sw_zone_args args;
   sw_error err = {""};
+  sw_status status = SW_EINVAL;
   sw_handle on = {0};
   if (lua_getfield(L, 2, "on") != LUA_TNIL)
     on = lsw_check_child_of(L, -1, &lsw_class_obstacle, scene, "scene:zone: on");
@@ -17,8 +18,9 @@ static int mod_zone(lua_State *L) {
   const lsw_section extra = {&sw_zone_params, &args};
   sw_shape *shape = lsw_shape_from_table(L, 2, &extra, 1);
   args.on = on;
-  const sw_status status = sw_scene_add_zone(scene, shape, &args, &err);
+  if (lsw_is_open(L)) status = sw_scene_add_zone(scene, shape, &args, &err);
   sw_shape_release(shape);
+  lsw_still_open(L);
   lsw_must(L, status, &err);
   const sw_zone *zone = sw_scene_zone(scene, sw_scene_zones(scene) - 1);
   lua_pushstring(L, zone->name);

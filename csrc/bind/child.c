@@ -82,8 +82,35 @@ void lsw_check_table(lua_State *L, int index, const char *what) {
     luaL_error(L, "%s takes one table of parameters, got %s", what, lsw_describe(L, index));
 }
 
+int lsw_is_open(lua_State *L) {
+  const lsw_class *c = lsw_class_of(L, 1);
+  if (!c) return 1;
+  const lsw_handle *h = lua_touserdata(L, 1);
+  if (!h->object || c->kind == SW_OF_NONE) return h->object != NULL;
+  const lsw_handle *scene = h->object;
+  return scene->object != NULL;
+}
+
+void lsw_still_open(lua_State *L) {
+  if (lsw_is_open(L)) return;
+  const lsw_class *c = lsw_class_of(L, 1);
+  if (c->kind == SW_OF_NONE) luaL_error(L, "%s", c->gone);
+  luaL_error(L, "the scene of this %s has been closed", c->name);
+}
+
 void lsw_must(lua_State *L, sw_status status, const sw_error *err) {
   if (status != SW_OK) lsw_motion_rethrow(L, status, err);
+}
+
+double *lsw_room(lua_State *L, lsw_self w, lsw_counter counter, size_t each, size_t *count) {
+  for (;;) {
+    size_t now;
+    LSW_DO(L, counter, w.scene, w.id, count);
+    double *room = lua_newuserdatauv(L, (each * *count + 1) * sizeof *room, 0);
+    LSW_DO(L, counter, w.scene, w.id, &now);
+    if (now == *count) return room;
+    lua_pop(L, 1);
+  }
 }
 
 void lsw_push_flat(lua_State *L, const double *values, size_t n) {

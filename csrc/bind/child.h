@@ -56,13 +56,20 @@ int lsw_say_taken_back(lua_State *L, const lsw_class *c);
 /* Raises: the object is no longer of its scene. */
 int lsw_not_there(lua_State *L, const lsw_class *c, const sw_scene *scene);
 
+/* 1 unless the object at index 1, whose method runs, or its scene was closed since the method
+ * began: metamethods of its arguments and finalisers can do that. lsw_still_open raises then. */
+int lsw_is_open(lua_State *L);
+void lsw_still_open(lua_State *L);
+
 /* Raises unless status is SW_OK; errors of Lua callbacks keep their value. */
 void lsw_must(lua_State *L, sw_status status, const sw_error *err);
 
-/* Calls a function of the core, whose last argument is an sw_error, and raises its error. */
+/* Calls a function of the core, whose last argument is an sw_error, and raises its error. The
+ * object at index 1 must still be open. */
 #define LSW_DO(L, function, ...)                              \
   do {                                                        \
     sw_error lsw_err_ = {""};                                 \
+    lsw_still_open(L);                                        \
     lsw_must(L, function(__VA_ARGS__, &lsw_err_), &lsw_err_); \
   } while (0)
 
@@ -116,6 +123,7 @@ void lsw_end_forces(lua_State *outer);
 #define LSW_DO_FORCES(L, function, ...)                        \
   do {                                                         \
     sw_error lsw_err_ = {""};                                  \
+    lsw_still_open(L);                                         \
     lua_State *lsw_outer_ = lsw_begin_forces(L);               \
     const sw_status lsw_s_ = function(__VA_ARGS__, &lsw_err_); \
     lsw_end_forces(lsw_outer_);                                \
@@ -129,6 +137,12 @@ void lsw_check_table(lua_State *L, int index, const char *what);
 
 /* Pushes n numbers as a flat array. */
 void lsw_push_flat(lua_State *L, const double *values, size_t n);
+
+/* Asks the core for a number of items of a wire. */
+typedef sw_status (*lsw_counter)(sw_scene *scene, sw_handle wire, size_t *count, sw_error *err);
+/* Pushes a userdata with room for `each` numbers for each item, and returns it. A finaliser that
+ * ran meanwhile may have changed the number of items; then it is asked again. */
+double *lsw_room(lua_State *L, lsw_self w, lsw_counter counter, size_t each, size_t *count);
 
 /* Reads a flat array of exactly n finite numbers; raises for anything else. */
 void lsw_read_flat(lua_State *L, int index, double *out, size_t n);

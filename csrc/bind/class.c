@@ -49,9 +49,11 @@ void *lsw_keep(lua_State *L, size_t size, const char *name, const luaL_Reg *meth
 }
 
 const lsw_class *lsw_class_of(lua_State *L, int index) {
-  for (size_t i = 0; i < sizeof classes / sizeof classes[0]; i++)
-    if (lsw_test(L, index, classes[i])) return classes[i];
-  return NULL;
+  if (!lua_touserdata(L, index) || !lua_getmetatable(L, index)) return NULL;
+  lua_rawgetp(L, -1, classes);
+  const lsw_class *c = lua_touserdata(L, -1);
+  lua_pop(L, 2);
+  return c;
 }
 
 enum { LONGEST_SHOWN = 32 }; /* longest text shown in a message [B] */
@@ -245,6 +247,8 @@ static void open_class(lua_State *L, const lsw_class *c) {
     lua_pushcclosure(L, life[i].function, 1);
     lua_setfield(L, -2, life[i].name);
   }
+  lua_pushlightuserdata(L, (void *)c);
+  lua_rawsetp(L, -2, classes); /* so the class of a userdata is found at once */
   lua_pushstring(L, c->name);
   lua_setfield(L, -2, "__name");
   lua_newtable(L);

@@ -63,12 +63,14 @@ int lsw_pose(lua_State *L, const lsw_class *cls) {
 int lsw_follow(lua_State *L, const lsw_class *cls, const char *mover) {
   sw_error err = {""};
   const lsw_self c = lsw_check_self(L, cls);
+  sw_status status = SW_EINVAL;
   if (lua_isnone(L, 2))
     return luaL_error(L, "%s:follow: a trajectory is needed, or nil to stop", cls->name);
   sw_motion *motion = lua_isnil(L, 2) ? NULL : lsw_motion_from(L, 2, mover);
-  const sw_status status = sw_scene_object_follow(c.scene, cls->kind, c.id, motion, 0, &err);
+  if (lsw_is_open(L)) status = sw_scene_object_follow(c.scene, cls->kind, c.id, motion, 0, &err);
   lua_pushnumber(L, motion ? sw_motion_end(motion) : 0.0);
   sw_motion_release(motion);
+  lsw_still_open(L);
   lsw_must(L, status, &err);
   return 1;
 }
