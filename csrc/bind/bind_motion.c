@@ -19,10 +19,11 @@ static void close_trajectory(lsw_handle *h) { sw_motion_release(h->object); }
 
 /* --- at a time ------------------------------------------------------------------ */
 
-/* Evaluates the motion. It retains the motion, because a Lua function may close its own
- * trajectory. */
+/* Evaluates the motion of the trajectory at index 1. A Lua function may close its own trajectory:
+ * the motion is retained meanwhile, and a further evaluation is an error. */
 static void eval(lua_State *L, sw_motion *motion, double t, sw_motion_state *out) {
   sw_error err = {{0}};
+  lsw_still_open(L);
   sw_motion_retain(motion);
   const sw_status status = sw_motion_eval(motion, t, out, &err);
   sw_motion_release(motion);

@@ -60,6 +60,23 @@ describe("arguments that act when they are read", function()
     assert.matches("trajectory has been closed", why)
   end)
 
+  it("cannot close a trajectory while it is sampled", function()
+    for _, closes in ipairs { 0.2, 0.5, 0.9 } do
+      local way, sampled
+      way = sw.trajectory.new { duration = 1, func = function(t)
+        if sampled and t > closes then way:close() end
+        return { t, 0, 0 }
+      end }
+      sampled = true
+      local ok, why = pcall(way.sample, way, 4) -- at 0, 1/3, 2/3 and 1 s
+      if closes == 0.9 then assert.is_true(ok, why) -- closed when the last sample was taken
+      else
+        assert.is_false(ok)
+        assert.matches("trajectory has been closed", why)
+      end
+    end
+  end)
+
   it("cannot change the number of nodes that scene:evaluate works with", function()
     for _, segments in ipairs { 3, 10, 40 } do
       local scene, wire = made()
