@@ -189,10 +189,20 @@ static int mod_sync(lua_State *L) {
   return 1;
 }
 
-/* core.kind(path) -> "file", "folder", "pipe", "device" or "socket"; nil if nothing is there. */
+/* core.kind(path) -> "file", "folder", "pipe", "device" or "socket"; nil if nothing is there; nil
+ * and the reason if it cannot be told. */
 static int mod_kind(lua_State *L) {
   struct stat info;
-  if (stat(luaL_checkstring(L, 1), &info) != 0) return lua_pushnil(L), 1;
+  size_t length;
+  const char *path = luaL_checklstring(L, 1, &length), *why = NULL;
+  if (strlen(path) != length)
+    why = "zero byte in the path";
+  else if (stat(path, &info) != 0)
+    why = errno == ENOENT || errno == ENOTDIR ? "" : strerror(errno);
+  if (why) {
+    lua_pushnil(L);
+    return *why ? lua_pushstring(L, why), 2 : 1;
+  }
   lua_pushstring(L, S_ISREG(info.st_mode)    ? "file"
                     : S_ISDIR(info.st_mode)  ? "folder"
                     : S_ISFIFO(info.st_mode) ? "pipe"

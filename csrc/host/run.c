@@ -142,6 +142,10 @@ int host_run_script(lua_State *L, const host_options *o) {
     lua_pop(L, 1);
     return refuse(name, host_ctrl_c_seen() ? "interrupted" : strerror(errno));
   }
+  if (status == LUA_ERRSYNTAX && strstr(lua_tostring(L, -1), "binary chunk")) {
+    lua_pop(L, 1);
+    return refuse(name, "it is compiled Lua; run its source");
+  }
   if (status == LUA_OK && o->check) status = call_unread(L, "guard_exit", 0);
   if (status == LUA_OK) status = host_call(L, push_arguments(L, o, o->script), 0);
   if (status != LUA_OK) return host_report(L);

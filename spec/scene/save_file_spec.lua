@@ -9,6 +9,20 @@ local file, same = saving.temporary, saving.same
 
 after_each(saving.clean)
 
+describe("a file that may be there", function()
+  it("is an error for scene:resume: a script that began anew would write over it", function()
+    local loop = file()
+    os.remove(loop)
+    os.execute(("ln -s '%s' '%s'"):format(loop, loop)) -- a link to itself: nobody can tell
+    local scene = sw.scene {}
+    fails({ "scene:resume: cannot read " .. loop, "Too many levels of symbolic links" }, scene.resume, scene,
+      loop)
+    fails({ "scene:resume: cannot read", "zero byte in the path" }, scene.resume, scene, "a\0b")
+    os.remove(loop)
+    assert.is_false(scene:resume(loop))
+  end)
+end)
+
 describe("sw.load", function()
   it("gives a scene whose objects are found by name, and which runs and settles", function()
     local path, c = file(), script()

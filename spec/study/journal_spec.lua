@@ -263,6 +263,14 @@ describe("the code of a function", function()
     assert.is_true(count > 5)
   end)
 
+  it("does not write to another file where its name has a zero byte", function()
+    local path = new_path()
+    local fine, why = pcall(swept, path .. "\0more")
+    assert.is_false(fine)
+    assert.matches("study 's': cannot read .*zero byte in the path", why)
+    assert.is_nil(sw.core.kind(path))
+  end)
+
   it("includes the numbers that a function takes from outside", function()
     local path, friction = new_path(), 0.3
     local function of() return function(p) return { y = p.x * friction } end end

@@ -57,12 +57,21 @@ function sink.base(path)
   return path:match("[^/]*$")
 end
 
+--- Returns a path as messages show it.
+-- @tparam string path
+-- @treturn string
+function sink.shown(path)
+  return path:find("\0", 1, true) and ("%q"):format(path) or path
+end
+
 local function check_path(path, verb)
   verb = verb or "write"
   if type(path) ~= "string" or path == "" then
     sink.fail("a file path (a non-empty string) is expected, got %s", path == "" and '""' or type(path))
   end
-  if path:find("\0", 1, true) then sink.fail("cannot %s %q: zero byte in the path", verb, path) end
+  if path:find("\0", 1, true) then
+    sink.fail("cannot %s %s: zero byte in the path", verb, sink.shown(path))
+  end
   if sink.base(path) == "" then sink.fail("cannot %s %s: it names a folder, not a file", verb, path) end
 end
 

@@ -282,11 +282,19 @@ local function check_before(scene)
   end
 end
 
+-- Returns false if there is no such file. Where that cannot be told, a script that began anew would write
+-- over what the file holds.
+local function is_there(file)
+  local kind, why = core.kind(file)
+  if why then error(("scene:resume: cannot read %s: %s"):format(sink.shown(file), why), 0) end
+  return kind ~= nil
+end
+
 --- Continues from a file; returns false if there is none.
 function save.resume(scene, file)
   check_file("scene:resume", file)
   check_before(scene)
-  if not core.kind(file) then return false end
+  if not is_there(file) then return false end
   local bytes = read("scene:resume", file)
   local text, note
   tell("scene:resume", file, function() text, note = note_from(bytes, scene) end)

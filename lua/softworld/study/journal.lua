@@ -125,7 +125,10 @@ local function read_lines(self, text, at)
 end
 
 local function check_kind(self)
-  local kind = core.kind(self.path)
+  local kind, why = core.kind(self.path)
+  if why then
+    fail("study '%s': cannot read %s: %s", self.definition.name, sink.shown(self.path), why)
+  end
   if kind and kind ~= "file" then
     fail("study '%s': file = '%s' is a %s, not a file", self.definition.name, self.path, kind)
   end
