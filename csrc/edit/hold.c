@@ -29,8 +29,10 @@ static sw_status check_place(const sw_scene *s, const sw_link_class *cls, size_t
   const sw_scene_wire *w = sw_scene_wire_in(s, wire);
   const double start = w->mesh.s[0], length = w->mesh.s[w->mesh.n - 1] - start;
   if (a->s - start > length * (1 + 1e-9))
-    return sw_fail(err, SW_EINVAL, "%s: s = %.6g m is not on wire '%s', which ends at %.6g m",
-                   cls->name, a->s - start, w->name, length);
+    return sw_fail(err, SW_EINVAL,
+                   "%s%s%s%s: s = %.6g m is not on wire '%s'; it must be in [0, %.6g] m%s",
+                   cls->name, *a->name ? " '" : "", a->name, *a->name ? "'" : "", a->s - start,
+                   w->name, length, (a->s - start) / 1000 <= length ? "; is this in mm?" : "");
   double s1, s2;
   sw_body_interval(&w->mesh, a, &s1, &s2);
   sw_body_class_of(w)->widen(&w->mesh, &s1, &s2);

@@ -330,9 +330,11 @@ static sw_status pay_out(sw_hold *h, const sw_link_wire *w, double length, sw_mo
                          sw_error *err) {
   const double there = reserve(h, w->mesh, length);
   if (!(fabs(length) < there))
-    return sw_fail(err, SW_EINVAL,
-                   "feed '%s': length = %g m is not allowed; %.6g m of wire '%s' are left", h->name,
-                   length, there, w->name);
+    return sw_fail(
+        err, SW_EINVAL,
+        "feed '%s': length = %g m is not allowed; %.6g m of wire '%s' are left on the side "
+        "that it comes from; length = %g m goes the other way",
+        h->name, length, there, w->name, -length);
   const double before = feed_at(h, w->time).speed;
   stop(h, w->time);
   h->feed.motion = sw_motion_retain(motion), h->feed.start = w->time;

@@ -83,6 +83,17 @@ local function check(what, key, value, rule)
     question(value, rule), known[key] and (" (%s)"):format(known[key]) or ""))
 end
 
+local TURNS = 7 -- whole numbers from here on are hardly radians: more than a turn, and no share of pi [rad]
+
+-- Remarks on a rotation { axis =, angle = } whose angle may be in degrees.
+local function check_angle(what, rotation)
+  local angle = checks.field(rotation, "angle")
+  if math.type(angle) == nil or checks.field(rotation, "axis") == nil then return end
+  if not (math.abs(angle) >= TURNS and math.abs(angle) < 1e6) or angle % 1 ~= 0 then return end
+  tell("angle", ("%s: angle = %g rad is %.3g turns; did you mean sw.units.deg(%g)?"):format(what, angle,
+    math.abs(angle) / (2 * math.pi), angle))
+end
+
 local sorted = {} -- kind -> its keys in order
 
 local function keys_of(kind)
@@ -100,6 +111,8 @@ function remarks.on(kind, what, args)
       check(what, key, rawget(value, i), rule)
     end
   end
+  check_angle(what, checks.field(args, "rotation"))
+  check_angle(what, checks.field(args, "turn"))
 end
 
 local JERK = 10 -- largest pull of a new tie without a remark [N]

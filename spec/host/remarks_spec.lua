@@ -30,6 +30,11 @@ describe("remarks", function()
     { "s:gripper{ pads = { width = 20 } }", "did you mean sw.units.mm(20)?" },
     { "local g = s:gripper{ at = {0, 0, 0} } g:move{ by = {0, 0, 1}, speed = 200 }",
       "did you mean sw.units.mm_per_s(200)?" },
+    { "local g = s:gripper{ at = {0, 0, 0} } g:rotate{ axis = {0, 0, 1}, angle = -90, duration = 1 }",
+      "gripper 'gripper1': move: angle = -90 rad is 14.3 turns; did you mean sw.units.deg(-90)?" },
+    { "s:obstacle{ name = 'peg', shape = 'box', size = {1, 1, 1}, rotation = { axis = {1, 0, 0}, "
+      .. "angle = 45 } }",
+      "obstacle 'peg': angle = 45 rad is 7.16 turns; did you mean sw.units.deg(45)?" },
     { "s:clip{ at = {0, 0, 0}, width = 8, insertion = 5, retention = 9 }", "sw.units.mm(8)" },
     { "local w = " .. wire(good)
       .. " s:tie(w, { s = 0.5, to = {0.5, 0, 0.15}, slack = 0.02, strength = 50 })",

@@ -304,7 +304,7 @@ function Gripper:position()
 end
 
 local shortcuts = { peak_force = true, mean_force = true, peak_moment = true, mean_moment = true,
-  impulse = true }
+  impulse = true, peak_margin = true }
 
 -- Fields that may be nil.
 local fields = {}

@@ -262,6 +262,8 @@ rows.calls{
   { "gripper.peak_moment", nil, "over all of its time", "N m" },
   { "gripper.mean_moment", nil, "over all of its time", "N m" },
   { "gripper.impulse", nil, "over all of its time", "{x, y, z} [N s]" },
+  { "gripper.peak_margin", nil, "largest margin of its pads over all of its time; nil without pads",
+    "number" },
 }
 
 local pressure = rows.call("gripper:pressure_map", "{...}", "where the pads press", {

@@ -82,8 +82,8 @@ local function line_up(self, clip, args, what)
       clip.name), 0)
   end
   if math.min(u, tool) < 0.5 * way then
-    error(("%s: the wire is %.4g m over the seat of '%s' and the tool %.4g m, below the lips at %.4g m; "
-      .. "first move it over the mouth"):format(what, u, clip.name, tool, way), 0)
+    error(("%s: the wire is %.4g m and the tool %.4g m over the seat of '%s', whose lips are at %.4g m; "
+      .. "first move both over the lips, by gripper:move"):format(what, u, tool, clip.name, way), 0)
   end
   if args.align == false then return way, radius end
   local function go(direction, by)

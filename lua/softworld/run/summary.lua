@@ -27,6 +27,10 @@ local function sum_up_grippers(self, data, add)
     add(g.name .. ": peak moment", m.peak_moment, "N m", nil, m.peak_moment_time, m.peak_moment_note)
     add(g.name .. ": mean moment", m.mean_moment, "N m")
     if m.peak_squeeze then add(g.name .. ": largest squeeze per finger", m.peak_squeeze, "N") end
+    if m.peak_margin then
+      add(g.name .. ": largest share of the pads' friction (1: slips)", m.peak_margin, "", nil,
+        m.peak_margin_time)
+    end
     for _, e in ipairs(g.events) do
       if told[e.kind] and e.time >= self.start and e.time <= self.time then
         add(("%s: %s"):format(g.name, told[e.kind](e)), e.time, "s", e.s, e.time)

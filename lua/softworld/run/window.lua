@@ -141,7 +141,7 @@ local function note(p, unit)
   if p.raw_span == 0 then return "at rest" end
   if p.width == 0 then return ("raw, in %s"):format(short(p.raw_span, "s")) end
   if p.raw_span >= p.width * (1 - SLACK) then
-    return ("raw, in a step of %s, longer than the window of %s"):format(short(p.raw_span, "s"),
+    return ("raw, in one step of %s; the window is %s"):format(short(p.raw_span, "s"),
       short(p.width, "s"))
   end
   local mean = p.whole and ("mean of all %s"):format(short(p.whole, "s"))

@@ -1,0 +1,71 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- What a first script gets wrong, and whether the answer says what to do.
+local sw = require "softworld"
+
+local function laid(height, options)
+  local scene = sw.scene { name = "first" }
+  scene:obstacle { name = "table", shape = "plane", friction = 0.3 }
+  scene:force { kind = "damping", mass = 8 }
+  local wire = scene:wire { name = "wire", E = 1e7, density = 1200, radius = 3e-3, segments = 20,
+    from = { 0, 0, height }, to = { 0.2, 0, height } }
+  local hand = scene:gripper { name = "hand", pads = options }
+  return scene, wire, hand
+end
+
+local function refused(text, f, ...)
+  local fine, why = pcall(f, ...)
+  assert.is_false(fine)
+  assert.is_truthy(tostring(why):find(text, 1, true), tostring(why))
+end
+
+describe("a first script", function()
+  it("is asked about millimetres where a place lies beyond the wire", function()
+    local scene, wire, hand = laid(0.1)
+    refused("s = 20 m is not on wire 'wire'; it must be in [0, 0.2] m; is this in mm?", scene.clamp, scene,
+      wire, { s = 20 })
+    refused("grip 'hand': s = 20 m is not on wire 'wire'; it must be in [0, 0.2] m; is this in mm?",
+      hand.grasp, hand, wire, { s = 20 })
+    local _, why = pcall(scene.clamp, scene, wire, { s = 300 }) -- not on the wire in millimetres either
+    assert.matches("it must be in %[0, 0%.2%] m$", why)
+  end)
+
+  it("is told which way a feed could go", function()
+    local scene, wire = laid(0.1)
+    local feed = scene:feed(wire, { s = 0.05, name = "feed" })
+    refused("feed 'feed': length = 0.15 m is not allowed; 0.05 m of wire 'wire' are left on the side that it "
+      .. "comes from; length = -0.15 m goes the other way", feed.feed, feed, { length = 0.15, speed = 0.1 })
+    assert.is_true(feed:feed { length = -0.1, speed = 0.1 } > 0)
+  end)
+
+  it("is told how high wire and gripper are where they do not reach over a clip", function()
+    local scene, wire, hand = laid(0.1)
+    local clip = scene:clip { name = "clip", at = { 0.1, 0, 0.098 }, width = 0.01, insertion = 8,
+      retention = 25 }
+    scene:process(function()
+      hand:grasp(wire, { s = 0.11 })
+      hand:clip { into = clip, speed = 0.1 }
+    end)
+    refused("gripper 'hand': clip: the wire is 0.002 m and the tool 0.002 m over the seat of 'clip', whose "
+      .. "lips are at 0.0045 m; first move both over the lips, by gripper:move", scene.run, scene,
+      { dt = 0.01 })
+  end)
+
+  it("reads the margin of its grip where it reads the force", function()
+    local scene, wire, hand = laid(3e-3, { width = 0.02, friction = 0.6, opening = 9e-3 })
+    assert.is_nil(hand.peak_margin)
+    scene:process(function(p)
+      hand:grasp(wire, { s = 0.1, approach = "plates", force = 20 })
+      hand:move { by = { 0, 0, 0.05 }, speed = 0.2 }
+      p:wait(0.1)
+    end)
+    local run = scene:run { dt = 0.01 }
+    local weight = math.pi * 9e-6 * 1200 * 0.2 * 9.81
+    assert.equal(hand:over().peak_margin, hand.peak_margin)
+    -- at rest the pads bear the weight: weight / (mu N of two fingers); on the way more
+    assert.is_true(hand.peak_margin >= weight / (0.6 * 2 * 20) * (1 - 1e-3), hand.peak_margin)
+    assert.is_true(hand.peak_margin < 1)
+    local shown = {}
+    for _, row in ipairs(run:document().summary) do shown[row.label] = row.value end
+    assert.equal(hand.peak_margin, shown["hand: largest share of the pads' friction (1: slips)"])
+  end)
+end)
