@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Keeps track of failed runs that the script has not looked at. The host program reports them when the
--- script is over.
+--- Keeps track of failed runs that the script has not looked at, and of a script that runs nothing. The host
+-- program reports them when the script is over.
 -- @module softworld.unread
 local unread = {}
 
@@ -9,6 +9,25 @@ local texts, kept, last = {}, 0, 0
 local more = 0 -- failures beyond those kept
 local bad = 0  -- runs that failed or were stopped, looked at or not
 local verdicts = { PASS = 0, FAIL = 0, OPEN = 0 } -- of checks
+
+local idle -- place of the first process while nothing uses it; false: something did, or has been told
+
+--- A process was made.
+function unread.process()
+  if idle == nil then idle = require "softworld.place".of_caller() end
+end
+
+--- Something was computed, shown or saved, so the script's processes have a use.
+function unread.used() idle = false end
+
+-- Remarks on a script that describes a process and computes nothing: scene:run is forgotten.
+local function tell_idle()
+  local remarks, host = package.loaded["softworld.remarks"], package.loaded["softworld.host"]
+  if idle and remarks and remarks.wanted() and not (type(host) == "table" and host.interactive) then
+    remarks.write(idle, "this process never ran: scene:run{...} computes what it describes")
+  end
+  idle = false
+end
 
 --- Stores a failure and returns its mark.
 function unread.add(text)
@@ -81,6 +100,7 @@ end
 
 --- Returns the report at the end of a script, or nil, and forgets it.
 function unread.finish()
+  tell_idle()
   local numbers, lines = {}, {}
   for number in pairs(texts) do numbers[#numbers + 1] = number end
   table.sort(numbers)

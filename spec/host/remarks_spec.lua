@@ -59,6 +59,24 @@ describe("remarks", function()
     end)
   end
 
+  it("tell of a process that never ran, when the script ends", function()
+    local begin = start .. "local w = " .. wire(good) .. "\nlocal g = s:gripper{}\n"
+      .. "s:process(function(p)\n  g:grasp(w, { s = 0.1 })\nend)\n"
+    local _, err, code = script(begin .. "s:process(function(p) end)")
+    assert.equal("script.lua:4: remark: this process never ran: scene:run{...} computes what it describes\n",
+      (err:gsub("^.*/", "")))
+    assert.equal(0, code)
+    for _, use in ipairs { "s:run{ duration = 0.01 }", "s:settle()", "sw.remarks = false", "error 'x'",
+      ("s:save(%q)"):format(program.folder() .. "/x.sws"),
+      "sw.study { name = 'a', parameters = { x = { 0, 1 } }, evaluate = function() return { y = 1 } end }",
+    } do
+      _, err = script(begin .. use)
+      assert.is_nil(err:find "never ran", use)
+    end
+    _, err = script(start .. wire(good))
+    assert.equal("", err)
+  end)
+
   it("do not appear for ties that are slack or exactly as long as the distance", function()
     local _, err = script(start .. "local w = " .. wire(good) .. [[
 

@@ -20,6 +20,7 @@ local checks = require "softworld.checks"
 local conditions = require "softworld.run.conditions"
 local sealed = require "softworld.sealed"
 local stages = require "softworld.run.stages"
+local unread = require "softworld.unread"
 local waiting = require "softworld.run.waiting"
 
 local process = {}
@@ -248,6 +249,7 @@ function core.class.scene.process(scene, body)
   end
   current[self.thread] = self
   data.processes[#data.processes + 1] = self
+  unread.process()
   return self
 end
 

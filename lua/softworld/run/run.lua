@@ -101,6 +101,7 @@ end
 -- are raised unchanged and leave the scene at its last good step.
 function core.class.scene.run(scene, args)
   build.check(scene, "scene:run", 3)
+  unread.used()
   if args == nil then args = {} end
   if type(args) == "table" then
     if checks.kind(args) ~= "table" then

@@ -15,6 +15,7 @@ local build = require "softworld.scene.build"
 local keep = require "softworld.scene.keep"
 local process = require "softworld.run.process"
 local turns = require "softworld.run.turns"
+local unread = require "softworld.unread"
 local sealed = require "softworld.sealed"
 local sink = require "softworld.output.sink"
 local solid = require "softworld.output.solid"
@@ -137,6 +138,7 @@ end
 --- scene:save(file): writes the whole state of the scene, for scene:resume and sw.load.
 function class.scene.save(scene, file)
   build.check(scene, "scene:save", 3)
+  unread.used()
   return build.call(3, save_now, scene, file)
 end
 

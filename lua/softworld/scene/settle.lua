@@ -7,6 +7,7 @@ local checks = require "softworld.checks"
 local kept = require "softworld.run.kept"
 local process = require "softworld.run.process"
 local trust = require "softworld.run.trust"
+local unread = require "softworld.unread"
 
 local Settled = { __name = "settled" }
 
@@ -91,6 +92,7 @@ end
 -- the result has error bars, see help "tolerance"; progress = true then prints every level.
 function core.class.scene.settle(scene, args)
   process.guard "scene:settle"
+  unread.used()
   if not trust.wanted(args) then return settle(scene, args) end
   build.check(scene, "scene:settle", 3)
   return build.call(3, with_bars, scene, args)

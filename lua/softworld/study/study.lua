@@ -31,6 +31,7 @@ local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
 local search_methods = require "softworld.study.search"
 local spread = require "softworld.study.spread"
+local unread = require "softworld.unread"
 local where = require "softworld.study.where"
 
 local study = {}
@@ -175,6 +176,7 @@ local function make(args)
   own.seed = math.tointeger(own.seed)
   own.part, own.asked, own.told, own.computed, own.counts = 0, {}, {}, 0, {}
   own.journal = journal.new(own.file, definition(own))
+  unread.used()
   node.study(own)
   where.of_study(own)
   own.journal:read()

@@ -17,6 +17,7 @@ local show = require "softworld.view.show"
 local draft = require "softworld.view.draft"
 local functions = require "softworld.view.functions"
 local kinds = require "softworld.view.kinds"
+local unread = require "softworld.unread"
 local work = require "softworld.view.work"
 
 local view = {}
@@ -114,6 +115,7 @@ local function name_of(scene) return scene.name end
 function view.view(scene, args)
   if core.type(scene) ~= "scene" then error("scene:view is a method: call it with a colon", 2) end
   build.call(3, name_of, scene) -- raises if the scene is closed
+  unread.used()
   if of_scene(scene) then return of_scene(scene) end
   return build.call(3, serve, scene, args)
 end
