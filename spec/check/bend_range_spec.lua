@@ -73,6 +73,24 @@ describe("the row of a bend radius", function()
     end)
   end
 
+  it("is not given for a straight wire, whose curvature is rounding", function()
+    local edges = require "softworld.check.edges"
+    for _, length in ipairs { 0.1, 3 } do
+      local wire = sw.scene {}:wire { name = "a", cable = "GXL 1.5", segments = 20, from = { 0, 0, 0 },
+        to = { length, 0, 0 } }
+      local function widened(lengths, uneven)
+        return edges.widen({ value = lengths * length, uneven = uneven, inside = 1e-3 }, "low",
+          { name = "a", object = wire }, { events = {} })
+      end
+      for _, uneven in ipairs { 0.1, 1, 50 } do -- from even to zigzag
+        assert.is_nil(widened(1e4, uneven).note)
+        assert.is_true((widened(1e4, uneven).low or math.huge) >= 1e4 * length)
+        assert.matches("are coarse for this bend", widened(100, uneven).note)
+        assert.is_true(widened(100, uneven).low < 100 * length)
+      end
+    end
+  end)
+
   it("is exact for a smooth bend", function()
     local run, wire = hanging(nil, 50)
     local row = row_of(run, 0.1)

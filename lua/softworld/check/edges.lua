@@ -16,6 +16,10 @@ local WIDER = 0.04
 -- up to ten times sharper, so SHARPER times are taken [-].
 local SMOOTH, ZIGZAG, SHARPER = 0.02, 1.5, 12
 
+-- A radius of more lengths of the wire is a straight wire and rounding, which is never even: such a bend is
+-- 1/8000 of the length off a line [-].
+local STRAIGHT = 1e3
+
 -- Returns the event of a wire, or nil.
 local function event_of(run, name)
   for _, e in ipairs(run.events) do
@@ -31,6 +35,7 @@ end
 local function widen_bend(value, entry)
   if not (value.uneven and value.uneven > SMOOTH and value.value < math.huge) then return nil end
   local wire, known = entry.object, value.uneven < ZIGZAG
+  if value.value > STRAIGHT * wire.length then return nil end
   local axis, uneven, inside = value.value + value.inside, value.uneven, value.inside
   local least = axis / (known and 1 + SHARE * uneven or SHARPER) - inside
   value.low = math.max(0, math.min(value.low or value.value, least))
