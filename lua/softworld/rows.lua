@@ -16,6 +16,7 @@
 -- choice, vector, rotation, function, table; numbers (one, or a list of them), list (of = "number" checks
 -- its items), reaction (a choice or a function). Other types are shown in help only; the reader checks them.
 -- @module softworld.rows
+local core = require "softworld.core"
 local checks = require "softworld.checks"
 
 local rows = {
@@ -46,7 +47,7 @@ end
 
 --- Registers a call: its name ("scene:clip" or "gripper:press"), its arguments in words, what it does, and
 -- the rows of its table if it takes one. list.gives: what it returns; list.example: a line of a script;
--- list.also: table of core rows that the call also takes; the core checks their names and values.
+-- list.also = "trajectory": the call also takes the core's rows of this name; the core checks their values.
 function rows.call(name, arguments, doc, list)
   local self = rows.list(list or {})
   self.name, self.arguments, self.doc = name, arguments, doc
@@ -130,12 +131,22 @@ local function missing(prefix, row)
   error(("%s%s is required,%s"):format(prefix, row.name, range), 0)
 end
 
+-- Returns the names that the call takes, as keys.
+local function names_of(self)
+  if not self.also then return self.known end
+  local names = {}
+  for _, list in ipairs{ self.rows, core.trajectory_parameters() } do
+    for _, row in ipairs(list) do names[row.name] = true end
+  end
+  return names
+end
+
 --- Checks names and values of the arguments and returns a copy with defaults. what: the owner in the message
 -- about an unknown name, default the call's name; prefix: text before a name in other messages.
 function Call:read(args, what, prefix)
   what = what or self.name
   prefix = prefix or what .. ": "
-  checks.keys(what, args, self.also and args or self.known, 0)
+  checks.keys(what, args, names_of(self), 0)
   local copy = {}
   for key, value in pairs(args) do copy[key] = value end
   for _, row in ipairs(self.rows) do

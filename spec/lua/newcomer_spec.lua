@@ -50,6 +50,40 @@ describe("a first script", function()
       { dt = 0.01 })
   end)
 
+  it("is told all the names that gripper:move takes", function()
+    local _, wire, hand = laid(0.1)
+    hand:grasp(wire, { s = 0.1 })
+    local _, why = pcall(hand.move, hand, { by = { 0, 0, 0.1 }, velocity = 0.2 })
+    assert.matches("gripper:move: there is no parameter 'velocity'; known are: ", why)
+    for _, name in ipairs { "by", "to", "points", "turn", "speed", "duration", "on_slip" } do
+      assert.matches(" " .. name .. "%f[ \0]", why)
+    end
+    refused("gripper:move: there is no parameter 'speeed'; did you mean 'speed'?", hand.move, hand,
+      { by = { 0, 0, 0.1 }, speeed = 0.2 })
+    refused("gripper:move: there is no parameter 'bye'; did you mean 'by'?", hand.move, hand,
+      { bye = { 0, 0, 0.1 }, speed = 0.2 })
+  end)
+
+  it("reads once when a run diverged", function()
+    local scene, wire, hand = laid(0.1)
+    scene:obstacle { name = "wall", shape = "box", size = { 0.01, 0.4, 0.6 }, at = { 0.25, 0, 0.3 } }
+    scene:process(function()
+      hand:grasp(wire, { s = 0.19 })
+      hand:move { by = { 0.2, 0, 0 }, speed = 0.5 }
+    end)
+    local run, lines = scene:run { dt = 0.01 }, {}
+    assert.is_false(run.ok)
+    assert.matches("^at t = ", run.reason)
+    local file = io.tmpfile()
+    run:summary(file)
+    file:seek "set"
+    for line in file:lines() do lines[#lines + 1] = line end
+    file:close()
+    local _, times = lines[1]:gsub("at t = ", "")
+    assert.equal(1, times, lines[1])
+    assert.matches("^first: DIVERGED at t = [^:]*: %a", lines[1])
+  end)
+
   it("reads the margin of its grip where it reads the force", function()
     local scene, wire, hand = laid(3e-3, { width = 0.02, friction = 0.6, opening = 9e-3 })
     assert.is_nil(hand.peak_margin)

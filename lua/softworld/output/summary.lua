@@ -23,8 +23,8 @@ local function status(run)
     if run.unmet then line = line .. "\n  ! " .. plain(run.unmet) end
     return line
   end
-  return string.format("%s: DIVERGED at t = %s: %s", plain(run.name or "run"), time,
-    plain(run.reason or "no reason given"))
+  local reason = plain(run.reason or "no reason given"):gsub("^at t = [^:]*: ", "") -- the time is there
+  return string.format("%s: DIVERGED at t = %s: %s", plain(run.name or "run"), time, reason)
 end
 
 local function cells(entry)
