@@ -12,7 +12,8 @@ describe("the report on a minimum", function()
       return { y = bowl(p).y, y_error = 0.01 + p.a ^ 2 }
     end):minimise "y"
     assert.equal(0.01 + found.best.a ^ 2, found.error)
-    assert.truthy(tostring(found):find("y = 2 +- 0.26 (", 1, true), tostring(found))
+    local place = ("y = 2 +- 0.26 at a = %.6g, b = %.6g ("):format(found.best.a, found.best.b)
+    assert.truthy(tostring(found):find(place, 1, true), tostring(found))
     assert.is_nil(study(RANGES, bowl):minimise "y".error)
   end)
 

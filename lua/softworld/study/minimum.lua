@@ -138,9 +138,21 @@ local function add_flat(lines, f)
   end
 end
 
+-- Returns where it is: "speed = 0.2, kind = 'rod'".
+local function place_text(f)
+  local parts = {}
+  for i, name in ipairs(f.order) do
+    local value = f.best[name]
+    parts[i] = ("%s = %s"):format(name, type(value) == "number" and ("%.6g"):format(value)
+      or ("'%s'"):format(tostring(value)))
+  end
+  return table.concat(parts, ", ")
+end
+
 function Found.__tostring(f)
-  local lines = { ("%s = %.6g%s (%s: %s, %d evaluations, %d failed)"):format(f.name, f.value,
-    f.error and (" +- %.2g"):format(f.error) or "", f.method, f.reason, f.evaluations, f.failed) }
+  local lines = { ("%s = %.6g%s at %s (%s: %s, %d evaluations, %d failed)"):format(f.name, f.value,
+    f.error and (" +- %.2g"):format(f.error) or "", place_text(f), f.method, f.reason, f.evaluations,
+    f.failed) }
   add_noise(lines, f)
   if #f.at_bound > 0 then
     lines[#lines + 1] = ("  at the end of the range: %s"):format(table.concat(f.at_bound, ", "))
