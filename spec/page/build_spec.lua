@@ -143,7 +143,7 @@ describe("a view that starts with an empty scene", function()
     fill("s", "3")
     submit()
     page:wait [[return document.querySelector(".form .why").innerText
-      === "clamp: s = 3 m is not on wire 'cord'; it must be in [0, 0.4] m; is this in mm?"]]
+      === "clamp 'clamp1': s = 3 m is not on wire 'cord'; it must be in [0, 0.4] m; is this in mm?"]]
     assert.equal(before, things())
     fill("s", "zero")
     submit()

@@ -166,7 +166,8 @@ describe("a view that starts with an empty scene", function()
     local answer = go([[{"do":"draft","what":"add","class":"hold","kind":"clamp",]]
       .. [["values":{"_on":"cord","s":3},"ask":"b"}]])
     assert.equal("b", answer.ask)
-    assert.equal("clamp: s = 3 m is not on wire 'cord'; it must be in [0, 0.5] m; is this in mm?", answer.text)
+    assert.equal("clamp 'clamp1': s = 3 m is not on wire 'cord'; it must be in [0, 0.5] m; is this in mm?",
+      answer.text)
     go [[{"do":"draft","what":"add","class":"hold","kind":"clamp","values":{"_on":"cord","s":0},"ask":"c"}]]
     go [[{"do":"set","object":"","values":{"gravity":[0,0,-1]},"ask":"d"}]]
     assert.is_nil(got.lines.script:find "gravity")

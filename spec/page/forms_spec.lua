@@ -181,7 +181,7 @@ describe("a scene put together by forms", function()
     local before, shown = d:script(), json.encode(d:shown())
     for _, case in ipairs {
       { a_change("hold", "clamp", { _on = "cord", s = 3 }),
-        "clamp: s = 3 m is not on wire 'cord'; it must be in [0, 0.5] m; is this in mm?" },
+        "clamp 'clamp2': s = 3 m is not on wire 'cord'; it must be in %[0, 0%.5%] m; is this in mm%?" },
       { a_change("obstacle", "sphere", { radius = -1 }), "radius = %-1 m is not" },
       { a_change("obstacle", "sphere", {}), "radius is required" },
       { a_change("wire", "rod", WIRE), "already something named 'cord'" },
