@@ -29,8 +29,9 @@ static push push_of(const sw_mutual *m, const uint32_t body[2]) {
   return p;
 }
 
+/* Looks backwards: the same two wires mostly touch a few touches before. */
 static int is_first(const sw_mutual *m, size_t touch) {
-  for (size_t i = 0; i < touch; i++)
+  for (size_t i = touch; i-- > 0;)
     if (are_bodies(&m->touches[i].of, m->touches[touch].of.body)) return 0;
   return 1;
 }
