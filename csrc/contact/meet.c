@@ -124,6 +124,8 @@ static void begin_friction(const sw_mutual *m, const sw_system *s, const double 
   sw_press_aim(press, u, last ? &last->press : NULL, last && last->stage == m->stage, m->first);
   sw_press_resume(press, pressed ? &met->kept : NULL, last ? &last->press : NULL, went_on,
                   first_force(t));
+  /* soft springs let touches creep: in such a solve also those slide that stick */
+  if (m->soft && pressed && press->active) press->sliding = met->kept.sliding;
   sw_press_begin(press, sw_mutual_rule(m, t->of.body)->friction, went_on || pressed, HUGE_VAL);
 }
 
@@ -196,7 +198,13 @@ void sw_meet_side(const sw_met *met, double reach, sw_vec *normal, double *dista
 enum { SOFT_SOLVES = 2 };
 static const double SOFTER = 0.1;
 /* Overlaps above this share of the radii are of wires that flew in the prediction [-]. */
-static const double FLOWN = 0.02;
+static const double FLOWN = 0.005;
+/* Stiff springs throw wires about while these still pass round each other. So springs stay as soft
+ * as they are while an update shifts some pressing touch by more than this share of the radii, in
+ * at most the first LONG_SOFT solves. 24 falling bundles of 7 to 20 wires then need 0.72 times the
+ * solves, with a share of 0.05 or 0.1 as many [-]. */
+static const double PASSES_ROUND = 0.07;
+enum { LONG_SOFT = 6 };
 
 static int have_flown(const sw_mutual *m) {
   for (size_t i = 0; i < m->touch_count; i++) {
@@ -208,7 +216,11 @@ static int have_flown(const sw_mutual *m) {
 
 void sw_mutual_soften(sw_mutual *m) {
   if (m->regime != SW_CONTACT_IMPLICIT) return;
-  m->soft = m->solves == 0 ? (have_flown(m) ? SOFT_SOLVES : 0) : m->soft > 0 ? m->soft - 1 : 0;
+  if (m->solves == 0)
+    m->soft = have_flown(m) ? SOFT_SOLVES : 0;
+  else if (m->soft > 0 && (m->solves >= LONG_SOFT || m->widest <= PASSES_ROUND))
+    m->soft--;
+  m->more_soft += m->soft > 0 && m->solves >= SOFT_SOLVES;
   for (size_t i = 0; i < m->touch_count && m->soft; i++)
     if (m->touches[i].flies) m->touches[i].press.k *= pow(SOFTER, m->soft);
 }
@@ -273,14 +285,15 @@ static int update_all(sw_mutual *m, const double *delta) {
   verdict all = AGREES;
   find_scales(m);
   m->updates++;
-  m->calm = 1;
+  m->widest = 0;
   memset(m->rubbing, 0, m->bodies * sizeof *m->rubbing);
   for (size_t i = 0; i < m->touch_count; i++) {
     sw_meet *t = &m->touches[i];
     const verdict one = update(m, t, delta, scale_of(m, t));
-    m->calm &= !(t->press.normal_force > 0) || sw_norm(t->press.shift) <= CALM_SHIFT * t->reach;
+    if (t->press.normal_force > 0) m->widest = fmax(m->widest, sw_norm(t->press.shift) / t->reach);
     all = one < all ? one : all;
   }
+  m->calm = m->widest <= CALM_SHIFT;
   if (m->soft) return 0;
   return all == AGREES || (all == ALL_BUT_FRICTION && rubs_enough(m));
 }
@@ -290,13 +303,14 @@ static int update_all(sw_mutual *m, const double *delta) {
  * This limit falls by FALLS from solve to solve; two touches that alternate need a very small one.
  * For 20 wires whose nodes do not lie beside each other, in steps of 2.5 ms: without shortening
  * most steps are halved, some for ever; with half of RISES, twice of FREE_SOLVES, or a limit that
- * falls half or twice as fast, at most 1.2 times the solves (spec/contact/bundle_spec). */
+ * falls half or twice as fast, at most 1.2 times the solves (spec/contact/bundle_spec). Further
+ * soft solves do not count. */
 enum { FREE_SOLVES = 12 };
 static const double RISES = 0.5, FALLS = 0.8; /* [-] */
 
 static double share_of(sw_mutual *m, sw_contact *contact, sw_system *s) {
   sw_ways *w = &m->ways;
-  const int solves = ++m->solves - FREE_SOLVES;
+  const int solves = ++m->solves - m->more_soft - FREE_SOLVES;
   if (solves <= 0 || m->regime != SW_CONTACT_IMPLICIT || !sw_bridges_solves_again(s)) return 1.0;
   w->count = 0, w->work = sw_bridges_work(s);
   if (contact) sw_contact_add_ways(contact, s, w);

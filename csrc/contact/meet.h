@@ -123,6 +123,8 @@ struct sw_mutual {
   double first; /* share of the step's first stage in the state that this stage begins from [-] */
   int updates, solves; /* of the stage so far; solves whose update is not made count too [-] */
   int soft;        /* the touches' springs are softer in this solve, by this power of SOFTER [-] */
+  int more_soft;   /* such solves of the stage beyond those that there always are [-] */
+  double widest;   /* largest shift of a pressing touch in the last update, over the radii [-] */
   int calm;        /* 1: the last update moved no pressing touch far */
   double *base;    /* (bodies) stiffness for each body's forces [N/m] */
   double *largest; /* (bodies) largest normal force that friction uses [N] */

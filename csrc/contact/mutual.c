@@ -125,7 +125,7 @@ sw_status sw_mutual_begin_step(sw_mutual *m, sw_system *s, sw_contact_regime reg
 
 void sw_mutual_begin_stage(sw_mutual *m, double first) {
   m->stage++;
-  m->updates = m->solves = m->calm = m->soft = 0;
+  m->updates = m->solves = m->calm = m->soft = m->more_soft = 0;
   m->first = first;
 }
 
