@@ -10,6 +10,7 @@
 #include "scene/drive.h"
 #include "scene/obstacle.h"
 #include "scene/world.h"
+#include "system/join.h"
 #include "system/linear.h"
 #include "system/part.h"
 #include "system/system.h"
@@ -147,10 +148,13 @@ static sw_status find_waiting(sw_scene *s, sw_contact_regime regime, double t, d
   sw_waits_find(&s->system, alone && s->course.next == SW_AS_BEFORE);
   if (!s->system.waiting) return SW_OK;
   if (s->contact) SW_TRY(sw_contact_wake(s->contact, &s->system, t, h, err));
-  if (!s->pairs) return SW_OK;
-  sw_mutual_regard(s->pairs, &s->system, regime, h, nominal);
-  const sw_status status = sw_mutual_wake(s->pairs, &s->system);
-  return status == SW_OK ? SW_OK : sw_fail(err, status, "contact of wires: out of memory");
+  if (s->pairs) sw_mutual_regard(s->pairs, &s->system, regime, h, nominal);
+  sw_joins_wake(&s->system);
+  for (int any = s->pairs != NULL; any; any = sw_joins_wake(&s->system)) {
+    const sw_status status = sw_mutual_wake(s->pairs, &s->system);
+    if (status != SW_OK) return sw_fail(err, status, "contact of wires: out of memory");
+  }
+  return SW_OK;
 }
 
 sw_status sw_scene_begin_contact(sw_scene *s, sw_contact_regime regime, double t, double h,

@@ -301,7 +301,8 @@ static sw_status eval_hub(sw_system *s, const sw_join_hub *h, const double *y) {
 /* --- all together ----------------------------------------------------------------- */
 
 static void mark(sw_system *s, uint32_t node) {
-  s->bodies[sw_system_body_of(s, node)].coupled |= SW_JOINED;
+  sw_body *b = &s->bodies[sw_system_body_of(s, node)];
+  if (!b->waits) b->coupled |= SW_JOINED;
 }
 
 void sw_joins_mark(sw_system *s) {
@@ -312,11 +313,47 @@ void sw_joins_mark(sw_system *s) {
     for (size_t a = 0; a < l->hubs[k].count; a++) mark(s, l->hubs[k].arms[a].from);
 }
 
+/* 1 if the bodies of a join wait: all of them do, or none. */
+static int waits(const sw_system *s, uint32_t node) {
+  return s->waiting && s->bodies[sw_system_body_of(s, node)].waits;
+}
+
 sw_status sw_joins_eval(sw_system *s, const double *y) {
   const struct sw_joins *all = s->joins;
-  for (size_t k = 0; all && k < all->spring_count; k++) SW_TRY(eval_spring(s, &all->springs[k], y));
-  for (size_t k = 0; all && k < all->hub_count; k++) SW_TRY(eval_hub(s, &all->hubs[k], y));
+  for (size_t k = 0; all && k < all->spring_count; k++)
+    if (!waits(s, all->springs[k].i)) SW_TRY(eval_spring(s, &all->springs[k], y));
+  for (size_t k = 0; all && k < all->hub_count; k++)
+    if (!waits(s, all->hubs[k].arms[0].from)) SW_TRY(eval_hub(s, &all->hubs[k], y));
   return SW_OK;
+}
+
+/* Wakes the body at node `other` if that at `node` is awake. Returns 1 if it did. */
+static int wake(sw_system *s, uint32_t node, uint32_t other) {
+  sw_body *b = &s->bodies[sw_system_body_of(s, other)];
+  if (!b->waits || s->bodies[sw_system_body_of(s, node)].waits) return 0;
+  b->waits = 0;
+  return 1;
+}
+
+static int wake_once(sw_system *s) {
+  const struct sw_joins *all = s->joins;
+  int any = 0;
+  for (size_t k = 0; k < all->spring_count; k++) {
+    const sw_join_spring *p = &all->springs[k];
+    any |= wake(s, p->i, p->j) | wake(s, p->j, p->i);
+  }
+  for (size_t k = 0; k < all->hub_count; k++) {
+    const sw_join_hub *h = &all->hubs[k];
+    for (size_t a = 0; a < h->count * h->count; a++)
+      any |= wake(s, h->arms[a / h->count].from, h->arms[a % h->count].from);
+  }
+  return any;
+}
+
+int sw_joins_wake(sw_system *s) {
+  int any = 0;
+  while (s->joins && wake_once(s)) any = 1;
+  return any;
 }
 
 /* Returns the length along the wire from the edge that starts at a node to another node; infinite

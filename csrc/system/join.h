@@ -44,8 +44,11 @@ sw_status sw_system_add_hub(sw_system *system, const sw_join_hub *hub);
 /* Plans the bridges of all joins again. SW_ENOMEM. */
 sw_status sw_joins_plan(sw_system *system);
 
-/* Marks the bodies of all joins as coupled (system/part.h). */
+/* Marks the bodies of all joins as coupled (system/part.h), except those that wait. */
 void sw_joins_mark(sw_system *system);
+/* Wakes the bodies that are joined to others that do not wait (system/wait.h). Returns 1 if there
+ * were any. */
+int sw_joins_wake(sw_system *system);
 
 /* Adds forces and stiffness at y to the bodies' fields and to the bridges. SW_ENOMEM. */
 sw_status sw_joins_eval(sw_system *system, const double *y);

@@ -5,8 +5,6 @@
 #include <string.h>
 
 #include "base/each.h"
-#include "system/join.h"
-#include "system/part.h"
 
 /* A wire came to rest if no node is faster than SLOW [m/s], nor accelerated by more than BALANCED,
  * a billionth of gravity [m/s2]. Wires on a table get there by themselves, down to rounding: 1e-13
@@ -60,8 +58,7 @@ int sw_waits_stopping(sw_system *s) {
   SW_ITEMS(sw_body, b, s->bodies, s->body_count) {
     const double *v = s->v + 3 * b->first_node, *a = s->a + 3 * b->first_node;
     const size_t n = 3 * b->plan->nodes;
-    b->stops = !b->waits && !(b->coupled & SW_JOINED) && largest(v, n) < SLOW &&
-               largest(a, n) < BALANCED && may_wait(s, b);
+    b->stops = !b->waits && largest(v, n) < SLOW && largest(a, n) < BALANCED && may_wait(s, b);
     any |= b->stops;
   }
   return any;
@@ -99,10 +96,8 @@ static int rests(const sw_system *s, const sw_body *b) {
 void sw_waits_find(sw_system *s, int may) {
   s->waiting = 0;
   may &= !s->awake;
-  for (size_t b = 0; b < s->body_count; b++) s->bodies[b].coupled = 0;
-  if (may) sw_joins_mark(s);
   SW_ITEMS(sw_body, b, s->bodies, s->body_count) {
-    b->waits = may && !b->coupled && rests(s, b) && may_wait(s, b);
+    b->waits = may && rests(s, b) && may_wait(s, b);
     s->waiting |= b->waits;
     b->weighed &= b->waits;
     may &= !b->plan->web;
