@@ -6,6 +6,7 @@
 #include "base/alloc.h"
 #include "base/each.h"
 #include "contact/meet.h"
+#include "system/wait.h"
 
 static int wait(const sw_system *s, const uint32_t body[2]) {
   return s->bodies[body[0]].waits && s->bodies[body[1]].waits;
@@ -55,12 +56,6 @@ sw_status sw_mutual_wake(sw_mutual *m, sw_system *s) {
   return m->finder->wake ? m->finder->wake(m, s) : SW_OK;
 }
 
-static int has_changed(const sw_mutual *m, const sw_system *s) {
-  for (size_t b = 0; b < s->body_count; b++)
-    if (s->bodies[b].waits != m->still.kept[b]) return 1;
-  return 0;
-}
-
 /* Merges the touches of two lists whose bodies wait into the room. */
 static size_t merge(const sw_mutual *m, const sw_system *s, sw_meet *out) {
   const sw_still_meets *still = &m->still;
@@ -76,7 +71,7 @@ static size_t merge(const sw_mutual *m, const sw_system *s, sw_meet *out) {
 
 sw_status sw_mutual_set_aside(sw_mutual *m, const sw_system *s) {
   sw_still_meets *still = &m->still;
-  const int changed = (s->waiting || still->any) && has_changed(m, s);
+  const int changed = (s->waiting || still->any) && !sw_waits_are(s, still->kept);
   if (changed) {
     SW_TRY(sw_grow_empty((void **)&still->room, &still->room_capacity,
                          m->touch_count + still->count, sizeof *still->room));

@@ -9,6 +9,7 @@
 #include "contact/broad.h"
 #include "contact/depth.h"
 #include "contact/touch.h"
+#include "system/wait.h"
 
 /* Anything nearer to a wire than this many radii, and what may come as near, disturbs it [-]. */
 static const double NEAR = 2.0;
@@ -124,13 +125,6 @@ sw_status sw_contact_wake(sw_contact *c, sw_system *s, double t, double h, sw_er
   return SW_OK;
 }
 
-/* 1 if the bodies that wait are not those whose touches are set aside. */
-static int has_changed(const sw_contact *c, const sw_system *s) {
-  for (size_t b = 0; b < s->body_count; b++)
-    if (s->bodies[b].waits != c->still.kept[b]) return 1;
-  return 0;
-}
-
 /* Sets the touches of the bodies that wait aside. */
 static sw_status set_aside(sw_contact *c, const sw_system *s) {
   size_t from_touches = 0, from_still = 0, count = 0;
@@ -161,7 +155,7 @@ sw_status sw_contact_wait(sw_contact *c, sw_system *s) {
   if (c->regime != SW_CONTACT_IMPLICIT || !has_room(c, s->body_count)) {
     for (size_t b = 0; b < s->body_count; b++) s->bodies[b].waits = 0;
     sw_contact_forget_still(c);
-  } else if ((s->waiting || c->still.any) && has_changed(c, s)) {
+  } else if ((s->waiting || c->still.any) && !sw_waits_are(s, c->still.kept)) {
     SW_TRY(set_aside(c, s));
   }
   c->still.accepted = 0;

@@ -107,6 +107,12 @@ void sw_waits_find(sw_system *s, int may) {
   SW_ITEMS(sw_body, b, s->bodies, s->body_count) b->waits = 0;
 }
 
+int sw_waits_are(const sw_system *s, const unsigned char *flags) {
+  for (size_t b = 0; b < s->body_count; b++)
+    if (s->bodies[b].waits != flags[b]) return 0;
+  return 1;
+}
+
 void sw_waits_place(const sw_system *s, const sw_stage *stage) {
   SW_ITEMS(const sw_body, b, s->bodies, s->body_count) {
     const size_t at = 3 * b->first_node, n = 3 * b->plan->nodes;

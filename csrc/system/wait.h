@@ -14,6 +14,8 @@ void sw_waits_stop(sw_system *system); /* stops the others */
 /* A step begins: finds the bodies that wait in it. may: 0 = none does, for instance because the
  * scene was changed. The couplings then wake those that they may disturb (sw_body.waits = 0). */
 void sw_waits_find(sw_system *system, int may);
+/* 1 if the bodies that wait are those with a flag (bodies). */
+int sw_waits_are(const sw_system *system, const unsigned char *flags);
 /* A stage begins, and is solved: the bodies that wait keep their places, without velocity. */
 void sw_waits_place(const sw_system *system, const sw_stage *stage);
 void sw_waits_finish(const sw_system *system, const sw_stage *stage);
