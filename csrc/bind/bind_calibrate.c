@@ -184,6 +184,7 @@ int lsw_wire_calibration(lua_State *L) {
                       "wire:calibration: wire '%s' is a %s, which has no springs to calibrate; "
                       "this is for meshes of particles",
                       name, model);
+  lsw_quiet(L);
   lua_pushcfunction(L, push_calibration);
   lua_pushlightuserdata(L, (void *)c);
   lua_call(L, 1, 1);

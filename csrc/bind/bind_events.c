@@ -51,6 +51,7 @@ static void push_event(lua_State *L, const sw_event *e) {
 int lsw_scene_events(lua_State *L) {
   const sw_scene *scene = lsw_check_scene(L);
   const sw_event *e;
+  lsw_quiet(L);
   lua_newtable(L);
   for (size_t k = 0; (e = sw_scene_event(scene, k)) != NULL; k++) {
     push_event(L, e);

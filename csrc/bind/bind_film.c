@@ -46,6 +46,7 @@ static size_t *frames_at(lua_State *L, int index, const sw_scene *scene, size_t 
   luaL_checktype(L, index, LUA_TTABLE);
   *count = lua_rawlen(L, index);
   size_t *list = lua_newuserdatauv(L, *count * sizeof *list + 1, 0);
+  lsw_still_open(L);
   for (size_t i = 0; i < *count; i++) {
     lua_rawgeti(L, index, (lua_Integer)i + 1);
     const lua_Integer number = lua_tointeger(L, -1);
@@ -86,8 +87,8 @@ static int mod_skin(lua_State *L) {
                        .thickness = luaL_checknumber(L, 5),
                        .differences = lua_toboolean(L, 6)};
   if (args.sides < 3 || args.sides > 64) return luaL_error(L, "core.skin: 3 to 64 sides");
-  args.frames = frames_at(L, 3, scene, &args.count);
   sw_skin *skin = lsw_keep(L, sizeof *skin, "softworld.skin", NULL, free_skin);
+  args.frames = frames_at(L, 3, scene, &args.count); /* last: a finaliser may clear frames */
   const sw_status status = sw_skin_make(scene, &args, sw_interrupted, skin, &err);
   if (status == SW_EINVAL) return 0;
   lsw_must(L, status, &err);
@@ -100,6 +101,7 @@ static int mod_skin(lua_State *L) {
 static int mod_edges(lua_State *L) {
   luaL_Buffer b;
   const lsw_self p = lsw_check_self(L, &lsw_class_particles);
+  lsw_quiet(L);
   const size_t count = sw_scene_particles_edges(p.scene, p.id, NULL), size = 2 * sizeof(uint32_t);
   char *out = luaL_buffinitsize(L, &b, count * size);
   sw_scene_particles_edges(p.scene, p.id, (uint32_t *)(void *)out);

@@ -147,6 +147,7 @@ enum { PARTS = sizeof parts / sizeof parts[0] };
 int lsw_scene_frame(lua_State *L) {
   const sw_scene *scene = lsw_check_scene(L);
   const lua_Integer i = lsw_integer(L, 2, "scene:frame: the number of the frame");
+  lsw_quiet(L);
   if (i < 1 || (size_t)i > sw_scene_frames(scene)) return 0;
   const size_t frame = (size_t)i - 1;
   lua_createtable(L, 0, 1 + PARTS);
@@ -179,6 +180,7 @@ static int mod_frame_now(lua_State *L) {
   lua_settop(L, 1);
   LSW_DO(L, sw_scene_readable, scene);
   LSW_DO_FORCES(L, sw_scene_frame_now, scene);
+  lsw_quiet(L);
   lua_pushcfunction(L, last_frame);
   lua_pushvalue(L, 1);
   const int failed = lua_pcall(L, 1, 1, 0);
@@ -203,6 +205,7 @@ static int mod_frames_thinned(lua_State *L) {
 /* core.frame_times(scene) -> list of the times of all frames [s] */
 static int mod_frame_times(lua_State *L) {
   const sw_scene *scene = lsw_check_scene(L);
+  lsw_quiet(L);
   const size_t count = sw_scene_frames(scene);
   lua_createtable(L, (int)count, 0);
   for (size_t f = 0; f < count; f++) {
@@ -250,6 +253,7 @@ static int mod_frames_sweep(lua_State *L) {
   const size_t w = wire_index(L, 2, scene);
   const double start = lsw_number(L, 3, "frames_sweep: start", "s");
   sw_swept swept;
+  lsw_quiet(L);
   sw_scene_frames_sweep(scene, start, w, &swept);
   lua_createtable(L, 6, 1);
   for (int k = 0; k < 3; k++) {
@@ -303,6 +307,7 @@ static int mod_frame_contact(lua_State *L) {
   const size_t w = wire_index(L, 3, scene);
   size_t count = 0;
   double most = 0;
+  lsw_quiet(L);
   if (i < 1 || (size_t)i > sw_scene_frames(scene)) return 0;
   const float *x = sw_scene_frame_wire(scene, (size_t)i - 1, w, &count);
   const float *p = x ? sw_scene_frame_values(scene, (size_t)i - 1, w, &count) : NULL;
@@ -336,6 +341,7 @@ static int mod_frames_press(lua_State *L) {
   const double start = lsw_number(L, 3, "frames_press: start", "s");
   luaL_checktype(L, 5, LUA_TTABLE);
   const sw_press_request request = check_press(L);
+  lsw_quiet(L);
   lua_Integer at = 0;
   lua_newtable(L);
   for (size_t f = 0; f < sw_scene_frames(scene); f++) {

@@ -77,6 +77,7 @@ static int meth_crash(lua_State *L) {
   const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
   LSW_DO(L, sw_scene_hold_crash, c.scene, c.id, &time, &depth, &obstacle);
   if (!(depth > 0)) return 0;
+  lsw_quiet(L);
   lua_createtable(L, 0, 3);
   lsw_set_number(L, "time", time);
   lsw_set_number(L, "depth", depth);

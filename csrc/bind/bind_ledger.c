@@ -62,7 +62,9 @@ static int mod_ledger(lua_State *L) {
  * all losses so far [J]; number of rows */
 static int mod_energy_log(lua_State *L) {
   size_t rows;
-  const double *log = sw_scene_energy_log(lsw_check_scene(L), &rows);
+  const sw_scene *scene = lsw_check_scene(L);
+  lsw_quiet(L);
+  const double *log = sw_scene_energy_log(scene, &rows);
   lsw_push_flat(L, log, rows * SW_LOG_ENERGY_SIZE);
   lua_pushinteger(L, (lua_Integer)rows);
   return 2;

@@ -72,6 +72,7 @@ static int mod_resume(lua_State *L) {
 /* core.items(scene) -> { "wire 'a'", checksum, "box 'b'", checksum, ... } */
 static int mod_items(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
+  lsw_quiet(L);
   lua_newtable(L);
   for (size_t k = 0; k < sw_scene_items(scene); k++) {
     const sw_scene_item item = sw_scene_item_at(scene, k);

@@ -17,6 +17,7 @@ static void set_stress(lua_State *L, double E, const double *strain, size_t coun
 
 /* Sets the field height: the width along the vertical, unless the wire itself is vertical. */
 static void set_height(lua_State *L, lsw_self w, double s, sw_vec tangent) {
+  lsw_still_open(L);
   const sw_vec g = sw_scene_gravity(w.scene);
   const sw_vec up = sw_unit_or(sw_neg(g), sw_v(0, 0, 1));
   double height;

@@ -99,6 +99,7 @@ static int meth_state(lua_State *L) {
   sw_tool_state now;
   const lsw_self t = check(L);
   LSW_DO(L, sw_scene_tool_state, t.scene, t.id, &now);
+  lsw_quiet(L);
   lua_createtable(L, 0, 12);
   lsw_set_text(L, "jaws", statuses[now.status]);
   lsw_set_number(L, "opening", now.opening);
@@ -157,6 +158,7 @@ static int meth_touches(lua_State *L) {
   lua_Integer found = 0;
   const lsw_self t = check(L);
   LSW_DO(L, sw_scene_tool_touches, t.scene, t.id, &count);
+  lsw_quiet(L);
   lua_newtable(L);
   for (size_t k = 0; k < count; k++) {
     sw_tool_touch touch;

@@ -42,6 +42,7 @@ int lsw_scene_touches(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
   size_t count = 0;
   LSW_DO(L, sw_scene_wire_touch_count, scene, &count);
+  lsw_quiet(L);
   lua_createtable(L, (int)count, 0);
   size_t next[2] = {0, 0};
   sw_wire_touch t;

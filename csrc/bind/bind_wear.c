@@ -21,6 +21,7 @@ static int mod_worn(lua_State *L) {
   size_t count;
   const lsw_self w = wire_at(L, &count);
   if (!count) return 0;
+  lsw_quiet(L);
   lua_createtable(L, (int)count, 0);
   for (size_t k = 0; k < count; k++) {
     const sw_worn x = sw_scene_worn_place(w.scene, w.id, k);
@@ -58,6 +59,7 @@ static int mod_worn_cycles(lua_State *L) {
   luaL_argcheck(L, k >= 1 && (size_t)k <= count, 2, "there is no such place");
   luaL_argcheck(L, signal >= 0 && signal < SW_WORN_SIGNALS, 3, "there is no such signal");
   double open[SW_CYCLES_OPEN];
+  lsw_quiet(L);
   push_cycles(L, list, sw_scene_worn_cycles(w.scene, w.id, (size_t)k - 1, (int)signal, list));
   lsw_push_flat(L, open, sw_scene_worn_open(w.scene, w.id, (size_t)k - 1, (int)signal, open));
   return 2;

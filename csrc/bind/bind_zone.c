@@ -22,6 +22,7 @@ static int mod_zone(lua_State *L) {
   sw_shape_release(shape);
   lsw_still_open(L);
   lsw_must(L, status, &err);
+  lsw_quiet(L);
   const sw_zone *zone = sw_scene_zone(scene, sw_scene_zones(scene) - 1);
   lua_pushstring(L, zone->name);
   lsw_push_shape(L, zone->shape);
@@ -36,6 +37,7 @@ static int mod_zone(lua_State *L) {
  * inside [s] }, ... }; gap to inside only if a step was watched */
 static int mod_zones(lua_State *L) {
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
+  lsw_quiet(L);
   const size_t count = sw_scene_zones(w.scene);
   lua_createtable(L, (int)count, 0);
   for (size_t k = 0; k < count; k++) {

@@ -74,7 +74,9 @@ int lsw_say_taken_back(lua_State *L, const lsw_class *c) {
 }
 
 int lsw_not_there(lua_State *L, const lsw_class *c, const sw_scene *scene) {
-  return luaL_error(L, "this %s is no longer in scene '%s'", c->name, sw_scene_name(scene));
+  char name[SW_NAME_SIZE]; /* an error first makes a value, which may run a finaliser */
+  snprintf(name, sizeof name, "%s", sw_scene_name(scene));
+  return luaL_error(L, "this %s is no longer in scene '%s'", c->name, name);
 }
 
 void lsw_check_table(lua_State *L, int index, const char *what) {

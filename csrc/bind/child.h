@@ -61,6 +61,12 @@ int lsw_not_there(lua_State *L, const lsw_class *c, const sw_scene *scene);
 int lsw_is_open(lua_State *L);
 void lsw_still_open(lua_State *L);
 
+/* No finaliser runs from here to the end of the running C function, so nothing closes or changes
+ * the scene while the function reads its lists. The object at index 1 must still be open. Pushes a
+ * value that must stay where it is. Nothing but a lack of memory may raise an error from here on:
+ * in a coroutine that fails, the collector would stay stopped. */
+void lsw_quiet(lua_State *L);
+
 /* Raises unless status is SW_OK; errors of Lua callbacks keep their value. */
 void lsw_must(lua_State *L, sw_status status, const sw_error *err);
 

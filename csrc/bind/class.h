@@ -56,6 +56,9 @@ const char *lsw_describe(lua_State *L, int index);
  * method tables by class name; Lua files add methods to these. */
 void lsw_open_classes(lua_State *L);
 
+/* Makes what lsw_quiet of child.h needs. */
+void lsw_open_quiet(lua_State *L);
+
 /* Raises "interrupted" when the user wants to stop. */
 void lsw_poll(lua_State *L);
 

@@ -32,6 +32,7 @@ int luaopen_softworld_core(lua_State *L) {
   luaL_newlib(L, functions);
   lua_pushliteral(L, SW_VERSION);
   lua_setfield(L, -2, "version");
+  lsw_open_quiet(L);
   lsw_open_classes(L);
   lua_setfield(L, -2, "class");
   lsw_locale_open(L);

@@ -102,6 +102,7 @@ size_t lsw_log_rows(lua_State *L, const lsw_class *c, size_t size, const double 
   const lsw_self child = lsw_check_self(L, c);
   const double from = time_at(L, 2, c, -HUGE_VAL), to = time_at(L, 3, c, HUGE_VAL);
   LSW_DO(L, sw_scene_log, child.scene, c->kind, child.id, rows, &count);
+  lsw_quiet(L); /* the rows are the scene's */
   if (!count) return 0;
   const size_t first = rows_until(*rows, count, size, from, 1), skip = first ? first - 1 : 0;
   const size_t end = rows_until(*rows, count, size, to, 0);

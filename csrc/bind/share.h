@@ -30,7 +30,7 @@ int lsw_pose(lua_State *L, const lsw_class *cls);
 int lsw_follow(lua_State *L, const lsw_class *cls, const char *mover);
 
 /* Finds the rows of object:log([t1 [, t2]]), size numbers each: from the last row before t1 to the
- * first row after t2 [s]. Returns how many. */
+ * first row after t2 [s]. Returns how many. Calls lsw_quiet, as the rows are the scene's. */
 size_t lsw_log_rows(lua_State *L, const lsw_class *c, size_t size, const double **rows);
 /* object:log([t1 [, t2]]) -> these rows as one flat list, number of rows. */
 int lsw_log(lua_State *L, const lsw_class *c, size_t size);
