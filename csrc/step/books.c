@@ -298,7 +298,7 @@ sw_status sw_scene_end_run(sw_scene *s, sw_error *why) {
                   l->gained, 100.0 * share);
     return SW_OK;
   }
-  char pressed[2 * SW_NAME_SIZE + 100]; /* wedged wires make energy with steps of any size */
+  char pressed[2 * SW_NAME_SIZE + 150]; /* wedged wires make energy with steps of any size */
   sw_scene_tell_pressed(s, pressed, sizeof pressed);
   sw_fail(
       why, SW_EDIVERGED,

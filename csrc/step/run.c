@@ -75,7 +75,7 @@ static sw_status run_loop(sw_ladder *p, double until, int (*interrupted)(void), 
 }
 
 static void conclude(sw_scene *s, sw_status status, sw_run_report *report, const sw_error *why) {
-  char broken[SW_NAME_SIZE + 100], pressed[2 * SW_NAME_SIZE + 100];
+  char broken[SW_NAME_SIZE + 100], pressed[2 * SW_NAME_SIZE + 150];
   report->status = status;
   report->time = sw_scene_time(s);
   if (status == SW_OK || status == SW_EINTR || status == SW_ECALLBACK) return;

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "body/obstacle_log.h"
 #include "edit/wires.h"
 #include "read/reading.h"
 #include "scene/events.h"
@@ -66,7 +67,19 @@ void sw_scene_tell_broken(const sw_scene *s, char *out, size_t size) {
 /* Presses below this are not reported as a reason, over the wire's weight on earth [-]. */
 static const double HARD = 20.0;
 
-void sw_scene_tell_pressed(const sw_scene *s, char *out, size_t size) {
+/* Time since which wires have touched the obstacle without a break; NAN if it is not known [s]. */
+static double touched_since(sw_scene *s, sw_scene_obstacle *o) {
+  double since = (double)NAN;
+  if (sw_obstacle_log_fill(s, o) != SW_OK) return since;
+  for (size_t end = o->log.count; end >= SW_LOG_OBSTACLE_SIZE; end -= SW_LOG_OBSTACLE_SIZE) {
+    const double *row = o->log.rows + end - SW_LOG_OBSTACLE_SIZE;
+    if (sw_norm2(sw_load(row + 1)) == 0) break;
+    since = row[0];
+  }
+  return since;
+}
+
+void sw_scene_tell_pressed(sw_scene *s, char *out, size_t size) {
   sw_system *system = sw_scene_system(s);
   sw_contact_push now, most = {.normal_force = 0};
   size_t wire = 0;
@@ -83,7 +96,10 @@ void sw_scene_tell_pressed(const sw_scene *s, char *out, size_t size) {
   const double weight = 9.81 * w->beam.mass * (w->mesh.s[w->mesh.n - 1] - w->mesh.s[0]);
   if (!(most.normal_force > HARD * weight)) return;
   const amount N = force(most.normal_force);
-  snprintf(out, size, "; obstacle '%s' presses '%s' with %.4g %s near s = %.3g m",
-           sw_scene_obstacle_in(s, most.obstacle)->name, w->name, N.value, N.unit,
-           most.place - w->mesh.s[0]);
+  sw_scene_obstacle *o = sw_scene_obstacle_in(s, most.obstacle);
+  const double since = touched_since(s, o);
+  const int n = snprintf(out, size, "; obstacle '%s' presses '%s' with %.4g %s near s = %.3g m",
+                         o->name, w->name, N.value, N.unit, most.place - w->mesh.s[0]);
+  if (!isnan(since) && n > 0 && (size_t)n < size)
+    snprintf(out + n, size - (size_t)n, ", after touching since t = %.4g s", since);
 }

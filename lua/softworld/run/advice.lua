@@ -26,8 +26,42 @@ local function is_explicit(integrator)
   return false
 end
 
---- Returns a phrase that follows "try".
-function advice.of(reason, args)
+-- Texts of events of holds, grippers and their parts that are driven into obstacles.
+local driven = {
+  "^%S+ '(.-)' pushes wire '.-' %S+ mm deep into '(.*)'; no force can stop that$",
+  "^%S+ '(.-)' presses wire '.-' %S+ mm into '(.*)' with .*; a rod's section is rigid, ",
+  "^'(.-)' runs %S+ mm deep into '(.*)'",
+}
+
+-- Returns what was driven into the obstacle, and since when [s]; nil if nothing was.
+local function driven_into(events, obstacle)
+  local by, since
+  for _, e in ipairs(events) do
+    for _, pattern in ipairs(e.text and driven or {}) do
+      local who, into = e.text:match(pattern)
+      if into == obstacle and e.first < (since or math.huge) then by, since = who, e.first end
+    end
+  end
+  return by, since
+end
+
+-- Returns a phrase for a wire that its own path presses against an obstacle, or nil.
+local function path_of(reason, scene)
+  local name, wire = reason:match "; obstacle '(.-)' presses '(.-)' with "
+  if not name then return nil end
+  local by, since = driven_into(scene:events(), name)
+  if by then
+    return ("another path: that of '%s' leads into '%s' from t = %.3f s on"):format(by, name, since)
+  end
+  since = reason:find("is crushed", 1, true) and reason:match ", after touching since t = (%S+) s"
+  return since and ("another path: '%s' and '%s' are pressed into each other from t = %s s on; or a smaller "
+    .. "force, or a finer mesh"):format(wire, name, since)
+end
+
+--- Returns a phrase that follows "try". scene: that of the run, if known.
+function advice.of(reason, args, scene)
+  local path = scene and path_of(reason, scene)
+  if path then return path end
   if args.integrator and is_explicit(args.integrator) then
     return "dt below scene:stable_dt(), or an implicit integrator"
   end

@@ -153,7 +153,7 @@ function go.once(scene, args, level, hindrance)
   total.reason, total.scene, total.name = reason, scene, scene.name
   ledger.close(total)
   if not total.ok and not level and not total.reason:find("take smaller steps", 1, true) then
-    total.reason = ("%s; try %s"):format(total.reason, advice.of(total.reason, args))
+    total.reason = ("%s; try %s"):format(total.reason, advice.of(total.reason, args, scene))
   end
   total.restores, total.cut = data.restores, cut
   data.runs = (data.runs or 0) + 1
