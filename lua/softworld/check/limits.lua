@@ -29,6 +29,37 @@ local function names_of(context)
   return names, known
 end
 
+-- Returns true if all words of one text are words of the other: tension and max_tension.
+local function shares(a, b)
+  local function holds(outer, inner)
+    local words = {}
+    for word in outer:lower():gmatch "%a+" do words[word] = true end
+    local all = false
+    for word in inner:lower():gmatch "%a+" do
+      if not words[word] then return false end
+      all = true
+    end
+    return all
+  end
+  return holds(a, b) or holds(b, a)
+end
+
+-- Returns a phrase of the names that an unknown one may mean: one that differs by a typing error, else those
+-- with the same words; nil if there are none.
+local function meant(name, names, known)
+  local near = core.nearest(name, names)
+  if near then return ("did you mean '%s'?"):format(near) end
+  local object, word = name:match "^(.*%.)(.-)$"
+  local found = {}
+  for _, member in ipairs(registry.list) do
+    local full = (object or "") .. member.name
+    if known[full] and shares(member.name, word or name) then found[#found + 1] = "'" .. full .. "'" end
+  end
+  local last = table.remove(found)
+  if not last then return nil end
+  return ("did you mean %s?"):format(#found > 0 and table.concat(found, ", ") .. " or " .. last or last)
+end
+
 local function finite(what, value)
   if value - value ~= 0 then
     error(("%s = %s is not allowed; it must be a finite number"):format(what, checks.got(value)), 0)
@@ -73,9 +104,8 @@ function limits.read(given, context)
   local list = {}
   for name, value in pairs(given) do
     if not known[name] then
-      local near = type(name) == "string" and core.nearest(name, names)
-      error(("run:check: limits: there is no check '%s'; %s"):format(checks.shown(name), near
-        and ("did you mean '%s'?"):format(near) or "known are: " .. table.concat(names, " ")), 0)
+      error(("run:check: limits: there is no check '%s'; %s"):format(checks.shown(name),
+        type(name) == "string" and meant(name, names, known) or "known are: " .. table.concat(names, " ")), 0)
     end
     list[name] = read(name, value)
   end
