@@ -62,6 +62,12 @@ local function tell(topic, text)
   remarks.write(at, text)
 end
 
+--- Remarks that a method reads the loads of a scene that was never run.
+function remarks.early(what)
+  tell("early " .. what, what .. ": nothing has run yet, so there is no record and the loads are 0; first "
+    .. "call scene:run or scene:settle")
+end
+
 -- Returns the first unit in which the value would be usual, as a question.
 local function question(value, rule)
   for i = 4, #rule do

@@ -185,10 +185,10 @@ describe("run:check", function()
     fails(function() run:check{ use = "moving" } end, "run:check: use = 'moving'", "movement")
     fails(function() run:check{ limits = 3 } end, "limits must be")
     fails(function() run:check{ limits = { max_tensoin = 3 } } end, "did you mean 'max_tension'?")
-    for name, meant in pairs{ tension = "'max_tension'", torsion = "'max_torsion'", slip_margin = "known are: ",
+    for name, meant in pairs{ tension = "'max_tension'", torsion = "'max_torsion'", slips = "known are: ",
       bend_radius = "'min_bend_radius' or 'end_bend_radius'", temperature = "'max_temperature' or 'min_",
       force = "'peak_force', 'mean_force' or 'insertion_force'", penetration_depth = "'penetration'" } do
-      fails(function() run:check{ limits = { [name] = 3 } } end, "there is no check '" .. name .. "'; ", meant)
+      fails(function() run:check{ limits = { [name] = 3 } } end, ("no check '%s'; "):format(name), meant)
     end
     fails(function() run:check{ limits = { ["rigth.peak_force"] = 3 } } end,
       "there is no check 'rigth.peak_force'")

@@ -77,6 +77,31 @@ describe("remarks", function()
     assert.equal("", err)
   end)
 
+  it("tell that loads are read before anything has run", function()
+    local begin = start .. "local w = " .. wire(good) .. [[
+
+local o, g = s:obstacle{ shape = 'plane' }, s:gripper{}
+local c = s:clamp(w, { s = 0 })
+]]
+    local reads = { ["g.peak_force"] = "gripper", ["g:over(0, 1).mean_force"] = "gripper",
+      ["o:over().peak_force"] = "obstacle", ["c:over().impulse"] = "clamp" }
+    for read, of in pairs(reads) do
+      local _, err, code = script(("%slocal x = %s\nx = %s"):format(begin, read, read))
+      local _, count = err:gsub("remark: " .. of .. ":over: nothing has run yet, so there is no record", "")
+      assert.equal(2, count, err) -- once for each line
+      assert.equal(0, code)
+      for _, use in ipairs{ "s:settle()", "s:run{ duration = 0.01 }",
+        "s:observe{ call = function() return " .. read .. " == 3 end } s:run{ duration = 0.01 }",
+        "sw.remarks = false" } do
+        _, err = script(("%s%s\nlocal x = %s"):format(begin, use, read))
+        assert.is_nil(err:find("nothing has run", 1, true), use .. err)
+      end
+    end
+    -- these are the values of the present state, and right
+    local _, err = script(begin .. "local r, t = w:min_bend_radius(), w:max_tension()")
+    assert.equal("", err)
+  end)
+
   it("do not appear for ties that are slack or exactly as long as the distance", function()
     local _, err = script(start .. "local w = " .. wire(good) .. [[
 

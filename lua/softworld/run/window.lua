@@ -6,13 +6,25 @@ local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local number = require "softworld.output.number"
+local remarks = require "softworld.remarks"
 
 local window = {}
 
 local SLACK = 1e-9 -- relative rounding of times [-]
 
---- Returns the window given, or that of the last run of the scene (or obstacle's scene) [s].
+-- Remarks on loads that are read although the scene was never run or settled: they are 0.
+local function remark_early(object, what)
+  if not remarks.wanted() then return end
+  local scene = core.type(object) == "scene" and object or select(4, core.number(object))
+  local data = scene and build.data(scene)
+  if not data or data.running or data.runs or scene.time > 0 then return end
+  remarks.early(what)
+end
+
+--- Returns the window given, or that of the last run of the scene (or obstacle's scene) [s]. what: the method
+-- that reads loads.
 function window.of(scene, asked, what, level)
+  remark_early(scene, what)
   if asked == nil then return core.window(scene) end
   return checks.number(what .. ": window", asked, 0, " s", level + 1)
 end
