@@ -98,6 +98,16 @@ local function line_up(self, clip, args, what)
   return way, radius
 end
 
+local TAUT = 0.5 -- share of the force on a gripper from which on a pull, or the lips, explain it [-]
+
+-- Returns the end of a sentence if the wire's pull may be what resists the gripper.
+local function taut(wire, clip, force)
+  local pull, s = wire:max_tension{ now = true }
+  if pull < TAUT * force or clip.peak_insertion_force > TAUT * force then return "" end
+  return ("; wire '%s' is taut, with a pull of %.3g N near s = %.3g m: give it slack"):format(wire.name, pull,
+    s)
+end
+
 -- Returns the largest force of the gripper towards the seat, and the reason if the wire did not go in.
 local function press(self, clip, args, way, radius)
   local goal = -(args.overtravel or radius)
@@ -118,7 +128,8 @@ local function press(self, clip, args, way, radius)
     most = math.max(most, -vec.dot(self:force(), clip.direction))
     if most > args.max_force and not clip:seated() then
       return most, ("the force reached %.4g N, above max_force = %.4g N, with the tool %.4g m over the seat; "
-        .. "the lips had resisted with %.4g N"):format(most, args.max_force, u, clip.peak_insertion_force)
+        .. "the lips had resisted with %.4g N%s"):format(most, args.max_force, u, clip.peak_insertion_force,
+        taut(self.wire, clip, most))
     end
   end
   return most
