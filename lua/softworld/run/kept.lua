@@ -10,8 +10,11 @@ local kept = {}
 local weak = { __mode = "v" }
 local last = setmetatable({}, { __mode = "k" }) -- scene -> its last run, and the function for its summary
 
+local ever = setmetatable({}, { __mode = "k" }) -- scenes of which a run has ended
+
 --- Called when a run has ended; summary(run) gives its rows as long as the scene stays as it is.
 function kept.ended(scene, run, summary)
+  ever[scene] = true
   last[scene] = { run = setmetatable({ run }, weak), summary = summary }
 end
 
@@ -24,6 +27,9 @@ function kept.begin(scene)
   local own = sealed.fields(run)
   if own.ok and own.restores == build.data(scene).restores then own.summary_rows = before.summary(run) end
 end
+
+--- True if a run of the scene has ended, also if the scene was restored since.
+function kept.ran(scene) return ever[scene] == true end
 
 --- Returns the stored rows, or nil.
 function kept.rows(run) return sealed.fields(run).summary_rows end

@@ -5,6 +5,7 @@
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
+local kept = require "softworld.run.kept"
 local number = require "softworld.output.number"
 local remarks = require "softworld.remarks"
 
@@ -17,7 +18,7 @@ local function remark_early(object, what)
   if not remarks.wanted() then return end
   local scene = core.type(object) == "scene" and object or select(4, core.number(object))
   local data = scene and build.data(scene)
-  if not data or data.running or data.runs or scene.time > 0 then return end
+  if not data or data.running or data.runs or scene.time > 0 or kept.ran(scene) then return end
   remarks.early(what)
 end
 
