@@ -16,17 +16,16 @@ static int is_steady(const sw_term *t) {
   return !t->history && !(t->cls->flags & (SW_FORCE_EXPLICIT | SW_FORCE_DRIVEN));
 }
 
-/* For each of the body's held nodes. */
-#define HELD_EACH(s, b, h)                                                      \
-  for (const sw_held_node *h = (b)->held ? &(s)->held[(b)->held - 1] : NULL; h; \
-       h = h->next ? &(s)->held[h->next - 1] : NULL)
+static const sw_held_node *held_at(const sw_system *s, size_t number) {
+  return number ? &s->held[number - 1] : NULL;
+}
 
 /* 1 if the body may wait: a line with steady forces, whose holds stand. The others have unknowns
  * besides their nodes. */
 static int may_wait(const sw_system *s, const sw_body *b) {
   if (b->plan->web || b->roll_block || b->spin_block) return 0;
-  HELD_EACH(s, b, h)
-  if (!s->standing[h->hold].stands) return 0;
+  for (const sw_held_node *h = held_at(s, b->held); h; h = held_at(s, h->next))
+    if (!s->standing[h->hold].stands) return 0;
   SW_ITEMS(const sw_term, t, b->terms, b->term_count)
     if (!is_steady(t)) return 0;
   return 1;
@@ -39,8 +38,8 @@ static void copy_strains(const sw_system *s, const sw_body *b, const double *fro
   const size_t count[2] = {sw_plan_axial(b->plan), 3 * b->kept_clamps};
   for (int k = 0; k < 2; k++)
     for (size_t i = at[k]; i < at[k] + count[k]; i++) to[i] = from ? from[i] : 0.0;
-  HELD_EACH(s, b, h)
-  for (size_t c = 0; h->kept && c < 3; c++) to[h->kept + c] = from ? from[h->kept + c] : 0.0;
+  for (const sw_held_node *h = held_at(s, b->held); h; h = held_at(s, h->next))
+    for (size_t c = 0; h->kept && c < 3; c++) to[h->kept + c] = from ? from[h->kept + c] : 0.0;
 }
 
 static double largest(const double *values, size_t n) {
@@ -82,8 +81,8 @@ static int is_zero(const double *values, size_t n) {
 
 static int is_straining(const sw_system *s, const sw_body *b) {
   if (!s->strain) return 0;
-  HELD_EACH(s, b, h)
-  if (h->kept && !is_zero(s->strain_rate + h->kept, 3)) return 1;
+  for (const sw_held_node *h = held_at(s, b->held); h; h = held_at(s, h->next))
+    if (h->kept && !is_zero(s->strain_rate + h->kept, 3)) return 1;
   return !is_zero(s->strain_rate + b->first_edge, sw_plan_axial(b->plan)) ||
          !is_zero(s->strain_rate + b->first_clamp, 3 * b->kept_clamps);
 }
