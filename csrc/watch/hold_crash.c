@@ -125,6 +125,8 @@ sw_status sw_hold_look_out(sw_scene *s, sw_hold *h, sw_error *err) {
   h->watch.crashing = crashing;
   if (!crashing && now.depth > h->watch.given + NOTICED)
     sw_hold_watch_press(s, h, now.obstacle, now.depth - h->watch.given);
+  else if (!crashing)
+    SW_TRY(sw_hold_watch_tilt(s, h, NOTICED, err));
   if (!crashing) return SW_OK;
   sw_scene_tell(s, "crash", h->name, arc, now.depth,
                 "%s '%s' pushes wire '%s' %.3g mm deep into '%s'; no force can stop that",
