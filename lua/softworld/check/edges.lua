@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Rows of wires whose edges are too long for their sharpest bend (event `edges`), or coarse for it. Such
--- values are known roughly only, which leaves verdicts near a limit open.
+--- Rows of wires whose edges are too long for their sharpest bend (event `edges`), or coarse for it, or whose
+-- sharpest bend is a corner of the path that they were drawn along (event `corner`). Such values are known
+-- roughly only, which leaves verdicts near a limit open.
 -- @module softworld.check.edges
 local number = require "softworld.output.number"
 
@@ -20,10 +21,10 @@ local SMOOTH, ZIGZAG, SHARPER = 0.02, 1.5, 12
 -- 1/8000 of the length off a line [-].
 local STRAIGHT = 1e3
 
--- Returns the event of a wire, or nil.
-local function event_of(run, name)
+-- Returns the event of a wire of this kind, or nil.
+local function event_of(run, name, kind)
   for _, e in ipairs(run.events) do
-    if e.kind == "edges" and e.object == name then return e end
+    if e.kind == kind and e.object == name then return e end
   end
 end
 
@@ -45,6 +46,16 @@ local function widen_bend(value, entry)
     :format(number.text(value.low, "m"), most, number.text(wire.length / wire.segments, "m"))
 end
 
+-- Widens the range of a bend radius that is that of a corner of the wire's path (event `corner`), up to that
+-- of a smooth curve through the path's points.
+local function widen_corner(value, entry, run)
+  local event = value.uneven and event_of(run, entry.name, "corner")
+  if not event or event.value - value.inside <= (value.high or value.value) then return end
+  value.high = event.value - value.inside
+  add_note(value, ("the wire's path has a corner there: %s if it is meant to be smooth"):format(
+    number.text(value.high, "m")))
+end
+
 --- Widens the range of a value. A bend of radius R in edges of length h may be sharper by h / (0.4 R), as
 -- many times as more segments are needed; a tension may be off by this factor to either side. A value with
 -- an error bar keeps it. value.inside: what the value is less than the radius of the centre line, to which
@@ -54,8 +65,9 @@ end
 -- depend on bends
 function edges.widen(value, way, entry, run)
   if not way or value.error or value.value ~= value.value then return value end
-  local event, low, inside = event_of(run, entry.name), value.low or value.value, value.inside or 0
+  local event, low, inside = event_of(run, entry.name, "edges"), value.low or value.value, value.inside or 0
   local why = widen_bend(value, entry)
+  widen_corner(value, entry, run)
   if not event then
     if why then add_note(value, why) end
     return value
