@@ -161,6 +161,53 @@ static int pulls_roughly(const sw_system *s, const sw_stage *stage, const sw_new
   return 0;
 }
 
+/* The same length makes a straight wire between two holds too tight: by EA times the mean of u^2/2.
+ * A cable that sinks onto a table in its first step was pushed by its whole weight. An update may
+ * leave this share of the usual force, or of the tension. A wire with SLACKER times that length to
+ * spare takes it up by its sag [-]. */
+static const double PULL_NOISE = 1e-2, SLACKER = 20.0;
+
+/* Returns the false part of the axial force between two held nodes of a body, 0 if sag takes it up
+ * [N]. */
+static double false_pull(const sw_system *s, const sw_body *b, const double *y, size_t from,
+                         size_t to) {
+  const sw_plan *p = b->plan;
+  const double *delta = s->delta + 3 * b->first_node, *x = y + 3 * b->first_node;
+  const sw_field *f = &b->field;
+  const double length = p->s[to] - p->s[from];
+  double longer = 0;
+  for (size_t e = from; e < to; e++) {
+    const sw_vec t = sw_v(f->tangent[0][e], f->tangent[1][e], f->tangent[2][e]);
+    const sw_vec turn =
+        sw_scale(sw_sub(sw_vec_at(delta, e + 1), sw_vec_at(delta, e)), f->reciprocal[e]);
+    const double along = sw_dot(turn, t);
+    longer += 0.5 * p->rest[e] * larger(0.0, sw_norm2(turn) - along * along);
+  }
+  const double spare = length - sw_dist(sw_vec_at(x, from), sw_vec_at(x, to));
+  return spare > SLACKER * longer ? 0 : b->EA * longer / length;
+}
+
+/* 1 if the update makes a straight wire between holds too tight or too loose. */
+static int tightens_roughly(const sw_system *s, const sw_stage *stage, const sw_newton *newton,
+                            const sw_stage_report *report) {
+  if (newton->statics) return 0;
+  const double most = 0.5 * report->rotation * report->rotation;
+  SW_PART_EACH(s, k) {
+    const sw_body *b = &s->bodies[k];
+    const sw_plan *p = b->plan;
+    const double usual = PULL_NOISE * usual_force(s, b);
+    if (p->web || !(b->EA * most > usual)) continue;
+    for (size_t i = 0, from = p->nodes; i < p->nodes; i++) {
+      if (p->held[i] == SW_FREE) continue;
+      const double T = i > 0 ? fabs(s->tension[b->first_edge + i - 1]) : 0;
+      if (from + 1 < i && false_pull(s, b, stage->y, from, i) > fmax(usual, PULL_NOISE * T))
+        return 1;
+      from = i;
+    }
+  }
+  return 0;
+}
+
 static double usual_force_at(const sw_system *s, size_t node) {
   return usual_force(s, &s->bodies[sw_system_body_of(s, node)]);
 }
@@ -190,6 +237,7 @@ int sw_stage_converged(sw_system *s, const sw_stage *stage, const sw_newton *new
   if (!settled || s->rough) return 0;
   if (newton->statics && largest_shift(s) > newton->accept_shift) return 0;
   if (!sw_rails_settled(s) || mistakes_ties(s, stage->y)) return 0;
+  if (tightens_roughly(s, stage, newton, report)) return 0;
   if (drowned_in_rounding(s, stage, newton->statics)) return 0;
   SW_PART_EACH(s, b)
   if ((s->bodies[b].is_explicit || s->bodies[b].is_kinked) &&
