@@ -20,12 +20,13 @@ typedef struct sw_term {
   double *history; /* its part of the system's state, or NULL */
 } sw_term;
 
-/* A straight wire that is pushed along itself, see watch/unbent.c. */
+/* A straight or plane wire that is pushed along itself, see watch/unbent.c. */
 typedef struct sw_unbent {
   double growth;    /* logarithm of the growth of a real wire's bend so far; 0: not pushed [-] */
   double seen;      /* time of the last look [s] */
   double due, push; /* when a real wire had left its line; the largest since [N] */
   double at;        /* place of the largest push, as arc length [m] */
+  int plane;        /* 1: it was bent in a plane at times */
 } sw_unbent;
 
 typedef struct sw_body {

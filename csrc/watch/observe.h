@@ -71,7 +71,8 @@ void sw_scene_tell_pressed(sw_scene *scene, char *out, size_t size);
  * SW_ENOMEM, SW_ECALLBACK. */
 sw_status sw_scene_look_for_buckling(sw_scene *scene, sw_error *err);
 
-/* Reports a wire that stayed straight under a push that bends real wires, and then buckled. */
+/* Reports a wire that stayed straight, or in a plane, under a push that bends real wires, and then
+ * buckled. */
 void sw_scene_watch_unbent(sw_scene *scene, size_t wire);
 
 /* Adds a row of the accepted state to a wire's series. */

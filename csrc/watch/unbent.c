@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reports wires that stay straight under a push for longer than real wires do, and then buckle. The
- * bend of a real wire grows from its own crookedness. In a perfectly straight one it grows from
- * rounding, so steps and edges decide how hard the push is when the wire buckles: hundreds of
- * times too hard. A push that is still borne at the end of a run is reported by watch/straight.c.
+/* Reports wires that stay straight, or in a plane, under a push for longer than real wires do, and
+ * then buckle. The bend of a real wire grows from its own crookedness. In a perfectly straight one
+ * it grows from rounding, so steps and edges decide how hard the push is when the wire buckles:
+ * hundreds of times too hard. A push that is still borne at the end of a run is reported by
+ * watch/straight.c.
  */
 #include <math.h>
 
@@ -15,6 +16,13 @@
 /* Directions of all edges of a straight wire differ from its chord by at most this. Real wires are
  * bent by a thousandth of their length, which is ten times as much [-]. */
 static const double STRAIGHT = 3e-4;
+/* A wire that is bent in a plane by more than STRAIGHT, such as one whose hold lifts a little while
+ * it pushes, is still perfectly straight across that plane. If it is bent by more than FLAT, a push
+ * bends it further in the plane [-]. */
+static const double FLAT = 0.02;
+/* A wire in a plane may bear a push a little above its buckling load for long, as it bends in that
+ * plane. It is told of from this share of the push under which a real wire buckles [-]. */
+static const double ABOVE = 1.5;
 /* Bend of a real wire over its length [-]. */
 static const double CROOKED = 1e-3;
 /* After this much growth, as its logarithm, the bend of a real wire would be its own length three
@@ -79,25 +87,40 @@ static double fastest(const sw_scene *s, const sw_body *b, pushed *most) {
   return rate;
 }
 
-static int is_straight(const sw_system *system, const sw_body *b) {
+/* How far a wire has left its line. */
+enum { STRAIGHT_ON, IN_PLANE, LEFT };
+
+static sw_vec aside_of(const double *x, size_t e, sw_vec chord) {
+  const sw_vec edge = sw_unit_or(sw_sub(sw_vec_at(x, e + 1), sw_vec_at(x, e)), chord);
+  return sw_madd(edge, chord, -sw_dot(edge, chord));
+}
+
+static int shape_of(const sw_system *system, const sw_body *b) {
   const double *x = system->x + 3 * b->first_node;
   const size_t last = b->plan->nodes - 1;
   const sw_vec chord = sw_unit_or(sw_sub(sw_vec_at(x, last), sw_vec_at(x, 0)), sw_v(1, 0, 0));
+  sw_vec most = sw_v(0, 0, 0);
   for (size_t e = 0; e < last; e++) {
-    const sw_vec edge = sw_sub(sw_vec_at(x, e + 1), sw_vec_at(x, e));
-    if (!(sw_norm(sw_cross(chord, edge)) <= STRAIGHT * sw_norm(edge))) return 0;
+    const sw_vec aside = aside_of(x, e, chord);
+    if (sw_norm2(aside) > sw_norm2(most)) most = aside;
   }
-  return 1;
+  if (sw_norm(most) <= STRAIGHT) return STRAIGHT_ON;
+  if (sw_norm(most) > FLAT) return LEFT;
+  const sw_vec across = sw_unit_or(sw_cross(chord, most), sw_v(0, 0, 0));
+  for (size_t e = 0; e < last; e++)
+    if (fabs(sw_dot(aside_of(x, e, chord), across)) > STRAIGHT) return LEFT;
+  return IN_PLANE;
 }
 
 static void tell(sw_scene *s, size_t wire, const sw_unbent *u) {
   const char *name = sw_scene_wire_in(s, wire)->name;
   sw_scene_tell(
       s, "buckling", name, u->at, u->push,
-      "wire '%s' stayed straight up to a push of %.3g N, until rounding let it buckle; a "
+      "wire '%s' stayed %s up to a push of %.3g N, until rounding let it buckle; a "
       "real wire buckles under %.3g N at most: forces until then depend on the step; draw "
-      "it bent by a thousandth of its length",
-      name, u->push, u->due);
+      "it bent %sby a thousandth of its length",
+      name, u->plane ? "in a plane" : "straight", u->push, u->due,
+      u->plane ? "out of that plane " : "");
 }
 
 void sw_scene_watch_unbent(sw_scene *s, size_t wire) {
@@ -109,13 +132,16 @@ void sw_scene_watch_unbent(sw_scene *s, size_t wire) {
   u->seen = time;
   if (b->plan->web || b->waits || !(b->plan->beam.EI > 0)) return;
   const double rate = fastest(s, b, &most);
-  if (rate > 0 && since > 0 && is_straight(system, b)) {
+  const int shape = rate > 0 && since > 0 ? shape_of(system, b) : LEFT;
+  const int was_straight = u->due > 0 && !u->plane; /* it buckles in a plane */
+  if (shape == STRAIGHT_ON || (shape == IN_PLANE && !was_straight)) {
     u->growth += rate * since;
+    u->plane |= shape == IN_PLANE;
     if (u->growth < GROWTH) return;
     if (!(u->due > 0)) u->due = most.push;
     if (most.push > u->push) u->push = most.push, u->at = b->plan->s[most.edge] - b->plan->s[0];
     return;
   }
-  if (u->due > 0 && rate > 0) tell(s, wire, u);
+  if (u->due > 0 && rate > 0 && u->push > (u->plane ? ABOVE * u->due : 0)) tell(s, wire, u);
   *u = (sw_unbent){.seen = time};
 }
