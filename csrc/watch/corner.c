@@ -54,11 +54,14 @@ static corner corner_near(const sw_drawing *d, double s, double reach) {
   return sharpest;
 }
 
-/* Returns the length of the edge at s, without load [m]. */
+/* Returns the length of the shorter edge beside the node at s, without load. Beside a hold, whose
+ * nodes are moved to its ends, it may be far shorter than others [m]. */
 static double edge_at(const sw_mesh *m, double s) {
-  size_t i = 1;
-  while (i + 1 < m->n && m->s[i] < s) i++;
-  return m->s[i] - m->s[i - 1];
+  size_t i = 0;
+  while (i + 1 < m->n && fabs(m->s[i + 1] - s) <= fabs(m->s[i] - s)) i++;
+  const double before = i > 0 ? m->s[i] - m->s[i - 1] : HUGE_VAL;
+  const double after = i + 1 < m->n ? m->s[i + 1] - m->s[i] : HUGE_VAL;
+  return fmin(before, after);
 }
 
 static void tell(sw_scene *s, const sw_scene_wire *w, const sw_extreme *bend, corner c,
