@@ -60,11 +60,13 @@ static sw_edge_frame present(const sw_field *f, size_t e) {
                          sw_v(f->normals[0][e], f->normals[1][e], f->normals[2][e])};
 }
 
-double sw_scene_flexure(const sw_system *s, const sw_body *body, size_t number) {
+/* Finds the bend of a hinge about the normals' axes; returns its length, 0: there is none [rad],
+ * [m]. */
+static double bend_of(const sw_system *s, const sw_body *body, size_t number, double bend[2]) {
   const sw_plan *p = body->plan;
   const sw_field *f = &body->field;
   sw_edge_frame a, b;
-  double length, bend[2];
+  double length;
   if (number < p->nodes) {
     length = p->hinge[number];
     if (!(length > 0) || number == 0 || number + 1 == p->nodes) return 0;
@@ -78,7 +80,25 @@ double sw_scene_flexure(const sw_system *s, const sw_body *body, size_t number) 
     b = c->side > 0 ? present(f, c->edge) : held;
   }
   sw_hinge_bend(&a, &b, f->hinge_twist[number], bend);
-  return hypot(bend[0] - p->rest_bend[2 * number], bend[1] - p->rest_bend[2 * number + 1]) / length;
+  return length;
+}
+
+double sw_scene_flexure(const sw_system *s, const sw_body *body, size_t number) {
+  double bend[2];
+  const double length = bend_of(s, body, number, bend);
+  const double *rest = body->plan->rest_bend + 2 * number;
+  return length > 0 ? hypot(bend[0] - rest[0], bend[1] - rest[1]) / length : 0;
+}
+
+double sw_scene_curved_at_clamp(const sw_system *s, const sw_body *body, size_t clamp) {
+  const sw_plan *p = body->plan;
+  const size_t number = p->nodes + clamp;
+  double bend[2];
+  const double hinge = bend_of(s, body, number, bend);
+  const double half = 0.5 * p->rest[p->clamps[clamp].edge];
+  const double *rest = p->rest_bend + 2 * number;
+  return hypot((bend[0] - rest[0]) / hinge + rest[0] / half,
+               (bend[1] - rest[1]) / hinge + rest[1] / half);
 }
 
 static const double AS_DRAWN = 1e-9; /* rounding of normals and twists [-], [rad] */

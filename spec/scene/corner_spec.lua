@@ -62,27 +62,6 @@ describe("a bend that is a corner of the path", function()
     end)
   end
 
-  it("is told of beside a grip, whose face makes a short edge", function()
-    local R, parts, path = 0.12, 40, {}
-    for i = 0, parts do
-      local b = 2.6 * i / parts
-      path[i + 1] = { R * math.sin(b), R * (1 - math.cos(b)), 0 }
-    end
-    for segments = 48, 51 do -- the edge beside the face s = 0.015 m is 0.8 to 0.5 of the others
-      local scene = sw.scene{}
-      local wire = scene:wire{ name = "w", cable = "H07V-K 4", path = path, rest = "path",
-        segments = segments }
-      scene:gravity{ 0, 0, 0 }
-      scene:grip(wire, { s = 0.01, width = 0.01 })
-      local run = t.fine(scene:run{ dt = 0.01, duration = 0.05 })
-      local radius, s = wire:min_bend_radius()
-      t.near(0.015, s, 1e-6, "place of the smallest radius [m]")
-      t.below(0.7 * R, radius, "radius of the corner [m]")
-      assert.same({ "corner" }, { run.events[1] and run.events[1].kind })
-      t.near(R, run.events[1].value, 0.01 * R, "radius of the smooth curve told [m]")
-    end
-  end)
-
   it("is not told of a curve with points every edge", function()
     for _, rest in ipairs{ "path", "straight" } do
       for _, edge in ipairs{ 0.008, 0.004 } do
