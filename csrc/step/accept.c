@@ -22,9 +22,7 @@ static const double SMALL = 1.0 / 512, SMALL_ADAPTIVE = 2e-5;
 
 /* 1 if the parts of a blow are short: touches are as hard as these need, and wires that stopped now
  * would lie higher than after whole steps. */
-static int is_followed(const sw_ladder *p) {
-  return sw_blow_part(p->s, p->args->dt) < p->args->dt;
-}
+static int is_followed(const sw_ladder *p) { return sw_blow_part(p->s, p->args->dt) < p->args->dt; }
 
 void sw_ladder_accept(sw_ladder *p, double h, double t) {
   sw_scene *s = p->s;

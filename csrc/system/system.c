@@ -30,8 +30,8 @@ void sw_system_free(sw_system *system) {
   sw_bridges_free(system);
   sw_joins_free(system);
   SW_FREE_ALL(system->bodies, system->held, system->rails, system->rail_room, system->directors,
-              system->hold_states, system->loads, system->standing, system->state, system->pull_block, system->work,
-              system->trial_history);
+              system->hold_states, system->loads, system->standing, system->state,
+              system->pull_block, system->work, system->trial_history);
   memset(system, 0, sizeof *system);
 }
 
@@ -76,8 +76,8 @@ static sw_status new_arrays(sw_system *s, size_t hold_count) {
   const size_t kept = sw_factors_room(s);
   SW_TRY(SW_ALLOC_ALL(
       SW_ROOM(s->held, held), SW_ROOM(s->directors, 27 * hold_count),
-      SW_ROOM(s->hold_states, hold_count), SW_ROOM(s->loads, hold_count), SW_ROOM(s->standing, hold_count),
-      SW_ROOM(s->state, s->state_size),
+      SW_ROOM(s->hold_states, hold_count), SW_ROOM(s->loads, hold_count),
+      SW_ROOM(s->standing, hold_count), SW_ROOM(s->state, s->state_size),
       {&s->work, 3 * s->freedoms + kept + 2 * s->edges + s->follow_size, sizeof *s->yhat}));
   s->directors_now = s->directors + 6 * hold_count;
   s->normals = s->directors + 12 * hold_count;

@@ -64,7 +64,8 @@ void sw_scene_watch_squeezed(sw_scene *scene, size_t wire);
 /* Reports an end of a rod that is pushed onto an obstacle and nearly slips, or hardly does. */
 void sw_scene_watch_poke(sw_scene *scene, size_t wire);
 
-/* Writes which obstacle presses a wire hard, and since when wires touch it, as the end of a sentence, or "". */
+/* Writes which obstacle presses a wire hard, and since when wires touch it, as the end of a
+ * sentence, or "". */
 void sw_scene_tell_pressed(sw_scene *scene, char *out, size_t size);
 
 /* Reports wires that are perfectly straight, or slow and in a plane, and pushed beyond buckling.
