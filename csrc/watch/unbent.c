@@ -102,10 +102,10 @@ static int shape_of(const sw_system *system, const sw_body *b) {
   sw_vec most = sw_v(0, 0, 0);
   for (size_t e = 0; e < last; e++) {
     const sw_vec aside = aside_of(x, e, chord);
+    if (sw_norm2(aside) > FLAT * FLAT) return LEFT; /* most wires, at once */
     if (sw_norm2(aside) > sw_norm2(most)) most = aside;
   }
   if (sw_norm(most) <= STRAIGHT) return STRAIGHT_ON;
-  if (sw_norm(most) > FLAT) return LEFT;
   const sw_vec across = sw_unit_or(sw_cross(chord, most), sw_v(0, 0, 0));
   for (size_t e = 0; e < last; e++)
     if (fabs(sw_dot(aside_of(x, e, chord), across)) > STRAIGHT) return LEFT;
