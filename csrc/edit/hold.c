@@ -24,15 +24,19 @@
 #include "state/hinge.h"
 #include "state/mesh.h"
 
+/* A place beyond a wire's end may be in millimetres from this multiple of its length on [-]. */
+static const double FAR_BEYOND = 5.0;
+
 static sw_status check_place(const sw_scene *s, const sw_link_class *cls, size_t wire,
                              const sw_hold_args *a, sw_error *err) {
   const sw_scene_wire *w = sw_scene_wire_in(s, wire);
   const double start = w->mesh.s[0], length = w->mesh.s[w->mesh.n - 1] - start;
+  const int mm = a->s - start >= FAR_BEYOND * length && (a->s - start) / 1000 <= length;
   if (a->s - start > length * (1 + 1e-9))
     return sw_fail(err, SW_EINVAL,
                    "%s%s%s%s: s = %.6g m is not on wire '%s'; it must be in [0, %.6g] m%s",
                    cls->name, *a->name ? " '" : "", a->name, *a->name ? "'" : "", a->s - start,
-                   w->name, length, (a->s - start) / 1000 <= length ? "; is this in mm?" : "");
+                   w->name, length, mm ? "; is this in mm?" : "");
   double s1, s2;
   sw_body_interval(&w->mesh, a, &s1, &s2);
   sw_body_class_of(w)->widen(&w->mesh, &s1, &s2);

@@ -27,6 +27,8 @@ describe("a first script", function()
       hand.grasp, hand, wire, { s = 20 })
     local _, why = pcall(scene.clamp, scene, wire, { s = 300 }) -- not on the wire in millimetres either
     assert.matches("it must be in %[0, 0%.2%] m$", why)
+    _, why = pcall(scene.clamp, scene, wire, { s = 0.25 }) -- a little beyond the end: no millimetres
+    assert.matches("it must be in %[0, 0%.2%] m$", why)
   end)
 
   it("is told which way a feed could go", function()
