@@ -75,6 +75,15 @@ static double rate_of(const sw_scene *s, const sw_beam *beam, const pushed *p) {
   return r2 > 0 ? sqrt(r2) : 0;
 }
 
+/* 0 if no push is large enough for the wire's longest wave: most wires, at once. */
+static int may_buckle(const sw_system *system, const sw_body *b) {
+  const double *T = system->tension + b->first_edge, k = 2 * M_PI / b->plan->length;
+  const double enough = -b->plan->beam.EI * k * k;
+  int any = 0;
+  for (size_t e = 0; e < b->plan->edges; e++) any |= T[e] < enough;
+  return any;
+}
+
 /* Returns the fastest such rate of the wire's pieces, and that piece [1/s]. */
 static double fastest(const sw_scene *s, const sw_body *b, pushed *most) {
   const sw_system *system = sw_scene_system((sw_scene *)s);
@@ -131,7 +140,7 @@ void sw_scene_watch_unbent(sw_scene *s, size_t wire) {
   pushed most = {0};
   u->seen = time;
   if (b->plan->web || b->waits || !(b->plan->beam.EI > 0)) return;
-  const double rate = fastest(s, b, &most);
+  const double rate = may_buckle(system, b) ? fastest(s, b, &most) : 0;
   const int shape = rate > 0 && since > 0 ? shape_of(system, b) : LEFT;
   const int was_straight = u->due > 0 && !u->plane; /* it buckles in a plane */
   if (shape == STRAIGHT_ON || (shape == IN_PLANE && !was_straight)) {
