@@ -84,7 +84,7 @@ static double bend_of(const sw_system *s, const sw_body *body, size_t number, do
 }
 
 double sw_scene_flexure(const sw_system *s, const sw_body *body, size_t number) {
-  double bend[2];
+  double bend[2] = {0, 0};
   const double length = bend_of(s, body, number, bend);
   const double *rest = body->plan->rest_bend + 2 * number;
   return length > 0 ? hypot(bend[0] - rest[0], bend[1] - rest[1]) / length : 0;
@@ -93,7 +93,7 @@ double sw_scene_flexure(const sw_system *s, const sw_body *body, size_t number) 
 double sw_scene_curved_at_clamp(const sw_system *s, const sw_body *body, size_t clamp) {
   const sw_plan *p = body->plan;
   const size_t number = p->nodes + clamp;
-  double bend[2];
+  double bend[2] = {0, 0};
   const double hinge = bend_of(s, body, number, bend);
   const double half = 0.5 * p->rest[p->clamps[clamp].edge];
   const double *rest = p->rest_bend + 2 * number;

@@ -127,9 +127,7 @@ void sw_scene_inform_contact(sw_scene *s) {
 
 /* 1 if the hold does not move after time t. */
 static int stands(const sw_hold *h, double t) {
-  const sw_drive *d = &h->drive;
-  if (d->tool || sw_hold_passes(h) || h->cls->hold->rail) return 0;
-  return !d->motion || sw_motion_end(d->motion) <= t - d->start;
+  return sw_drive_stands(&h->drive, t) && !sw_hold_passes(h) && !h->cls->hold->rail;
 }
 
 /* Tells which holds stand, and what they bear while their wire waits. */

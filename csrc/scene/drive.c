@@ -119,3 +119,7 @@ void sw_tape_drive(sw_tape *t, sw_scene *s, sw_drive *x) {
   sw_tape_expect(t, sw_finite(x->pose.p) && isfinite(q) && isfinite(x->start), "a place");
   sw_tape_expect(t, sw_finite(x->opens), "a place");
 }
+
+int sw_drive_stands(const sw_drive *d, double t) {
+  return !d->tool && (!d->motion || sw_motion_end(d->motion) <= t - d->start);
+}

@@ -21,6 +21,8 @@ sw_status sw_drive_put(sw_scene *scene, sw_drive *drive, const char *object, sw_
 void sw_drive_free(sw_drive *drive);
 void sw_tape_drive(sw_tape *tape, sw_scene *scene, sw_drive *drive);
 
+/* 1 if the drive goes with no tool, and its motion has ended at time t, if it has one. */
+int sw_drive_stands(const sw_drive *drive, double t);
 /* 1 if the drive may change its place without an edit. */
 static inline int sw_drive_moves(const sw_drive *drive) { return drive->motion || drive->tool; }
 
