@@ -6,8 +6,11 @@
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local tools = require "spec.physics.tools"
+local waiting = require "spec.contact.waiting"
+local steps, places, DT = waiting.steps, waiting.places, waiting.DT
+local function lever(point) return waiting.lever(point, 0.3) end
 
-local SEGMENTS, LENGTH, DT, APART, REST = 25, 0.3, 0.01, 0.03, 3
+local SEGMENTS, LENGTH, APART, REST = 25, 0.3, 0.03, 3
 
 -- How the three wires are held, and their forces.
 local holds = {
@@ -42,20 +45,6 @@ local function table_with(how, never)
   return scene, wires, held, table_
 end
 
-local function steps(scene, count)
-  local row = scene:advance({ dt = DT }, scene.time + count * DT)
-  assert.is_true(row.ok, row.reason)
-  return row
-end
-
-local function places(wires)
-  local list = {}
-  for _, wire in ipairs(wires) do
-    for _, x in ipairs(wire:positions()) do list[#list + 1] = x end
-  end
-  return list
-end
-
 local function loads(held)
   local list = {}
   for _, hold in ipairs(held) do
@@ -65,8 +54,6 @@ local function loads(held)
   end
   return list
 end
-
-local function lever(point) return { relative = true, duration = 0.3, points = { { 0, 0, 0 }, point } } end
 
 local disturbances = {
   ["its hold moves"] = function(_, _, held) held[1]:follow(lever{ 0.02, 0.02, 0.05 }) end,

@@ -5,8 +5,11 @@
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local tools = require "spec.physics.tools"
+local waiting = require "spec.contact.waiting"
+local steps, places, DT = waiting.steps, waiting.places, waiting.DT
+local function lever(point) return waiting.lever(point, 0.3) end
 
-local SEGMENTS, LENGTH, DT, REST = 25, 0.3, 0.01, 3
+local SEGMENTS, LENGTH, REST = 25, 0.3, 3
 local CABLE = "GXL 1.5"
 local r = sw.cable(CABLE).outer_diameter.value / 2
 
@@ -58,22 +61,6 @@ local function made(harness, never)
   assert.is_true(scene:advance({ dt = DT }, REST).ok)
   return scene, wires, joins, table_
 end
-
-local function steps(scene, count)
-  local row = scene:advance({ dt = DT }, scene.time + count * DT)
-  assert.is_true(row.ok, row.reason)
-  return row
-end
-
-local function places(wires)
-  local list = {}
-  for _, wire in ipairs(wires) do
-    for _, x in ipairs(wire:positions()) do list[#list + 1] = x end
-  end
-  return list
-end
-
-local function lever(point) return { relative = true, duration = 0.3, points = { { 0, 0, 0 }, point } } end
 
 local disturbances = {
   ["one of them is lifted"] = function(scene, wires)

@@ -5,8 +5,11 @@
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local tools = require "spec.physics.tools"
+local waiting = require "spec.contact.waiting"
+local steps, places, DT = waiting.steps, waiting.places, waiting.DT
+local function lever(point) return waiting.lever(point, 0.4) end
 
-local SEGMENTS, LENGTH, DT, APART = 25, 0.3, 0.01, 0.03
+local SEGMENTS, LENGTH, APART = 25, 0.3, 0.03
 local CABLES = { "GXL 1.5", "FLRY-B 0.5", "H07V-K 4" }
 
 local function radius(cable) return sw.cable(cable).outer_diameter.value / 2 end
@@ -29,20 +32,6 @@ end
 
 local function rest(scene) assert.is_true(scene:advance({ dt = DT }, scene.time + 0.8).ok) end
 
-local function steps(scene, count)
-  local row = scene:advance({ dt = DT }, scene.time + count * DT)
-  assert.is_true(row.ok, row.reason)
-  return row
-end
-
-local function places(wires)
-  local list = {}
-  for _, wire in ipairs(wires) do
-    for _, x in ipairs(wire:positions()) do list[#list + 1] = x end
-  end
-  return list
-end
-
 -- Places after a run of what `disturb` does to wires that rest, and how far they moved.
 local function moved(disturb, never, time)
   local scene, wires, table_ = table_with(3, never)
@@ -54,8 +43,6 @@ local function moved(disturb, never, time)
   scene:close()
   return after, tools.largest_difference(before, after)
 end
-
-local function lever(point) return { relative = true, duration = 0.4, points = { { 0, 0, 0 }, point } } end
 
 -- Each moves some wire by more than 1 mm.
 local disturbances = {
