@@ -44,9 +44,7 @@ static void node_state(const sw_system *s, const sw_body *b, size_t node, size_t
   *tangent = own;
   if (c) {
     *tangent = director(s, c);
-    *curvature = p->rest_bend && p->beam.curved && !(c->softer > 0)
-                     ? sw_scene_curved_at_clamp(s, b, (size_t)(c - p->clamps))
-                     : sw_clamp_curvature(c, s->directors_now, s->normals_now, own);
+    *curvature = sw_scene_clamp_curvature(s, b, c);
   } else if (p->held[edge] != SW_FREE && p->held[edge + 1] != SW_FREE &&
              (c = face_at(p, node)) != NULL) { /* inside a grip, at its face */
     *tangent = director(s, c);

@@ -8,6 +8,7 @@
 #include "link/hold.h"
 #include "scene/parts.h"
 #include "scene/wire.h"
+#include "state/clamp.h"
 #include "state/hinge.h"
 #include "state/mesh.h"
 
@@ -90,7 +91,10 @@ double sw_scene_flexure(const sw_system *s, const sw_body *body, size_t number) 
   return length > 0 ? hypot(bend[0] - rest[0], bend[1] - rest[1]) / length : 0;
 }
 
-double sw_scene_curved_at_clamp(const sw_system *s, const sw_body *body, size_t clamp) {
+/* Of a wire that is curved when unloaded. A clamp's hinge has the length that gives the right
+ * moment for a change of the bend. The unloaded bend is that between the tangent at the clamp and
+ * an edge, over half of the edge. */
+static double curved_at_clamp(const sw_system *s, const sw_body *body, size_t clamp) {
   const sw_plan *p = body->plan;
   const size_t number = p->nodes + clamp;
   double bend[2] = {0, 0};
@@ -99,6 +103,14 @@ double sw_scene_curved_at_clamp(const sw_system *s, const sw_body *body, size_t 
   const double *rest = p->rest_bend + 2 * number;
   return hypot((bend[0] - rest[0]) / hinge + rest[0] / half,
                (bend[1] - rest[1]) / hinge + rest[1] / half);
+}
+
+double sw_scene_clamp_curvature(const sw_system *s, const sw_body *b, const sw_clamp_hinge *h) {
+  const sw_plan *p = b->plan;
+  const sw_vec t = sw_field_tangent(&b->field, h->edge);
+  if (p->rest_bend && p->beam.curved && !(h->softer > 0))
+    return curved_at_clamp(s, b, (size_t)(h - p->clamps));
+  return sw_clamp_curvature(h, s->directors_now, s->normals_now, t);
 }
 
 static const double AS_DRAWN = 1e-9; /* rounding of normals and twists [-], [rad] */

@@ -16,10 +16,9 @@ void sw_scene_frame_out(sw_scene *scene, size_t wire);
 /* Returns the bend of a hinge beyond that at rest, over its length [1/m]. number: in the plan's
  * list, with clamps after nodes. For refreshed bodies with frames. */
 double sw_scene_flexure(const sw_system *system, const sw_body *body, size_t number);
-/* Returns the curvature at a clamp of such a wire that is curved when unloaded [1/m]. A clamp's
- * hinge has the length that gives the right moment for a change of the bend. The unloaded bend is
- * that between the tangent at the clamp and an edge, over half of the edge. */
-double sw_scene_curved_at_clamp(const sw_system *system, const sw_body *body, size_t clamp);
+/* Returns the curvature of a refreshed line at one of its clamps [1/m]. */
+double sw_scene_clamp_curvature(const sw_system *system, const sw_body *body,
+                                const sw_clamp_hinge *clamp);
 
 /* Returns the moment about the wire's axis at an arc length of its mesh [N m]. */
 double sw_scene_torque(const sw_system *system, const sw_body *body, double at);

@@ -43,14 +43,6 @@ double sw_scene_hinge_chord(const sw_field *f, size_t i) {
   return sqrt(d2);
 }
 
-double sw_scene_clamp_curvature(const sw_system *s, const sw_body *b, const sw_clamp_hinge *h) {
-  const sw_plan *p = b->plan;
-  const sw_vec t = sw_field_tangent(&b->field, h->edge);
-  if (p->rest_bend && p->beam.curved && !(h->softer > 0))
-    return sw_scene_curved_at_clamp(s, b, (size_t)(h - p->clamps));
-  return sw_clamp_curvature(h, s->directors_now, s->normals_now, t);
-}
-
 static void curvature_extreme(const sw_system *s, const sw_body *b, sw_extreme *out,
                               double *uneven) {
   const sw_plan *p = b->plan;

@@ -26,10 +26,8 @@ const double *sw_scene_step_tension(const sw_scene *scene, const sw_body *body);
 /* Finds the extremes of wire w at an accepted state, and keeps the larger ones. SW_ENOMEM. */
 sw_status sw_scene_note_extremes(sw_scene *scene, size_t w, sw_wire_extremes *now, sw_error *err);
 static inline double sw_angle_of_chord(double chord) { return 2.0 * asin(fmin(1.0, 0.5 * chord)); }
-/* hinge_chord: |t2 - t1| at inner node i of a line [-]. clamp_curvature: beside a clamp [1/m]. */
+/* Returns |t2 - t1| at inner node i of a line [-]. */
 double sw_scene_hinge_chord(const sw_field *field, size_t i);
-double sw_scene_clamp_curvature(const sw_system *system, const sw_body *body,
-                                const sw_clamp_hinge *hinge);
 /* Second difference of the curvature from node to node: about an inner node, or from a clamp on. At
  * a free end the curvature is zero [1/m]. */
 double sw_scene_uneven(const sw_system *system, const sw_body *body, size_t node);

@@ -2,6 +2,7 @@
 /* How sharp a wire's largest curvature is against its edges. */
 #include <math.h>
 
+#include "body/spin.h"
 #include "read/extremes.h"
 
 /* Returns the curvature at node i along the axis about which the wire bends there. Beyond the

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/each.h"
+#include "body/spin.h"
 #include "read/extremes.h"
 #include "state/clamp.h"
 #include "state/hinge.h"
