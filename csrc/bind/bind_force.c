@@ -207,7 +207,7 @@ static int meth_read(lua_State *L) {
   double values[SW_FORCE_OUTPUTS_MAX];
   const lsw_self f = lsw_check_self(L, &lsw_class_force);
   lua_settop(L, 2);
-  const sw_handle wire = lsw_check_body_of(L, 2, f.scene, "force:read");
+  const sw_handle wire = lsw_check_body_of(L, 2, f.scene, "force:read: wire");
   LSW_DO(L, sw_scene_read_force, f.scene, f.id, wire, values);
   const char *const *names = sw_scene_force_class(f.scene, f.id)->outputs;
   lua_newtable(L);

@@ -22,7 +22,8 @@ static int new_hold(lua_State *L) {
     return luaL_error(L, "scene:%s goes with wires; for particles use scene:hold", kind);
   }
   const char *what = lua_pushfstring(L, "scene:%s", kind);
-  const sw_handle wire = lsw_check_child_of(L, 2, &lsw_class_wire, scene, what);
+  const sw_handle wire = lsw_check_child_of(L, 2, &lsw_class_wire, scene,
+                                            lua_pushfstring(L, "%s: the first argument", what));
   lsw_arguments(L, 3, what, &cls->params, &args);
   if (lua_istable(L, 3)) args.points = lsw_read_points(L, 3, "path", kind, &args.count);
   lsw_child *child = lsw_new_child(L, &lsw_class_clamp);

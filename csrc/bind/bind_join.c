@@ -12,11 +12,13 @@ static sw_join_end read_end(lua_State *L, const sw_scene *scene, size_t number) 
   const char *what = lua_pushfstring(L, "scene:join: ends[%d]", (int)number);
   sw_join_end end;
   lua_insert(L, -2);
+  const char *first = lua_pushfstring(L, "%s[1]", what);
+  lua_insert(L, -2);
   const int at = lua_gettop(L);
   if (!lua_istable(L, at))
     luaL_error(L, "%s must be { wire, s = arc length }, got %s", what, lsw_describe(L, at));
   lua_rawgeti(L, at, 1);
-  end.wire = lsw_check_child_of(L, at + 1, &lsw_class_wire, scene, what);
+  end.wire = lsw_check_child_of(L, at + 1, &lsw_class_wire, scene, first);
   lua_newtable(L); /* all entries but the wire, to be checked */
   lua_pushnil(L);
   while (lua_next(L, at)) {
@@ -28,7 +30,7 @@ static sw_join_end read_end(lua_State *L, const sw_scene *scene, size_t number) 
       lua_rawset(L, at + 2);
   }
   lsw_arguments(L, at + 2, what, &params, &end.s);
-  lua_settop(L, at - 2);
+  lua_settop(L, at - 3);
   return end;
 }
 

@@ -35,7 +35,8 @@ int lsw_hold_particles(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
   size_t count;
   lua_settop(L, 3);
-  const sw_handle object = lsw_check_child_of(L, 2, &lsw_class_particles, scene, "scene:hold");
+  const sw_handle object =
+      lsw_check_child_of(L, 2, &lsw_class_particles, scene, "scene:hold: the first argument");
   lsw_arguments(L, 3, "scene:hold", &params, &args);
   lua_getfield(L, 3, "particles");
   const uint32_t *list = lsw_particle_numbers(L, 4, "particles to be held", &count);

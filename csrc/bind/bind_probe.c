@@ -59,7 +59,7 @@ int lsw_scene_evaluate(lua_State *L) {
   size_t nodes;
   probe_args args;
   lua_settop(L, 3);
-  const lsw_self w = {scene, lsw_check_body_of(L, 2, scene, "scene:evaluate")};
+  const lsw_self w = {scene, lsw_check_body_of(L, 2, scene, "scene:evaluate: wire")};
   lsw_arguments(L, 3, "scene:evaluate", &params, &args);
   LSW_DO(L, sw_scene_wire_particles, scene, w.id, &nodes);
   const size_t n = 3 * nodes;

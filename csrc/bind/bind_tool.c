@@ -34,7 +34,7 @@ static lsw_self check(lua_State *L) { return lsw_check_self(L, &lsw_class_tool);
  * (from 1; 0: another part of the tool). opens: its move in the tool's axes per opening [m/m]. */
 static int meth_pad(lua_State *L) {
   const lsw_self t = check(L);
-  const sw_handle o = lsw_check_child_of(L, 2, &lsw_class_obstacle, t.scene, "tool:pad");
+  const sw_handle o = lsw_check_child_of(L, 2, &lsw_class_obstacle, t.scene, "tool:pad: obstacle");
   const lua_Integer finger = lsw_integer(L, 3, "tool: the number of the finger");
   luaL_argcheck(L, finger >= 0 && finger <= SW_TOOL_PADS, 3, "finger out of range");
   const sw_vec opens = lsw_vector(L, 4, "tool:pad: opens", "-");
@@ -44,7 +44,7 @@ static int meth_pad(lua_State *L) {
 
 static int meth_hold(lua_State *L) {
   const lsw_self t = check(L);
-  const sw_handle h = lsw_check_child_of(L, 2, &lsw_class_clamp, t.scene, "tool:hold");
+  const sw_handle h = lsw_check_child_of(L, 2, &lsw_class_clamp, t.scene, "tool:hold: clamp");
   LSW_DO(L, sw_scene_tool_hold, t.scene, t.id, h);
   return 0;
 }
@@ -196,7 +196,7 @@ static int push_report(lua_State *L, const sw_freeze_report *r) {
 static int meth_freeze(lua_State *L) {
   sw_freeze_report r;
   const lsw_self t = check(L);
-  const sw_handle w = lsw_check_child_of(L, 2, &lsw_class_wire, t.scene, "tool:freeze");
+  const sw_handle w = lsw_check_child_of(L, 2, &lsw_class_wire, t.scene, "tool:freeze: wire");
   LSW_DO(L, sw_scene_tool_freeze, t.scene, t.id, w, sw_scene_balance, &r);
   return push_report(L, &r);
 }

@@ -32,12 +32,20 @@ static lsw_self check_at(lua_State *L, int index, const lsw_class *c) {
 
 lsw_self lsw_check_self(lua_State *L, const lsw_class *c) { return check_at(L, 1, c); }
 
+/* Raises: the value at index is not what `what`, a method and its argument, must be. */
+static void refuse(lua_State *L, int index, const char *wanted, const char *what) {
+  luaL_error(L, "%s must be %s, got %s", what, wanted, lsw_describe(L, index));
+}
+
 sw_handle lsw_check_child_of(lua_State *L, int index, const lsw_class *c, const sw_scene *scene,
                              const char *what) {
-  if (!lsw_test(L, index, c))
-    luaL_error(L, "%s expects %s %s of the scene, got %s", what,
-               strchr("aeiou", *c->name) ? "an" : "a", c->name,
-               lua_isnoneornil(L, index) ? "nothing" : lsw_describe(L, index));
+  index = lua_absindex(L, index);
+  if (!lsw_test(L, index, c)) {
+    const char *article = c == &lsw_class_particles ? "" : strchr("aeiou", *c->name) ? "an " : "a ";
+    refuse(L, index,
+           lua_pushfstring(L, "%s%s of the scene (from scene:%s)", article, c->name, c->name),
+           what);
+  }
   const lsw_self child = check_at(L, index, c);
   if (child.scene != scene) luaL_error(L, "%s: this %s belongs to another scene", what, c->name);
   return child.id;
@@ -45,6 +53,9 @@ sw_handle lsw_check_child_of(lua_State *L, int index, const lsw_class *c, const 
 
 sw_handle lsw_check_body_of(lua_State *L, int index, const sw_scene *scene, const char *what) {
   const int loose = lsw_test(L, index, &lsw_class_particles) != NULL;
+  if (!loose && !lsw_test(L, index, &lsw_class_wire))
+    refuse(L, index, "a wire (from scene:wire) or particles (from scene:particles) of the scene",
+           what);
   return lsw_check_child_of(L, index, loose ? &lsw_class_particles : &lsw_class_wire, scene, what);
 }
 

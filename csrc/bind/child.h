@@ -37,7 +37,8 @@ lsw_child *lsw_new_child(lua_State *L, const lsw_class *c);
 /* The child at index 1, whose method is called; raises when its scene is closed. */
 lsw_self lsw_check_self(lua_State *L, const lsw_class *c);
 
-/* The child at index, which must belong to the given scene. */
+/* The child at index, which must belong to the given scene. what: the method and its argument, for
+ * errors. */
 sw_handle lsw_check_child_of(lua_State *L, int index, const lsw_class *c, const sw_scene *scene,
                              const char *what);
 

@@ -2,6 +2,9 @@
 -- Reads mesh files into memory; the core turns their content into triangles:
 --   local file = meshfile.read("clip.stl")
 --   scene:obstacle{ shape = "mesh", data = file.data, format = file.format, scale = 0.001 }
+local blame = require "softworld.scene.blame"
+local checks = require "softworld.checks"
+local core = require "softworld.core"
 local sink = require "softworld.output.sink"
 
 local meshfile = {}
@@ -44,6 +47,47 @@ function meshfile.named(message, path)
   return (tostring(message):gsub("obstacle mesh: ", function(who)
     return ("%sfile '%s': "):format(who, path)
   end, 1))
+end
+
+-- Reports a wrong or misspelt `file`. The core takes a mesh's content and does not know this Lua word.
+local function check_words(args)
+  if args.file ~= nil and (type(args.file) ~= "string" or args.file == "") then
+    error("obstacle mesh: file must be the name of a mesh file, got " .. checks.got(args.file), 0)
+  end
+  if args.shape ~= "mesh" or args.file then return end
+  for key in pairs(args) do
+    if core.nearest(checks.shown(key), { "file" }) then
+      error(("obstacle mesh: there is no parameter '%s'; did you mean 'file'?"):format(checks.shown(key)), 0)
+    end
+  end
+  if args.data == nil then
+    error(("obstacle mesh: file is required, the name of a mesh file (%s), or data, its content")
+      :format(table.concat(meshfile.formats, " ")), 0)
+  end
+end
+
+local function make_from(args, make)
+  check_words(args)
+  local path = args.file
+  if not path then return table.pack(make(args)) end
+  local read, mesh = pcall(meshfile.read, path)
+  if not read then error("obstacle mesh: " .. blame.plain(mesh), 0) end
+  args.data, args.format, args.file = mesh.data, args.format or mesh.format, nil
+  local made = table.pack(pcall(make, args))
+  if not made[1] then error(type(made[2]) == "string" and meshfile.named(made[2], path) or made[2], 0) end
+  return table.pack(table.unpack(made, 2, made.n))
+end
+
+--- Returns what make(args) returns for the parameters of a shape; before that the mesh file that args.file
+-- names is read into args. Errors of parameters begin with `kind`, the shape and the object's name, if it
+-- was given one: "obstacle box 'wall': ...".
+function meshfile.make(kind, name, args, make)
+  local fine, made = pcall(make_from, args, make)
+  if fine then return table.unpack(made, 1, made.n) end
+  if type(made) ~= "string" then error(made, 0) end
+  error((blame.plain(made):gsub("^obstacle( ?%w*): ", function(shape)
+    return ("%s%s%s: "):format(kind, shape, type(name) == "string" and (" '%s'"):format(name) or "")
+  end, 1)), 0)
 end
 
 return meshfile

@@ -368,7 +368,7 @@ describe("a zone on an obstacle", function()
     end
   end)
 
-  for words, on in pairs{ ["expects an obstacle of the scene, got number 3"] = 3, ["got table"] = {} } do
+  for words, on in pairs{ ["on must be an obstacle of the scene (from scene:obstacle), got number 3"] = 3, ["got table"] = {} } do
     it("refuses an invalid obstacle: " .. words, function()
       local scene = sw.scene{}
       local fine, why = pcall(scene.zone, scene, { shape = "sphere", radius = 1, on = on })

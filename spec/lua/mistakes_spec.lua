@@ -44,12 +44,40 @@ local cases = {
     "obstacle mesh: file is required" },
   ["a mesh with a misspelt file"] = { function() scene:obstacle{ shape = "mesh", fil = "x.stl" } end,
     "obstacle mesh: there is no parameter 'fil'; did you mean 'file'?" },
+  ["a named mesh whose file is not there"] = { function()
+    scene:obstacle{ name = "wall", shape = "mesh", file = "nothere.stl" }
+  end, "obstacle mesh 'wall': mesh file 'nothere.stl': No such file" },
+  ["a mesh with a number for a file"] = { function()
+    scene:obstacle{ name = "wall", shape = "mesh", file = 3 }
+  end, "obstacle mesh 'wall': file must be the name of a mesh file, got 3" },
+  ["a named obstacle of negative size"] = { function()
+    scene:obstacle{ name = "100%1", shape = "sphere", radius = -1 }
+  end, "obstacle sphere '100%1': radius = -1 m is not allowed" },
+  ["a zone whose file is not there"] = { function()
+    scene:zone{ name = "oven", shape = "mesh", file = "nothere.stl" }
+  end, "zone mesh 'oven': mesh file 'nothere.stl': No such file" },
   ["a path that is not there"] = { function() sw.trajectory{ path = "nothere.csv", speed = 1 } end,
     "cannot read nothere.csv: No such file" },
   ["a tie to nothing"] = { function() scene:tie(wire, { s = 0.1, to = { nil, s = 0.1 } }) end,
-    "to[1] must be a wire, got nil" },
+    "to[1] must be a wire (from scene:wire), got nil" },
+  ["a tie of nothing"] = { function() scene:tie(nil) end,
+    "scene:tie: the first argument must be a wire (from scene:wire), got nil" },
+  ["a grasp of nothing"] = { function() hand:grasp(nil) end,
+    "gripper:grasp: the first argument must be a wire (from scene:wire) or a list of wires, got nil" },
+  ["a join with a number"] = { function()
+    scene:join{ ends = { { wire, s = 0.2 }, { 7, s = 0 } } }
+  end, "scene:join: ends[2][1] must be a wire of the scene (from scene:wire), got number 7" },
+  ["a force on a text"] = { function() scene:force{ kind = "drag", on = "wire" } end, "scene:force: on must "
+    .. "be a wire (from scene:wire) or particles (from scene:particles) of the scene, got string 'wire'" },
+  ["particles that are none"] = { function() scene:hold(wire, {}) end,
+    "scene:hold: the first argument must be particles of the scene (from scene:particles), got wire" },
   ["another spelling of a function"] = { function() sw.tune.minimize{} end, "did you mean 'minimise'?" },
 }
+
+for _, kind in ipairs{ "clamp", "pin", "grip", "feed", "slider" } do
+  cases["a " .. kind .. " of nothing"] = { function() scene[kind](scene, nil) end,
+    ("scene:%s: the first argument must be a wire of the scene (from scene:wire), got nil"):format(kind) }
+end
 
 describe("the message on", function()
   for name, case in pairs(cases) do

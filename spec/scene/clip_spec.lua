@@ -386,7 +386,7 @@ describe("a clip", function()
       refused("clip 'd': direction and axis must not be zero vectors", { direction = { 0, 0, 0 } })
       refused("there is no parameter 'insertoin'; did you mean 'insertion'?", { insertoin = 3 })
       refused("radius = 0.002 m of the seat is below the 0.003 m of wire 'w'", { radius = 0.002 })
-      refused("clip 'd': on must be a wire, got string", { on = "w" })
+      refused("clip 'd': on must be a wire (from scene:wire), got 'w'", { on = "w" })
       refused("clip 'd': friction = 'a' is not allowed", { friction = "a" })
     end)
 

@@ -229,8 +229,8 @@ describe("meshfile.read", function()
     local line = debug.getinfo(1, "l").currentline + 1
     local fine, message = pcall(function() scene:obstacle{ shape = "mesh", file = "/no/clip.stl" } end)
     assert.is_false(fine)
-    assert.is_truthy(message:find("mesh_files_spec.lua:" .. line .. ": mesh file '/no/clip.stl'", 1,
-      true), message)
+    assert.is_truthy(message:find("mesh_files_spec.lua:" .. line
+      .. ": obstacle mesh: mesh file '/no/clip.stl'", 1, true), message)
   end)
 
   it("knows the formats that the core knows", function()

@@ -171,13 +171,14 @@ local take = rows.call("gripper:grasp", "wire, {...}", "takes hold of a wire, or
 local function wires_of(self, given)
   local list = type(given) == "table" and given or { given }
   if #list == 0 then
-    error("gripper:grasp expects a wire, or a list of wires, got "
+    error("gripper:grasp: the first argument must be a wire (from scene:wire) or a list of wires, got "
       .. (given == nil and "nil" or "an empty table"), 0)
   end
   local seen = {}
   for _, wire in ipairs(list) do
     if core.type(wire) ~= "wire" then
-      error("gripper:grasp expects a wire, got " .. (core.type(wire) or type(wire)), 0)
+      error("gripper:grasp: the first argument must be a wire (from scene:wire) or a list of wires, got "
+        .. checks.got(wire), 0)
     end
     build.own(self.scene, ("gripper '%s': wire '%s' belongs to"):format(self.name, wire.name), wire)
     for _, one in ipairs(seen) do

@@ -26,7 +26,7 @@ end
 --- Returns the value if it is a wire of the scene, else raises an error.
 function fixing.wire(scene, what, name, value)
   if core.type(value) ~= "wire" then
-    error(("%s: %s must be a wire, got %s"):format(what, name, core.type(value) or type(value)), 0)
+    error(("%s: %s must be a wire (from scene:wire), got %s"):format(what, name, checks.got(value)), 0)
   end
   build.own(scene, ("%s: %s is a wire of"):format(what, name), value)
   return value

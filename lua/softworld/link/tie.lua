@@ -80,8 +80,8 @@ local function checked(scene, wire, args)
     error("scene:tie takes a wire and one table of parameters; another wire is in it: to = { wire, s = 0.2 }",
       0)
   end
+  fixing.wire(scene, "scene:tie", "the first argument", wire)
   args, what = fixing.arguments(scene, new, "tie", args)
-  fixing.wire(scene, what, "the first argument", wire)
   local here = place(what, wire, args.s, "")
   local there
   if type(args.to) == "table" and (type(args.to[1]) == "userdata" or args.to.s ~= nil) then

@@ -252,41 +252,17 @@ end
 
 local new_obstacle = class.scene.obstacle
 
--- Reports a misspelt `file`. The core takes a mesh's content and does not know this Lua word.
-local function check_mesh_words(args)
-  if args.shape ~= "mesh" or args.file ~= nil then return end
-  for key in pairs(args) do
-    if core.nearest(checks.shown(key), { "file" }) then
-      error(("obstacle mesh: there is no parameter '%s'; did you mean 'file'?"):format(checks.shown(key)), 0)
-    end
-  end
-  if args.data == nil then
-    error(("obstacle mesh: file is required, the name of a mesh file (%s), or data, its content")
-      :format(table.concat(meshfile.formats, " ")), 0)
-  end
-end
-
-local function obstacle_from(scene, args, path)
-  if not path then return new_obstacle(scene, args) end
-  local fine, result = pcall(new_obstacle, scene, args)
-  if not fine then error(meshfile.named(result, path), 0) end
-  return result
-end
-
 --- scene:obstacle{ shape =, ... }: see help "obstacle". `file` reads a mesh.
 function class.scene.obstacle(scene, args)
   build.check(scene, "scene:obstacle", 3)
   args = table_of(args, "scene:obstacle")
   local data = build.data(scene)
-  local path = args.file
-  build.call(3, check_mesh_words, args)
-  if path ~= nil then
-    local mesh = build.call(3, meshfile.read, path)
-    args.data, args.format, args.file = mesh.data, args.format or mesh.format, nil
-  end
   local kind = type(args.shape) == "string" and args.shape or "obstacle"
-  args.name = build.name(scene, args.name, kind, #data.obstacles, 3)
-  local obstacle = build.call(3, obstacle_from, scene, args, path)
+  local given = args.name
+  args.name = build.name(scene, given, kind, #data.obstacles, 3)
+  local obstacle = build.call(3, meshfile.make, "obstacle", given, args, function(all)
+    return new_obstacle(scene, all)
+  end)
   local entry = copy(args)
   entry.object, entry.data = obstacle, nil
   data.obstacles[#data.obstacles + 1] = entry -- keeps the core's order, even if something below fails

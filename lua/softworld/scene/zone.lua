@@ -38,12 +38,8 @@ local function make(scene, args)
   end
   local own = {}
   for key, value in pairs(args) do own[key] = value end
-  if own.file ~= nil then
-    local mesh = meshfile.read(own.file)
-    own.data, own.format, own.file = mesh.data, own.format or mesh.format, nil
-  end
-  local fine, name, shape, position, rotation, slot, within, turned = pcall(core.zone, scene, own)
-  if not fine then error((build.plain(name):gsub("^obstacle", "zone", 1)), 0) end
+  local name, shape, position, rotation, slot, within, turned = meshfile.make("zone", own.name, own,
+    function(all) return core.zone(scene, all) end)
   local data = build.data(scene)
   data.zones = data.zones or {}
   data.zones[#data.zones + 1] = look_of(own, name, shape, position, rotation,
