@@ -145,7 +145,7 @@ static sw_status find_waiting(sw_scene *s, sw_contact_regime regime, double t, d
   inform_holds(s, t);
   sw_waits_find(&s->system, alone && s->course.next == SW_AS_BEFORE);
   if (!s->system.waiting) return SW_OK;
-  if (s->contact) SW_TRY(sw_contact_wake(s->contact, &s->system, t, h, err));
+  if (s->contact) SW_TRY(sw_contact_wake(s->contact, &s->system, err));
   if (s->pairs) sw_mutual_regard(s->pairs, &s->system, regime, h, nominal);
   sw_joins_wake(&s->system);
   for (int any = s->pairs != NULL; any; any = sw_joins_wake(&s->system)) {
@@ -158,8 +158,9 @@ static sw_status find_waiting(sw_scene *s, sw_contact_regime regime, double t, d
 sw_status sw_scene_begin_contact(sw_scene *s, sw_contact_regime regime, double t, double h,
                                  double nominal, sw_error *err) {
   if (s->contact && !sw_contact_informed(s->contact)) sw_scene_inform_contact(s);
+  if (s->contact) SW_TRY(sw_contact_open(s->contact, t, h, err));
   SW_TRY(find_waiting(s, regime, t, h, nominal, err));
-  if (s->contact) SW_TRY(sw_contact_begin_step(s->contact, &s->system, regime, t, h, nominal, err));
+  if (s->contact) SW_TRY(sw_contact_begin_step(s->contact, &s->system, regime, nominal, err));
   const sw_status crowd = s->crowd ? sw_crowd_begin_step(s->crowd, &s->system, h) : SW_OK;
   if (crowd != SW_OK)
     return sw_fail(err, crowd, "particles that repel each other: %s",

@@ -92,10 +92,14 @@ static void find_pressing(sw_contact *c) {
   }
 }
 
-sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime regime, double t,
-                                double h, double nominal, sw_error *err) {
+sw_status sw_contact_open(sw_contact *c, double t, double h, sw_error *err) {
   c->time = t;
   c->h = h;
+  return sw_broad_place(c, t, c->start, err);
+}
+
+sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime regime,
+                                double nominal, sw_error *err) {
   c->nominal = c->asked = nominal;
   c->regime = regime;
   c->pressed_count = 0;
@@ -107,13 +111,13 @@ sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime r
   if (sw_contact_calm(c, s->nodes) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "contact: out of memory");
   find_pressing(c);
-  SW_TRY(sw_broad_place(c, t, c->start, err));
   if (sw_contact_sink(c, s) != SW_OK) return sw_fail(err, SW_ENOMEM, "contact: out of memory");
   return sw_contact_find_candidates(c, s, err);
 }
 
 sw_status sw_contact_begin_look(sw_contact *c, sw_system *s, double t, sw_error *err) {
-  SW_TRY(sw_contact_begin_step(c, s, SW_CONTACT_STATIC, t, 0, 0, err));
+  SW_TRY(sw_contact_open(c, t, 0, err));
+  SW_TRY(sw_contact_begin_step(c, s, SW_CONTACT_STATIC, 0, err));
   for (size_t i = 0; i < c->memory_count; i++) sw_kept_as_felt(&c->memory[i].kept);
   return SW_OK;
 }

@@ -68,13 +68,15 @@ void sw_contact_stiffness(sw_contact_regime regime, const sw_plan *plan, double 
 /* Least stiffness of touches of a particle with other objects, not in explicit steps [N/m]. */
 double sw_contact_hardness(const sw_web *web, size_t particle);
 
-/* Begins a step of size h at time t: finds candidates. nominal: the run's full step, which sets the
- * stiffness. In statics both are the pseudo step, or h = 0 without one. */
+/* A step of size h begins at time t: places the obstacles. In statics h is the pseudo step, or 0
+ * without one. */
+sw_status sw_contact_open(sw_contact *contact, double t, double h, sw_error *err);
+/* Then, if bodies wait (system/wait.h): wakes those that something may disturb in the step. */
+sw_status sw_contact_wake(sw_contact *contact, sw_system *system, sw_error *err);
+/* Then: finds candidates. nominal: the run's full step, which sets the stiffness; in statics h. */
 sw_status sw_contact_begin_step(sw_contact *contact, sw_system *system, sw_contact_regime regime,
-                                double t, double h, double nominal, sw_error *err);
-/* Before that: wakes the bodies that something may disturb in the step (system/wait.h). And after
- * the step: keeps bodies from stopping that are on their way out of an obstacle. */
-sw_status sw_contact_wake(sw_contact *contact, sw_system *s, double t, double h, sw_error *err);
+                                double nominal, sw_error *err);
+/* After the step: keeps bodies from stopping that are on their way out of an obstacle. */
 void sw_contact_keep_moving(const sw_contact *contact, sw_system *system);
 /* Begins evaluations at the accepted state. Each touch gets the last step's force over depth as its
  * stiffness. */

@@ -109,11 +109,9 @@ static int has_room(sw_contact *c, size_t bodies) {
   return c->still.kept != NULL;
 }
 
-sw_status sw_contact_wake(sw_contact *c, sw_system *s, double t, double h, sw_error *err) {
+sw_status sw_contact_wake(sw_contact *c, sw_system *s, sw_error *err) {
   size_t at = 0;
-  c->h = h;
   if (!has_room(c, s->body_count)) return sw_fail(err, SW_ENOMEM, "contact: out of memory");
-  SW_TRY(sw_broad_place(c, t, c->start, err));
   sw_broad_bound_movers(c);
   for (size_t b = 0; b < s->body_count; b++) {
     sw_body *body = &s->bodies[b];

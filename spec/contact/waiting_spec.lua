@@ -248,4 +248,30 @@ describe("wires at rest", function()
       scene:close()
     end
   end)
+
+  -- An obstacle is placed once at a step's start and once in each stage, whether wires wait or not. So its
+  -- function of time is called as often in a step as in that of a wire which falls freely, in one solve.
+  it("costs no further call of an obstacle's function of time", function()
+    local function calls_per_step(height, dt)
+      local scene, calls = sw.scene{}, 0
+      scene:obstacle{ shape = "plane", friction = 0.3 }
+      local moved_away = scene:obstacle{ shape = "sphere", radius = 0.02, at = { 0, 2, 0.5 } }
+      scene:wire{ cable = CABLES[1], from = { 0, 0, height }, to = { LENGTH, 0, height },
+        segments = SEGMENTS }
+      moved_away:follow(function(time)
+        calls = calls + 1
+        return { 0, 2, 0.5 + 0.1 * math.sin(time) }
+      end)
+      assert(scene:advance({ dt = dt }, 0.4).ok)
+      calls = 0
+      local row = scene:advance({ dt = dt }, scene.time + 20 * dt)
+      scene:close()
+      return calls / row.steps, row.iterations
+    end
+    for _, dt in ipairs{ 0.01, 0.004 } do
+      local waits, iterations = calls_per_step(radius(CABLES[1]), dt)
+      assert.equal(0, iterations) -- it waits
+      assert.equal(calls_per_step(10, dt), waits)
+    end
+  end)
 end)
