@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/alloc.h"
+#include "base/couple.h"
 #include "base/interrupt.h"
 #include "contact/cells.h"
 #include "contact/joined.h"
@@ -16,15 +17,11 @@ static const double STATIC_REACH = 2.0;
 static const double FARTHEST = 5.0; /* largest reach of the search in distances, at any speed [-] */
 static const double SMALL_PUSH = 0.01; /* share of the distance; less lets iterations end [-] */
 
-typedef struct couple {
-  uint32_t a, b; /* a < b */
-} couple;
-
 typedef struct group {
   size_t body;
   double distance, stiffness; /* [m], [N/m] */
   sw_joined joined;
-  couple *near; /* pairs of this step */
+  sw_couple *near; /* pairs of this step */
   size_t count, capacity;
   void *grid; /* memory for the search */
   size_t grid_capacity;
@@ -34,12 +31,6 @@ struct sw_crowd {
   group *groups;
   size_t count;
 };
-
-static int by_number(const void *left, const void *right) {
-  const couple *p = left, *q = right;
-  if (p->a != q->a) return p->a < q->a ? -1 : 1;
-  return p->b < q->b ? -1 : p->b > q->b;
-}
 
 static sw_status new_group(group *g, size_t body, const sw_web *w) {
   *g = (group){.body = body, .distance = w->repel_distance, .stiffness = w->repel_stiffness};
@@ -117,7 +108,7 @@ static sw_status look_at(void *user, const sw_thing *t, const sw_thing *u) {
     return SW_OK;
   if (g->count == MOST_NEAR) return SW_ELIMIT;
   SW_TRY(sw_grow((void **)&g->near, &g->capacity, g->count + 1, sizeof *g->near));
-  g->near[g->count++] = (couple){a, b};
+  g->near[g->count++] = (sw_couple){a, b};
   return SW_OK;
 }
 
@@ -135,7 +126,8 @@ static sw_status find_pairs(group *g, const sw_body *b, const double *x, const d
     SW_TRY(sw_cells_around(&cells, &cells.things[i], look_at, &all));
   }
   if (g->count)
-    qsort(g->near, g->count, sizeof *g->near, by_number); /* an order independent of the cells */
+    qsort(g->near, g->count, sizeof *g->near,
+          sw_couple_order); /* an order independent of the cells */
   return SW_OK;
 }
 
@@ -154,12 +146,12 @@ sw_status sw_crowd_begin_step(sw_crowd *c, sw_system *s, double h) {
 
 /* Adds the stiffness along the line between both. The part across it is negative (it turns the
  * line); it is added only where an equilibrium is looked for and iterations converge. */
-static void add_stiffness(sw_body *b, const group *g, const couple *p, double r, sw_vec t) {
+static void add_stiffness(sw_body *b, const group *g, const sw_couple *p, double r, sw_vec t) {
   const double u[3] = {t.x, t.y, t.z};
   const sw_field *f = &b->field;
   const double across = f->statics && !f->cautious ? -g->stiffness * (g->distance - r) / r : 0.0;
   double between[9],
-      *row[2] = {f->rows + SW_FIELD_ROW * (size_t)p->a, f->rows + SW_FIELD_ROW * (size_t)p->b};
+      *row[2] = {f->rows + SW_FIELD_ROW * (size_t)p->i, f->rows + SW_FIELD_ROW * (size_t)p->j};
   for (size_t i = 0, at = 0; i < 3; i++)
     for (size_t j = 0; j < 3; j++) {
       const double K = (g->stiffness - across) * u[i] * u[j] + (i == j ? across : 0.0);
@@ -167,7 +159,7 @@ static void add_stiffness(sw_body *b, const group *g, const couple *p, double r,
       if (j < i) continue;
       row[0][at] += K, row[1][at++] += K;
     }
-  sw_body_couple(b, p->a, p->b, between);
+  sw_body_couple(b, p->i, p->j, between);
 }
 
 void sw_crowd_eval(const sw_crowd *c, sw_system *s, const double *y, unsigned want) {
@@ -176,14 +168,14 @@ void sw_crowd_eval(const sw_crowd *c, sw_system *s, const double *y, unsigned wa
     sw_body *b = &s->bodies[g->body];
     const double *x = y + 3 * b->first_node;
     for (size_t i = 0; i < g->count; i++) {
-      const couple *p = &g->near[i];
-      const sw_vec d = sw_sub(sw_vec_at(x, p->b), sw_vec_at(x, p->a));
+      const sw_couple *p = &g->near[i];
+      const sw_vec d = sw_sub(sw_vec_at(x, p->j), sw_vec_at(x, p->i));
       const double r = sw_norm(d);
       if (!(r < g->distance) || !(r > 0)) continue;
       const sw_vec t = sw_scale(d, 1.0 / r);
       const sw_vec push = sw_scale(t, g->stiffness * (g->distance - r));
-      sw_accumulate(b->field.force + 3 * (size_t)p->a, sw_neg(push));
-      sw_accumulate(b->field.force + 3 * (size_t)p->b, push);
+      sw_accumulate(b->field.force + 3 * (size_t)p->i, sw_neg(push));
+      sw_accumulate(b->field.force + 3 * (size_t)p->j, push);
       if (want & SW_WANT_STIFFNESS) add_stiffness(b, g, p, r, t);
     }
   }
@@ -194,9 +186,9 @@ int sw_crowd_settled(const sw_crowd *c, const sw_system *s, const double *y, con
     const group *g = &c->groups[k];
     const size_t at = 3 * s->bodies[g->body].first_node;
     for (size_t i = 0; i < g->count; i++) {
-      const couple *p = &g->near[i];
-      const sw_vec now = sw_sub(sw_vec_at(y + at, p->b), sw_vec_at(y + at, p->a));
-      const sw_vec way = sw_sub(sw_vec_at(delta + at, p->b), sw_vec_at(delta + at, p->a));
+      const sw_couple *p = &g->near[i];
+      const sw_vec now = sw_sub(sw_vec_at(y + at, p->j), sw_vec_at(y + at, p->i));
+      const sw_vec way = sw_sub(sw_vec_at(delta + at, p->j), sw_vec_at(delta + at, p->i));
       const double after = sw_norm(now) - g->distance;
       const double before = sw_norm(sw_sub(now, way)) - g->distance;
       if ((after < 0) != (before < 0) && fabs(after - before) > SMALL_PUSH * g->distance) return 0;
@@ -211,8 +203,8 @@ double sw_crowd_energy(const sw_crowd *c, const sw_system *s) {
     const group *g = &c->groups[k];
     const double *x = s->x + 3 * s->bodies[g->body].first_node;
     for (size_t i = 0; i < g->count; i++) {
-      const couple *p = &g->near[i];
-      const double over = g->distance - sw_dist(sw_vec_at(x, p->a), sw_vec_at(x, p->b));
+      const sw_couple *p = &g->near[i];
+      const double over = g->distance - sw_dist(sw_vec_at(x, p->i), sw_vec_at(x, p->j));
       if (over > 0) sum += 0.5 * g->stiffness * over * over;
     }
   }

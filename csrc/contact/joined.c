@@ -4,19 +4,16 @@
 #include <stdlib.h>
 
 #include "base/alloc.h"
+#include "base/couple.h"
 #include "base/halving.h"
 
-typedef struct couple {
-  uint32_t a, b;
-} couple;
-
-static size_t put(couple *out, size_t n, uint32_t a, uint32_t b) {
-  if (out) out[n] = (couple){a, b}, out[n + 1] = (couple){b, a};
+static size_t put(sw_couple *out, size_t n, uint32_t a, uint32_t b) {
+  if (out) out[n] = (sw_couple){a, b}, out[n + 1] = (sw_couple){b, a};
   return n + 2;
 }
 
 /* Lists all joined pairs, in both orders, in out (may be NULL). Returns their number. */
-static size_t list(const sw_web *w, couple *out) {
+static size_t list(const sw_web *w, sw_couple *out) {
   size_t n = 0;
   for (size_t e = 0; e < w->links; e++) n = put(out, n, w->link[e].a, w->link[e].b);
   for (size_t k = 0; k < w->folds; k++) {
@@ -31,15 +28,9 @@ static size_t list(const sw_web *w, couple *out) {
   return n;
 }
 
-static int by_number(const void *left, const void *right) {
-  const couple *p = left, *q = right;
-  if (p->a != q->a) return p->a < q->a ? -1 : 1;
-  return p->b < q->b ? -1 : p->b > q->b;
-}
-
 sw_status sw_joined_new(const sw_web *w, sw_joined *out) {
   const size_t n = list(w, NULL);
-  couple *all = sw_alloc(n, sizeof *all);
+  sw_couple *all = sw_alloc(n, sizeof *all);
   *out = (sw_joined){.first = sw_alloc(w->particles + 1, sizeof *out->first),
                      .partner = sw_alloc(n, sizeof *out->partner)};
   if (!all || !out->first || !out->partner) {
@@ -47,11 +38,11 @@ sw_status sw_joined_new(const sw_web *w, sw_joined *out) {
     return SW_ENOMEM;
   }
   list(w, all);
-  if (n) qsort(all, n, sizeof *all, by_number);
+  if (n) qsort(all, n, sizeof *all, sw_couple_order);
   size_t at = 0;
   for (size_t p = 0; p < w->particles; p++) {
     out->first[p] = at;
-    for (; at < n && all[at].a == p; at++) out->partner[at] = all[at].b;
+    for (; at < n && all[at].i == p; at++) out->partner[at] = all[at].j;
   }
   out->first[w->particles] = at;
   sw_free(all);

@@ -6,22 +6,13 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/couple.h"
 #include "edit/particles.h"
-
-typedef struct edge {
-  uint32_t a, b; /* a < b */
-} edge;
 
 typedef struct face {
   uint32_t node[4], key[4]; /* in order round the face; sorted. The last of a triangle is
                                UINT32_MAX */
 } face;
-
-static int by_ends(const void *left, const void *right) {
-  const edge *p = left, *q = right;
-  if (p->a != q->a) return p->a < q->a ? -1 : 1;
-  return p->b < q->b ? -1 : p->b > q->b;
-}
 
 static int by_number(const void *left, const void *right) {
   const uint32_t *p = left, *q = right;
@@ -36,21 +27,21 @@ static int by_key(const void *left, const void *right) {
 }
 
 /* Sorts the edges, drops doubles, and gives them to the web. */
-static sw_status take_edges(sw_web *w, edge *list, size_t count) {
+static sw_status take_edges(sw_web *w, sw_couple *list, size_t count) {
   size_t n = 0;
   for (size_t i = 0; i < count; i++)
-    if (list[i].a > list[i].b) list[i] = (edge){list[i].b, list[i].a};
-  qsort(list, count, sizeof *list, by_ends);
+    if (list[i].i > list[i].j) list[i] = (sw_couple){list[i].j, list[i].i};
+  qsort(list, count, sizeof *list, sw_couple_order);
   for (size_t i = 0; i < count; i++)
-    if (i == 0 || by_ends(&list[i], &list[i - 1])) list[n++] = list[i];
+    if (i == 0 || sw_couple_order(&list[i], &list[i - 1])) list[n++] = list[i];
   w->side = sw_alloc(n, sizeof *w->side);
   if (!w->side) return SW_ENOMEM;
   size_t at = 0;
   for (size_t p = 0; p < w->particles; p++) {
     w->side_first[p] = at;
-    for (; at < n && list[at].a == p; at++) {
-      w->side[at] = list[at].b;
-      w->outer[p] = w->outer[list[at].b] = 1;
+    for (; at < n && list[at].i == p; at++) {
+      w->side[at] = list[at].j;
+      w->outer[p] = w->outer[list[at].j] = 1;
     }
   }
   w->side_first[w->particles] = at;
@@ -80,7 +71,7 @@ static size_t faces_of(const sw_web_solid *s, face *out) {
 }
 
 /* Writes the edges of faces that occur once; returns their number. */
-static size_t boundary_edges(face *faces, size_t count, edge *out) {
+static size_t boundary_edges(face *faces, size_t count, sw_couple *out) {
   size_t edges = 0;
   qsort(faces, count, sizeof *faces, by_key);
   for (size_t i = 0; i < count; i++) {
@@ -88,7 +79,7 @@ static size_t boundary_edges(face *faces, size_t count, edge *out) {
     if (i + 1 < count && !by_key(&faces[i], &faces[i + 1])) continue;
     const size_t n = faces[i].node[3] == UINT32_MAX ? 3 : 4;
     for (size_t k = 0; k < n; k++)
-      out[edges++] = (edge){faces[i].node[k], faces[i].node[(k + 1) % n]};
+      out[edges++] = (sw_couple){faces[i].node[k], faces[i].node[(k + 1) % n]};
   }
   return edges;
 }
@@ -96,7 +87,7 @@ static size_t boundary_edges(face *faces, size_t count, edge *out) {
 static sw_status outside_of_elements(sw_web *w) {
   enum { FACES = 6, EDGES = 4 * FACES };
   face *faces SW_LOCAL = sw_alloc(FACES * w->solids, sizeof *faces);
-  edge *edges SW_LOCAL = sw_alloc(EDGES * w->solids, sizeof *edges);
+  sw_couple *edges SW_LOCAL = sw_alloc(EDGES * w->solids, sizeof *edges);
   size_t count = 0;
   if (!faces || !edges) return SW_ENOMEM;
   for (size_t i = 0; i < w->solids; i++) count += faces_of(&w->solid[i], faces + count);
@@ -113,11 +104,11 @@ sw_status sw_particles_add_surface(const maker *m) {
     memset(w->outer, 1, w->particles);
     return SW_OK;
   }
-  edge *list SW_LOCAL = sw_alloc(count, sizeof *list);
+  sw_couple *list SW_LOCAL = sw_alloc(count, sizeof *list);
   if (!list) return SW_ENOMEM;
   for (size_t i = 0; i < count; i++)
-    list[i] =
-        given ? (edge){p->edge[2 * i], p->edge[2 * i + 1]} : (edge){w->link[i].a, w->link[i].b};
+    list[i] = given ? (sw_couple){p->edge[2 * i], p->edge[2 * i + 1]}
+                    : (sw_couple){w->link[i].a, w->link[i].b};
   const sw_status status = take_edges(w, list, count);
   if (!given) memset(w->outer, 1, w->particles);
   return status;

@@ -85,12 +85,12 @@ static int mod_sparse(lua_State *L) {
   luaL_argcheck(L, lua_rawlen(L, 2) == bb * n && lua_rawlen(L, 4) == bb * pairs, 4, "sizes differ");
   double *own = read_flat(L, 2, bb * n), *list = read_flat(L, 3, 2 * pairs);
   double *values = read_flat(L, 4, bb * pairs), *x = read_flat(L, 5, b * n);
-  sw_sparse_pair *at = lua_newuserdatauv(L, (pairs + 1) * sizeof *at, 0);
+  sw_couple *at = lua_newuserdatauv(L, (pairs + 1) * sizeof *at, 0);
   for (size_t k = 0; k < pairs; k++) {
     const double i = list[2 * k], j = list[2 * k + 1];
     luaL_argcheck(L, i >= 0 && i < (double)n && j >= 0 && j < (double)n && i != j, 3,
                   "no such node");
-    at[k] = (sw_sparse_pair){(uint32_t)i, (uint32_t)j};
+    at[k] = (sw_couple){(uint32_t)i, (uint32_t)j};
   }
   sw_status status = sw_sparse_new(n, b, at, pairs, NULL, &s);
   if (status != SW_OK) return lsw_raise(L, status, &err);
@@ -123,10 +123,10 @@ static sw_status new_blocks(lua_State *L, sw_blocks **out) {
   if (lua_getfield(L, 1, "pairs") != LUA_TTABLE) return sw_blocks_new_rings(rings, per_ring, out);
   const size_t count = lua_rawlen(L, -1) / 2;
   const double *list = read_flat(L, lua_gettop(L), 2 * count);
-  sw_blocks_pair *pairs = lua_newuserdatauv(L, (count + 1) * sizeof *pairs, 0);
+  sw_couple *pairs = lua_newuserdatauv(L, (count + 1) * sizeof *pairs, 0);
   for (size_t k = 0; k < count; k++) {
     luaL_argcheck(L, list[2 * k] >= 0 && list[2 * k + 1] >= 0, 1, "no such node");
-    pairs[k] = (sw_blocks_pair){(uint32_t)list[2 * k], (uint32_t)list[2 * k + 1]};
+    pairs[k] = (sw_couple){(uint32_t)list[2 * k], (uint32_t)list[2 * k + 1]};
   }
   return sw_blocks_new_sparse(nodes, pairs, count, NULL, out);
 }

@@ -26,7 +26,7 @@ sw_status sw_blocks_new_rings(size_t rings, size_t per_ring, sw_blocks **out) {
   return finish(sw_rings_new(rings, per_ring, &b->rings), b, out);
 }
 
-sw_status sw_blocks_new_sparse(size_t nodes, const sw_blocks_pair *pairs, size_t count,
+sw_status sw_blocks_new_sparse(size_t nodes, const sw_couple *pairs, size_t count,
                                const int32_t *order, sw_blocks **out) {
   sw_blocks *b = sw_alloc(1, sizeof *b);
   if (!b) return SW_ENOMEM;

@@ -10,14 +10,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/couple.h"
 #include "base/status.h"
 
 typedef struct sw_blocks sw_blocks;
-
-/* Nodes i and j, i != j, whose block is not zero. */
-typedef struct sw_blocks_pair {
-  uint32_t i, j;
-} sw_blocks_pair;
 
 /* Makes a matrix of rings: node n = ring * per_ring + place. Blocks exist between all nodes of the
  * same ring and of neighbouring rings. SW_EINVAL for no nodes, SW_ENOMEM. */
@@ -26,7 +22,7 @@ sw_status sw_blocks_new_rings(size_t rings, size_t per_ring, sw_blocks **out);
 /* Makes a matrix with blocks for the nodes themselves and for these pairs, which may repeat. order
  * (nodes): of the elimination; NULL: an order is found. SW_EINVAL for no nodes or an invalid pair,
  * SW_ELIMIT for too many, SW_ENOMEM. */
-sw_status sw_blocks_new_sparse(size_t nodes, const sw_blocks_pair *pairs, size_t count,
+sw_status sw_blocks_new_sparse(size_t nodes, const sw_couple *pairs, size_t count,
                                const int32_t *order, sw_blocks **out);
 void sw_blocks_free(sw_blocks *blocks); /* NULL is allowed */
 

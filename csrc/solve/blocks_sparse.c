@@ -18,7 +18,7 @@ void sw_blocks_sparse_free(sw_blocks_sparse *s) {
 
 /* Sorts the blocks of the lower half into columns and then these into rows, so that both lists
  * ascend. order: (count + nodes) indices of pairs. */
-static void sort_by_column(size_t nodes, const sw_blocks_pair *pairs, size_t count, uint32_t *start,
+static void sort_by_column(size_t nodes, const sw_couple *pairs, size_t count, uint32_t *start,
                            uint32_t *order) {
   for (size_t k = 0; k < count; k++) {
     const uint32_t low = pairs[k].i < pairs[k].j ? pairs[k].i : pairs[k].j;
@@ -33,15 +33,15 @@ static void sort_by_column(size_t nodes, const sw_blocks_pair *pairs, size_t cou
 
 /* Lists rows with their columns, repeats next to each other: column (count + nodes) and first
  * (nodes + 1). */
-static void sort_by_row(size_t nodes, const sw_blocks_pair *pairs, size_t count,
-                        const uint32_t *order, uint32_t *first, uint32_t *column) {
+static void sort_by_row(size_t nodes, const sw_couple *pairs, size_t count, const uint32_t *order,
+                        uint32_t *first, uint32_t *column) {
   for (size_t k = 0; k < count; k++) {
     const uint32_t high = pairs[k].i > pairs[k].j ? pairs[k].i : pairs[k].j;
     first[high + 1]++;
   }
   for (size_t i = 0; i < nodes; i++) first[i + 1] += first[i] + 1; /* and its own block */
   for (size_t k = 0; k < count; k++) {
-    const sw_blocks_pair p = pairs[order[k]];
+    const sw_couple p = pairs[order[k]];
     const uint32_t high = p.i > p.j ? p.i : p.j, low = p.i < p.j ? p.i : p.j;
     column[first[high]++] = low;
   }
@@ -63,7 +63,7 @@ static void unite(size_t nodes, uint32_t *first, uint32_t *column) {
   }
 }
 
-static sw_status find_pattern(sw_blocks_sparse *s, const sw_blocks_pair *pairs, size_t count) {
+static sw_status find_pattern(sw_blocks_sparse *s, const sw_couple *pairs, size_t count) {
   uint32_t *work SW_LOCAL = sw_alloc(s->nodes + 1 + count, sizeof *work);
   s->first = sw_alloc(s->nodes + 1, sizeof *s->first);
   s->column = sw_alloc(count + s->nodes, sizeof *s->column);
@@ -93,7 +93,7 @@ static sw_status find_below(sw_blocks_sparse *s) {
   return SW_OK;
 }
 
-static sw_status analyse(sw_blocks_sparse *s, const sw_blocks_pair *pairs, size_t count,
+static sw_status analyse(sw_blocks_sparse *s, const sw_couple *pairs, size_t count,
                          const int32_t *order) {
   SW_TRY(find_pattern(s, pairs, count));
   SW_TRY(find_below(s));
@@ -102,7 +102,7 @@ static sw_status analyse(sw_blocks_sparse *s, const sw_blocks_pair *pairs, size_
   return sw_tree_new(s->nodes, s->first, s->column, order, &s->tree);
 }
 
-sw_status sw_blocks_sparse_new(size_t nodes, const sw_blocks_pair *pairs, size_t count,
+sw_status sw_blocks_sparse_new(size_t nodes, const sw_couple *pairs, size_t count,
                                const int32_t *order, sw_blocks_sparse **out) {
   if (nodes < 1) return SW_EINVAL;
   if (nodes > INT32_MAX / 32 || count > INT32_MAX / 32) return SW_ELIMIT;

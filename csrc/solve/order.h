@@ -7,7 +7,7 @@
 
 /* Makes lists of neighbours in both directions: those of node i are next[first[i]] .. next[first[i
  * + 1] - 1]; repeated pairs stay repeated. The caller frees both, on failure too. SW_ENOMEM. */
-sw_status sw_sparse_neighbours(size_t n, const sw_sparse_pair *pairs, size_t count, int32_t **first,
+sw_status sw_sparse_neighbours(size_t n, const sw_couple *pairs, size_t count, int32_t **first,
                                int32_t **next);
 
 /* Finds an order of n nodes with little fill, for such lists: order[k] is the node to eliminate as
@@ -16,7 +16,7 @@ sw_status sw_sparse_order(size_t n, const int32_t *first, const int32_t *next, i
 
 /* Finds another order, from end to end of long structures. work: number of blocks that the
  * elimination changes [-]. SW_ENOMEM. */
-sw_status sw_sparse_order_along(size_t n, const sw_sparse_pair *pairs, size_t count, int32_t *order,
+sw_status sw_sparse_order_along(size_t n, const sw_couple *pairs, size_t count, int32_t *order,
                                 double *work);
 
 #endif

@@ -7,7 +7,7 @@
 #include "base/alloc.h"
 #include "solve/order.h"
 
-sw_status sw_sparse_neighbours(size_t n, const sw_sparse_pair *pairs, size_t count, int32_t **first,
+sw_status sw_sparse_neighbours(size_t n, const sw_couple *pairs, size_t count, int32_t **first,
                                int32_t **next) {
   SW_TRY(SW_ALLOC_ALL(SW_ROOM(*first, n + 2), SW_ROOM(*next, 2 * count + 1)));
   int32_t *at = *first + 1; /* becomes first: filled one place further on */
@@ -101,7 +101,7 @@ static double find_work(walk *w) {
   return sum;
 }
 
-sw_status sw_sparse_order_along(size_t n, const sw_sparse_pair *pairs, size_t count, int32_t *order,
+sw_status sw_sparse_order_along(size_t n, const sw_couple *pairs, size_t count, int32_t *order,
                                 double *work) {
   walk w = {.n = n, .order = order, .seen = sw_alloc(n, sizeof *w.seen)};
   size_t end = 0, last;

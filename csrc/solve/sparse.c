@@ -96,8 +96,7 @@ static sw_status find_targets(sw_sparse *s) {
   return SW_OK;
 }
 
-static sw_status find_pattern(sw_sparse *s, const sw_sparse_pair *pairs, size_t count,
-                              analysis *a) {
+static sw_status find_pattern(sw_sparse *s, const sw_couple *pairs, size_t count, analysis *a) {
   const size_t n = s->n;
   SW_TRY(SW_ALLOC_ALL(SW_ROOM(a->order, n), SW_ROOM(a->seen, 3 * (n + 1)), SW_ROOM(s->place, n),
                       SW_ROOM(s->start, n + 1)));
@@ -114,7 +113,7 @@ static sw_status find_pattern(sw_sparse *s, const sw_sparse_pair *pairs, size_t 
   return SW_OK;
 }
 
-static sw_status analyse(sw_sparse *s, const sw_sparse_pair *pairs, size_t count) {
+static sw_status analyse(sw_sparse *s, const sw_couple *pairs, size_t count) {
   analysis a = {0};
   const sw_status status = find_pattern(s, pairs, count, &a);
   SW_FREE_ALL(a.first, a.next, a.order, a.seen);
@@ -123,12 +122,9 @@ static sw_status analyse(sw_sparse *s, const sw_sparse_pair *pairs, size_t count
 
 /* Makes the fronts. slot[k]: where the block of pair k begins in their values, times 2, + 1 if
  * given transposed. */
-static sw_status use_fronts(sw_sparse *s, const sw_sparse_pair *pairs, size_t count,
+static sw_status use_fronts(sw_sparse *s, const sw_couple *pairs, size_t count,
                             const int32_t *order) {
-  sw_blocks_pair *same SW_LOCAL = sw_alloc(count, sizeof *same);
-  if (!same) return SW_ENOMEM;
-  for (size_t k = 0; k < count; k++) same[k] = (sw_blocks_pair){pairs[k].i, pairs[k].j};
-  const sw_status status = sw_blocks_new_sparse(s->n, same, count, order, &s->fronts);
+  const sw_status status = sw_blocks_new_sparse(s->n, pairs, count, order, &s->fronts);
   for (size_t k = 0; k < count && status == SW_OK; k++) {
     const uint32_t i = pairs[k].i, j = pairs[k].j;
     const size_t at = i > j ? sw_blocks_slot(s->fronts, i, j) : sw_blocks_slot(s->fronts, j, i);
@@ -148,7 +144,7 @@ static double work_of(const sw_sparse *s) {
 }
 
 /* Makes fronts for the pattern, eliminated from end to end if that is less work. */
-static sw_status choose_fronts(sw_sparse *s, const sw_sparse_pair *pairs, size_t count) {
+static sw_status choose_fronts(sw_sparse *s, const sw_couple *pairs, size_t count) {
   int32_t *order SW_LOCAL = sw_alloc(s->n, sizeof *order);
   double work;
   if (!order) return SW_ENOMEM;
@@ -169,7 +165,7 @@ static sw_status make_room(sw_sparse *s) {
   return SW_OK;
 }
 
-sw_status sw_sparse_new(size_t nodes, size_t block, const sw_sparse_pair *pairs, size_t count,
+sw_status sw_sparse_new(size_t nodes, size_t block, const sw_couple *pairs, size_t count,
                         const sw_sparse *like, sw_sparse **out) {
   sw_sparse *s = sw_alloc(1, sizeof *s);
   if (!s) return SW_ENOMEM;

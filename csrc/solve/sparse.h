@@ -9,21 +9,17 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/couple.h"
 #include "base/status.h"
 
 typedef struct sw_sparse sw_sparse;
-
-/* Nodes i and j, i != j, whose block is not zero. */
-typedef struct sw_sparse_pair {
-  uint32_t i, j;
-} sw_sparse_pair;
 
 enum { SW_SPARSE_BLOCK_MAX = 4 };
 
 /* Makes a matrix of nodes x nodes blocks of block x block values (3 or 4), zero except for the
  * diagonal and the given pairs, which may repeat. like: a matrix of the same block with some pairs
  * fewer, which saves part of the search for an order; or NULL. SW_ENOMEM. */
-sw_status sw_sparse_new(size_t nodes, size_t block, const sw_sparse_pair *pairs, size_t count,
+sw_status sw_sparse_new(size_t nodes, size_t block, const sw_couple *pairs, size_t count,
                         const sw_sparse *like, sw_sparse **out);
 void sw_sparse_free(sw_sparse *sparse); /* NULL is allowed */
 

@@ -40,7 +40,7 @@ sw_status sw_system_plan_bridge(sw_system *s, size_t i, size_t j) {
   SW_TRY(sw_grow((void **)&l->planned, &l->planned_capacity, l->planned_count + 1,
                  sizeof *l->planned));
   l->planned[l->planned_count++] =
-      (sw_sparse_pair){(uint32_t)(i < j ? i : j), (uint32_t)(i < j ? j : i)};
+      (sw_couple){(uint32_t)(i < j ? i : j), (uint32_t)(i < j ? j : i)};
   return SW_OK;
 }
 
@@ -70,14 +70,14 @@ static size_t hash_of(const struct sw_bridges *l, uint32_t i, uint32_t j) {
 uint32_t sw_bridges_find(const struct sw_bridges *l, uint32_t i, uint32_t j) {
   if (!l->table_size) return NONE;
   for (size_t h = hash_of(l, i, j); l->table[h]; h = (h + 1) & (l->table_size - 1)) {
-    const sw_sparse_pair *k = &l->known[l->table[h] - 1];
+    const sw_couple *k = &l->known[l->table[h] - 1];
     if (k->i == i && k->j == j) return l->table[h] - 1;
   }
   return NONE;
 }
 
 static void enter(struct sw_bridges *l, uint32_t number) {
-  const sw_sparse_pair *k = &l->known[number];
+  const sw_couple *k = &l->known[number];
   size_t h = hash_of(l, k->i, k->j);
   while (l->table[h]) h = (h + 1) & (l->table_size - 1);
   l->table[h] = number + 1;
@@ -99,7 +99,7 @@ static sw_status add_known(struct sw_bridges *l, uint32_t i, uint32_t j) {
   if (sw_bridges_find(l, i, j) != NONE) return SW_OK;
   SW_TRY(sw_grow((void **)&l->known, &l->known_capacity, l->known_count + 1, sizeof *l->known));
   if (2 * l->known_count >= l->table_size) SW_TRY(make_table(l, 2 * l->known_count + 1));
-  l->known[l->known_count] = (sw_sparse_pair){i, j};
+  l->known[l->known_count] = (sw_couple){i, j};
   enter(l, (uint32_t)l->known_count++);
   return SW_OK;
 }
@@ -149,7 +149,7 @@ static sw_status number_nodes(sw_system *s) {
 }
 
 /* Lists a web's pairs in the matrix' numbers. */
-static size_t list_couples(sw_body *b, size_t first, sw_sparse_pair *out) {
+static size_t list_couples(sw_body *b, size_t first, sw_couple *out) {
   const size_t count = sw_web_couples(b, out);
   for (size_t k = 0; k < count; k++) {
     out[k].i += (uint32_t)first;
@@ -176,13 +176,13 @@ static sw_status list_pairs(sw_system *s) {
       continue;
     }
     for (uint32_t i = 0; i + 1 < count; i++) {
-      l->pairs[n++] = (sw_sparse_pair){first + i, first + i + 1};
-      if (i + 2 < count) l->pairs[n++] = (sw_sparse_pair){first + i, first + i + 2};
+      l->pairs[n++] = (sw_couple){first + i, first + i + 1};
+      if (i + 2 < count) l->pairs[n++] = (sw_couple){first + i, first + i + 2};
     }
   }
   l->chain_pairs = n;
   for (size_t k = 0; k < l->known_count; k++)
-    l->pairs[n++] = (sw_sparse_pair){l->number[l->known[k].i], l->number[l->known[k].j]};
+    l->pairs[n++] = (sw_couple){l->number[l->known[k].i], l->number[l->known[k].j]};
   l->pair_count = n;
   return SW_OK;
 }

@@ -21,11 +21,11 @@ struct sw_bridges {
 
   /* the pattern for which the sparse matrix was analysed */
   sw_sparse *matrix;
-  sw_sparse_pair *pairs; /* of the bodies' chains, then of the bridges; in the matrix' numbers */
+  sw_couple *pairs; /* of the bodies' chains, then of the bridges; in the matrix' numbers */
   size_t pair_capacity, chain_pairs, pair_count;
-  sw_sparse_pair *known; /* bridges of the pattern: planned ones, then those added in the step */
+  sw_couple *known; /* bridges of the pattern: planned ones, then those added in the step */
   size_t known_count, known_capacity;
-  sw_sparse_pair *planned, *taken; /* for the present step; those that the pattern was made from */
+  sw_couple *planned, *taken; /* for the present step; those that the pattern was made from */
   size_t planned_count, planned_capacity, taken_count, taken_capacity;
   size_t from_plan; /* number of planned ones in known */
   int anew;         /* 1: a plan was made after the pattern */

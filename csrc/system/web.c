@@ -13,50 +13,59 @@
 
 /* --- the matrix -------------------------------------------------------------------- */
 
-/* Pairs of a crease's nodes in the order of their slots. */
-static void crease_pairs(const sw_web_crease *f, sw_blocks_pair out[SW_FIELD_CREASE_PAIRS]) {
-  const sw_blocks_pair six[SW_FIELD_CREASE_PAIRS] = {{f->a, f->b}, {f->c, f->b}, {f->d, f->b},
-                                                     {f->a, f->c}, {f->a, f->d}, {f->c, f->d}};
-  memcpy(out, six, sizeof six);
+static size_t between(const sw_blocks *m, size_t a, size_t b) {
+  return a > b ? sw_blocks_slot(m, a, b) : sw_blocks_slot(m, b, a);
 }
 
-/* Writes all joined pairs of particles into out (may be NULL). Returns their number. */
-static size_t pairs_of(const sw_web *w, sw_blocks_pair *out) {
-  size_t n = 0;
-  for (size_t e = 0; e < w->links; e++, n++)
-    if (out) out[n] = (sw_blocks_pair){w->link[e].a, w->link[e].b};
+/* Where joined pairs of particles are written: to a list, or their slots of a matrix, or nowhere.
+ */
+typedef struct sink {
+  size_t count;
+  sw_couple *list; /* or NULL */
+  size_t *slot;    /* the next one; or NULL */
+  const sw_blocks *blocks;
+} sink;
+
+static void put(sink *to, uint32_t a, uint32_t b) {
+  if (to->list) to->list[to->count] = (sw_couple){a, b};
+  if (to->slot) *to->slot++ = between(to->blocks, a, b);
+  to->count++;
+}
+
+static void put_all(sink *to, const uint32_t *node, uint32_t count) {
+  for (uint32_t i = 1; i < count; i++)
+    for (uint32_t j = 0; j < i; j++) put(to, node[j], node[i]);
+}
+
+/* Writes all joined pairs, in the order of their slots. Returns their number. */
+static size_t join_all(const sw_web *w, sink to) {
+  for (size_t e = 0; e < w->links; e++) put(&to, w->link[e].a, w->link[e].b);
   SW_ITEMS(const sw_web_fold, f, w->fold, w->folds) {
-    const sw_blocks_pair three[3] = {{f->a, f->b}, {f->a, f->c}, {f->b, f->c}};
-    for (int i = 0; i < 3; i++, n++)
-      if (out) out[n] = three[i];
+    put(&to, f->a, f->b), put(&to, f->a, f->c), put(&to, f->b, f->c);
   }
-  for (size_t k = 0; k < w->creases; k++) {
-    sw_blocks_pair six[SW_FIELD_CREASE_PAIRS];
-    crease_pairs(&w->crease[k], six);
-    for (int i = 0; i < SW_FIELD_CREASE_PAIRS; i++, n++)
-      if (out) out[n] = six[i];
+  SW_ITEMS(const sw_web_crease, f, w->crease, w->creases) {
+    put(&to, f->a, f->b), put(&to, f->c, f->b), put(&to, f->d, f->b);
+    put(&to, f->a, f->c), put(&to, f->a, f->d), put(&to, f->c, f->d);
   }
-  for (size_t k = 0; k < w->solids; k++)
-    for (uint32_t i = 1; i < w->solid[k].count; i++)
-      for (uint32_t j = 0; j < i; j++, n++)
-        if (out) out[n] = (sw_blocks_pair){w->solid[k].node[j], w->solid[k].node[i]};
-  for (size_t k = 0; k < w->slides; k++)
-    for (int i = 1; i < SW_SLIDE_NODES; i++)
-      for (int j = 0; j < i; j++, n++)
-        if (out) out[n] = (sw_blocks_pair){w->slide[k].node[j], w->slide[k].node[i]};
+  for (size_t k = 0; k < w->solids; k++) {
+    size_t *const first = to.slot;
+    put_all(&to, w->solid[k].node, w->solid[k].count);
+    if (first) to.slot = first + SW_FIELD_SOLID_PAIRS;
+  }
+  for (size_t k = 0; k < w->slides; k++) put_all(&to, w->slide[k].node, SW_SLIDE_NODES);
+  to.slot = NULL; /* neighbours on the surface have no slots of their own */
   for (size_t p = 0; p < w->particles; p++)
-    for (size_t k = w->side_first[p]; k < w->side_first[p + 1]; k++, n++)
-      if (out) out[n] = (sw_blocks_pair){(uint32_t)p, w->side[k]};
-  return n;
+    for (size_t k = w->side_first[p]; k < w->side_first[p + 1]; k++)
+      put(&to, (uint32_t)p, w->side[k]);
+  return to.count;
 }
 
 /* Makes a matrix of the web's joined pairs and of others (more x 2). */
 static sw_status new_sparse(const sw_web *w, const uint32_t *others, size_t more, sw_blocks **out) {
-  sw_blocks_pair *pairs SW_LOCAL = sw_alloc(pairs_of(w, NULL) + more, sizeof *pairs);
+  sw_couple *pairs SW_LOCAL = sw_alloc(join_all(w, (sink){0}) + more, sizeof *pairs);
   if (!pairs) return SW_ENOMEM;
-  size_t count = pairs_of(w, pairs);
-  for (size_t i = 0; i < more; i++)
-    pairs[count++] = (sw_blocks_pair){others[2 * i], others[2 * i + 1]};
+  size_t count = join_all(w, (sink){.list = pairs});
+  for (size_t i = 0; i < more; i++) pairs[count++] = (sw_couple){others[2 * i], others[2 * i + 1]};
   return sw_blocks_new_sparse(w->particles, pairs, count, NULL, out);
 }
 
@@ -81,44 +90,15 @@ static sw_status new_blocks(const sw_web *w, const uint32_t *others, size_t more
   return sw_blocks_new_rings(w->rings, w->per_ring, out);
 }
 
-static size_t between(const sw_blocks *m, size_t a, size_t b) {
-  return a > b ? sw_blocks_slot(m, a, b) : sw_blocks_slot(m, b, a);
-}
-
 static void fill_slots(sw_body *b) {
   const sw_web *w = b->plan->web;
   size_t *own = b->web_slots, *link = own + w->particles, *fold = link + w->links;
-  size_t *solid = fold + 3 * w->folds, *slide = solid + SW_FIELD_SOLID_PAIRS * w->solids;
-  size_t *crease = slide + SW_FIELD_SLIDE_PAIRS * w->slides;
+  size_t *crease = fold + 3 * w->folds, *solid = crease + SW_FIELD_CREASE_PAIRS * w->creases;
   for (size_t p = 0; p < w->particles; p++) own[p] = sw_blocks_slot(b->blocks, p, p);
-  for (size_t e = 0; e < w->links; e++) link[e] = between(b->blocks, w->link[e].a, w->link[e].b);
-  for (size_t k = 0; k < w->folds; k++) {
-    const sw_web_fold *f = &w->fold[k];
-    fold[3 * k] = between(b->blocks, f->a, f->b);
-    fold[3 * k + 1] = between(b->blocks, f->a, f->c);
-    fold[3 * k + 2] = between(b->blocks, f->b, f->c);
-  }
-  for (size_t k = 0; k < w->solids; k++) {
-    const uint32_t *node = w->solid[k].node;
-    size_t *at = solid + SW_FIELD_SOLID_PAIRS * k;
-    for (uint32_t i = 1; i < w->solid[k].count; i++)
-      for (uint32_t j = 0; j < i; j++) *at++ = between(b->blocks, node[j], node[i]);
-  }
-  for (size_t k = 0; k < w->slides; k++) {
-    size_t *at = slide + SW_FIELD_SLIDE_PAIRS * k;
-    for (int i = 1; i < SW_SLIDE_NODES; i++)
-      for (int j = 0; j < i; j++)
-        *at++ = between(b->blocks, w->slide[k].node[j], w->slide[k].node[i]);
-  }
-  for (size_t k = 0; k < w->creases; k++) {
-    sw_blocks_pair six[SW_FIELD_CREASE_PAIRS];
-    crease_pairs(&w->crease[k], six);
-    for (int i = 0; i < SW_FIELD_CREASE_PAIRS; i++)
-      crease[SW_FIELD_CREASE_PAIRS * k + i] = between(b->blocks, six[i].i, six[i].j);
-  }
+  (void)join_all(w, (sink){.slot = link, .blocks = b->blocks});
   b->field.own_slot = own, b->field.link_slot = link;
-  b->field.fold_slot = fold, b->field.solid_slot = solid;
-  b->field.slide_slot = slide, b->field.crease_slot = crease;
+  b->field.fold_slot = fold, b->field.crease_slot = crease, b->field.solid_slot = solid;
+  b->field.slide_slot = solid + SW_FIELD_SOLID_PAIRS * w->solids;
 }
 
 /* Matrices differ little within a step. From this number of particles on, the first one's factor
@@ -178,26 +158,19 @@ void sw_web_discard(sw_body *b) {
 }
 
 size_t sw_web_couples_room(const sw_body *b) {
-  return pairs_of(b->plan->web, NULL) + b->web_pair_count;
+  return join_all(b->plan->web, (sink){0}) + b->web_pair_count;
 }
 
-static int by_nodes(const void *left, const void *right) {
-  const sw_sparse_pair *p = left, *q = right;
-  if (p->i != q->i) return p->i < q->i ? -1 : 1;
-  return p->j < q->j ? -1 : p->j > q->j;
-}
-
-size_t sw_web_couples(const sw_body *b, sw_sparse_pair *out) {
-  _Static_assert(sizeof(sw_sparse_pair) == sizeof(sw_blocks_pair), "both are two numbers");
+size_t sw_web_couples(const sw_body *b, sw_couple *out) {
   const sw_web *w = b->plan->web;
-  size_t n = pairs_of(w, (sw_blocks_pair *)(void *)out), kept = 0;
+  size_t n = join_all(w, (sink){.list = out}), kept = 0;
   for (size_t k = 0; k < b->web_pair_count; k++)
-    out[n++] = (sw_sparse_pair){b->web_pairs[2 * k], b->web_pairs[2 * k + 1]};
+    out[n++] = (sw_couple){b->web_pairs[2 * k], b->web_pairs[2 * k + 1]};
   for (size_t k = 0; k < n; k++)
-    if (out[k].i > out[k].j) out[k] = (sw_sparse_pair){out[k].j, out[k].i};
-  if (n) qsort(out, n, sizeof *out, by_nodes);
+    if (out[k].i > out[k].j) out[k] = (sw_couple){out[k].j, out[k].i};
+  if (n) qsort(out, n, sizeof *out, sw_couple_order);
   for (size_t k = 0; k < n; k++)
-    if (k == 0 || by_nodes(&out[k], &out[kept - 1])) out[kept++] = out[k];
+    if (k == 0 || sw_couple_order(&out[k], &out[kept - 1])) out[kept++] = out[k];
   return kept;
 }
 

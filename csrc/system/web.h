@@ -15,7 +15,7 @@ void sw_web_discard(sw_body *body);
 /* For a matrix that connects webs to other bodies: writes the pairs of particles that have a block,
  * each once, i < j, into out (room for sw_web_couples_room). Returns their number. */
 size_t sw_web_couples_room(const sw_body *body);
-size_t sw_web_couples(const sw_body *body, sw_sparse_pair *out);
+size_t sw_web_couples(const sw_body *body, sw_couple *out);
 /* Copies the 3 x 3 block with rows of i and columns of j, i <= j. */
 void sw_web_block(const sw_body *body, size_t i, size_t j, double out[9]);
 
