@@ -107,3 +107,9 @@ sw_status sw_grow_empty(void **p, size_t *capacity, size_t need, size_t size) {
   *capacity = *p ? wanted : 0;
   return *p ? SW_OK : SW_ENOMEM;
 }
+
+sw_status sw_fill(void **p, size_t *capacity, const void *from, size_t count, size_t size) {
+  SW_TRY(sw_grow(p, capacity, count, size));
+  if (count) memcpy(*p, from, count * size);
+  return SW_OK;
+}

@@ -54,6 +54,9 @@ sw_status sw_grow(void **p, size_t *capacity, size_t need, size_t size);
  * capacity is 0. */
 sw_status sw_grow_empty(void **p, size_t *capacity, size_t need, size_t size);
 
+/* The same, and fills it with `count` items from elsewhere. */
+sw_status sw_fill(void **p, size_t *capacity, const void *from, size_t count, size_t size);
+
 /* Exchanges two values of one type. */
 #define SW_SWAP(a, b)                \
   do {                               \

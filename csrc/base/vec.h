@@ -128,4 +128,11 @@ static inline sw_quat sw_quat_between(sw_vec from, sw_vec to) {
   return sw_quat_unit((sw_quat){c > 1e-12 ? c : 0.0, axis.x, axis.y, axis.z});
 }
 
+/* out += f a b', row by row. */
+static inline void sw_add_outer(double out[9], sw_vec a, sw_vec b, double f) {
+  const double x[3] = {f * a.x, f * a.y, f * a.z}, y[3] = {b.x, b.y, b.z};
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) out[3 * i + j] += x[i] * y[j];
+}
+
 #endif

@@ -145,27 +145,26 @@ static size_t node_count(lua_State *L, lsw_self w) {
   return n;
 }
 
-/* wire:positions() -> flat {x1, y1, z1, x2, ...} of all nodes [m], their arc lengths [m] */
-static int meth_positions(lua_State *L) {
+/* Pushes places (count x 3) and their arc lengths [m]. */
+static int push_places(lua_State *L, lsw_counter count, __typeof__(&sw_scene_wire_copy) copy) {
   size_t n;
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
-  double *x = lsw_room(L, w, sw_scene_wire_nodes, 4, &n);
-  LSW_DO(L, sw_scene_wire_copy, w.scene, w.id, x, x + 3 * n, NULL);
+  double *x = lsw_room(L, w, count, 4, &n);
+  LSW_DO(L, copy, w.scene, w.id, x, x + 3 * n, NULL);
   lsw_push_flat(L, x, 3 * n);
   lsw_push_flat(L, x + 3 * n, n);
   return 2;
 }
 
+/* wire:positions() -> flat {x1, y1, z1, x2, ...} of all nodes [m], their arc lengths [m] */
+static int meth_positions(lua_State *L) {
+  return push_places(L, sw_scene_wire_nodes, sw_scene_wire_copy);
+}
+
 /* wire:particles() -> flat {x1, y1, z1, x2, ...} of all particles of a mesh, ring by ring, their
  * arc lengths; for any other wire the same of its nodes [m] */
 static int meth_particles(lua_State *L) {
-  size_t n;
-  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
-  double *x = lsw_room(L, w, sw_scene_wire_particles, 4, &n);
-  LSW_DO(L, sw_scene_wire_particle_copy, w.scene, w.id, x, x + 3 * n, NULL);
-  lsw_push_flat(L, x, 3 * n);
-  lsw_push_flat(L, x + 3 * n, n);
-  return 2;
+  return push_places(L, sw_scene_wire_particles, sw_scene_wire_particle_copy);
 }
 
 static int meth_velocities(lua_State *L) {

@@ -365,15 +365,11 @@ sw_quat lsw_rotation(lua_State *L, int index, const char *what) {
   double q[4] = {1, 0, 0, 0};
   index = lua_absindex(L, index);
   if (lua_isnoneornil(L, index)) return sw_quat_identity();
-  if (lua_istable(L, index) && lua_getfield(L, index, "axis") != LUA_TNIL) {
-    const sw_vec axis = lsw_vector(L, -2, lua_pushfstring(L, "%s.axis", what), "-");
-    lua_getfield(L, index, "angle");
-    const double angle = lsw_number(L, -2, lua_pushfstring(L, "%s.angle", what), "rad");
-    if (sw_norm(axis) == 0) luaL_error(L, "%s.axis must not be the zero vector", what);
-    lua_settop(L, lua_gettop(L) - 4);
-    return sw_quat_exp(sw_scale(sw_unit_or(axis, sw_v(0, 0, 1)), angle));
+  if (lua_istable(L, index)) {
+    const int turns = lua_getfield(L, index, "axis") != LUA_TNIL;
+    lua_pop(L, 1);
+    if (turns) return sw_quat_exp(lsw_turn(L, index, what));
   }
-  if (lua_istable(L, index)) lua_pop(L, 1);
   numbers(L, index, what, "-", 4, names, q);
   if (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] == 0)
     luaL_error(L, "%s must not be the zero quaternion", what);

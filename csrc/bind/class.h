@@ -105,6 +105,8 @@ sw_vec lsw_place(lua_State *L, int index, const char *what);
 
 /* Returns the rotation at index: nil = identity, {axis=, angle=} [rad] or {w, x, y, z}. */
 sw_quat lsw_rotation(lua_State *L, int index, const char *what);
+/* The turn { axis =, angle = } as axis times angle [rad]. */
+sw_vec lsw_turn(lua_State *L, int index, const char *what);
 
 /* Returns the finite number at index; what names it in the error. */
 double lsw_number(lua_State *L, int index, const char *what, const char *unit);

@@ -15,15 +15,11 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_
                          void *user, sw_contact **out) {
   sw_contact *c = sw_alloc(1, sizeof *c);
   if (!c) return SW_ENOMEM;
-  c->obstacles = sw_alloc(count, sizeof *c->obstacles);
-  c->loads = sw_alloc(count, sizeof *c->loads);
-  c->start = sw_alloc(count, sizeof *c->start);
-  c->now = sw_alloc(count, sizeof *c->now);
-  c->flat = sw_alloc(8 * count, sizeof *c->flat);
-  c->spaced = sw_alloc(2 * count, sizeof *c->spaced);
-  c->bounds = (sw_bounds *)sw_alloc(count, sizeof *c->bounds);
-  if (!c->obstacles || !c->loads || !c->start || !c->now || !c->flat || !c->spaced || !c->bounds ||
-      sw_broad_new(&c->broad, count) != SW_OK) {
+  const sw_status status =
+      SW_ALLOC_ALL(SW_ROOM(c->obstacles, count), SW_ROOM(c->loads, count), SW_ROOM(c->start, count),
+                   SW_ROOM(c->now, count), SW_ROOM(c->flat, 8 * count),
+                   SW_ROOM(c->spaced, 2 * count), SW_ROOM(c->bounds, count));
+  if (status != SW_OK || sw_broad_new(&c->broad, count) != SW_OK) {
     sw_contact_free(c);
     return SW_ENOMEM;
   }
@@ -70,12 +66,10 @@ void sw_contact_keep(sw_contact *c, const size_t *ids, size_t count) {
 
 void sw_contact_free(sw_contact *c) {
   if (!c) return;
-  void *const blocks[] = {c->obstacles, c->loads,   c->start,       c->now,          c->flat,
-                          c->sunk,      c->spaced,  c->bounds,      c->candidates,   c->touches,
-                          c->last,      c->memory,  c->next_memory, c->pressed,      c->turns,
-                          c->barriers,  c->impacts, c->impact_at,   c->marks,        c->room,
-                          c->reach,     c->ahead,   c->ranges,      c->singles.first};
-  for (size_t k = 0; k < sizeof blocks / sizeof blocks[0]; k++) sw_free(blocks[k]);
+  SW_FREE_ALL(c->obstacles, c->loads, c->start, c->now, c->flat, c->sunk, c->spaced, c->bounds,
+              c->candidates, c->touches, c->last, c->memory, c->next_memory, c->pressed, c->turns,
+              c->barriers, c->impacts, c->impact_at, c->marks, c->room, c->reach, c->ahead,
+              c->ranges, c->singles.first);
   sw_broad_free(&c->broad);
   sw_still_free(&c->still);
   sw_free(c);

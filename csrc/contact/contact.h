@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Contact of wires with rigid obstacles: unilateral normal force, anchored Coulomb friction,
- * impacts, and the swept test that keeps fast wires from passing thin walls. It is one sw_coupling
- * of the system. */
+/* Contact of wires with rigid obstacles: normal force, anchored Coulomb friction, impacts, and the
+ * swept test that keeps fast wires from passing thin walls. It is one sw_coupling of the system. */
 #ifndef SW_CONTACT_CONTACT_H
 #define SW_CONTACT_CONTACT_H
 
@@ -48,7 +47,7 @@ typedef sw_status (*sw_contact_place)(void *user, int o, double time, sw_motion_
 /* Makes a contact over copies of these obstacles. Their ids must ascend. SW_ENOMEM. */
 sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_contact_place place,
                          void *user, sw_contact **out);
-/* Makes a copy over the same obstacles with the same memory, for a look ahead. SW_ENOMEM. */
+/* Makes a copy with the same obstacles and memory, for a look ahead. SW_ENOMEM. */
 sw_status sw_contact_copy(const sw_contact *contact, sw_contact **out);
 void sw_contact_free(sw_contact *contact);
 /* Keeps only the obstacles with these owner's numbers (count); wires no longer touch the others. */
@@ -68,18 +67,17 @@ void sw_contact_stiffness(sw_contact_regime regime, const sw_plan *plan, double 
 /* Least stiffness of touches of a particle with other objects, not in explicit steps [N/m]. */
 double sw_contact_hardness(const sw_web *web, size_t particle);
 
-/* A step of size h begins at time t: places the obstacles. In statics h is the pseudo step, or 0
- * without one. */
+/* A step of size h (in statics a pseudo step, or 0) begins at time t: places the obstacles. */
 sw_status sw_contact_open(sw_contact *contact, double t, double h, sw_error *err);
-/* Then, if bodies wait (system/wait.h): wakes those that something may disturb in the step. */
+/* Then: wakes waiting bodies that something may disturb in the step (system/wait.h). Then: finds
+ * candidates. nominal: the run's full step, which sets the stiffness; in statics h. */
 sw_status sw_contact_wake(sw_contact *contact, sw_system *system, sw_error *err);
-/* Then: finds candidates. nominal: the run's full step, which sets the stiffness; in statics h. */
 sw_status sw_contact_begin_step(sw_contact *contact, sw_system *system, sw_contact_regime regime,
                                 double nominal, sw_error *err);
 /* After the step: keeps bodies from stopping that are on their way out of an obstacle. */
 void sw_contact_keep_moving(const sw_contact *contact, sw_system *system);
-/* Begins evaluations at the accepted state. Each touch gets the last step's force over depth as its
- * stiffness. */
+/* Begins evaluations at the accepted state. A touch's stiffness is its last force over its depth.
+ */
 sw_status sw_contact_begin_look(sw_contact *contact, sw_system *system, double t, sw_error *err);
 
 /* The system's coupling functions (see sw_coupling), user = the contact. */

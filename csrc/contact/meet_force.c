@@ -38,12 +38,6 @@ static void begin(blocks *b, const sw_bow bow[2]) {
 
 static int side_of(const blocks *b, int i) { return i >= b->from[1]; }
 
-static void add_outer(double out[9], sw_vec a, sw_vec b, double f) {
-  const double x[3] = {f * a.x, f * a.y, f * a.z}, y[3] = {b.x, b.y, b.z};
-  for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++) out[3 * i + j] += x[i] * y[j];
-}
-
 /* 0 for the other node of a segment that is touched at one node: the touch has no effect on it. */
 static int takes_part(const blocks *b, const int slides[2], int i) {
   return b->w[i] != 0 || slides[side_of(b, i)];
@@ -98,10 +92,10 @@ static void add_turning(blocks *out, const places *at, sw_vec n, double d, doubl
       if (!takes_part(out, at->slides, j)) continue;
       double *k = block(out, i, j);
       for (int m = 0; m < 9; m++) k[m] += f * w[i] * w[j] * P[FULL[m]];
-      add_outer(k, g[0][i], g[0][j], -f * Q[0]);
-      add_outer(k, g[1][i], g[1][j], -f * Q[2]);
-      add_outer(k, g[0][i], g[1][j], -f * Q[1]);
-      add_outer(k, g[1][i], g[0][j], -f * Q[1]);
+      sw_add_outer(k, g[0][i], g[0][j], -f * Q[0]);
+      sw_add_outer(k, g[1][i], g[1][j], -f * Q[2]);
+      sw_add_outer(k, g[0][i], g[1][j], -f * Q[1]);
+      sw_add_outer(k, g[1][i], g[0][j], -f * Q[1]);
     }
 }
 

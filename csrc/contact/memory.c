@@ -93,8 +93,7 @@ int sw_contact_is_fresh(const sw_contact *c) { return c->fresh; }
 
 sw_status sw_contact_set_memory(sw_contact *c, const void *memory, size_t bytes, int fresh) {
   const size_t n = bytes / sizeof *c->memory;
-  SW_TRY(sw_grow((void **)&c->memory, &c->memory_capacity, n, sizeof *c->memory));
-  if (n) memcpy(c->memory, memory, bytes);
+  SW_TRY(sw_fill((void **)&c->memory, &c->memory_capacity, memory, n, sizeof *c->memory));
   c->memory_count = n;
   c->fresh = fresh;
   c->touch_count = 0;
@@ -122,8 +121,7 @@ sw_status sw_contact_set_seen(sw_contact *c, const void *seen, size_t bytes, siz
   const size_t n = bytes / sizeof *c->touches;
   c->touch_count = 0;
   if (bytes % sizeof *c->touches != 0) return SW_EINVAL;
-  SW_TRY(sw_grow((void **)&c->touches, &c->touch_capacity, n, sizeof *c->touches));
-  if (n) memcpy(c->touches, seen, bytes);
+  SW_TRY(sw_fill((void **)&c->touches, &c->touch_capacity, seen, n, sizeof *c->touches));
   for (size_t i = 0; i < n; i++) {
     const sw_touch *t = &c->touches[i];
     if (t->obstacle < 0 || (size_t)t->obstacle >= c->count || t->node >= nodes ||

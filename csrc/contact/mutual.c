@@ -15,11 +15,8 @@ sw_status sw_mutual_start(sw_mutual *m, const sw_finder *finder, const sw_pair_r
                           size_t bodies) {
   m->finder = finder;
   m->bodies = bodies;
-  m->rules = sw_alloc(bodies * bodies, sizeof *m->rules);
-  m->base = sw_alloc(2 * bodies, sizeof *m->base);
-  m->rubbing = sw_alloc(bodies, sizeof *m->rubbing);
-  m->still.kept = sw_alloc(bodies, sizeof *m->still.kept);
-  if (!m->rules || !m->base || !m->rubbing || !m->still.kept) return SW_ENOMEM;
+  SW_TRY(SW_ALLOC_ALL(SW_ROOM(m->rules, bodies * bodies), SW_ROOM(m->base, 2 * bodies),
+                      SW_ROOM(m->rubbing, bodies), SW_ROOM(m->still.kept, bodies)));
   m->largest = m->base + bodies;
   memcpy(m->rules, rules, bodies * bodies * sizeof *rules);
   return SW_OK;
@@ -34,9 +31,8 @@ void sw_mutual_free(sw_mutual *m) {
   if (!m) return;
   m->finder->free(m);
   sw_spots_free(&m->spots);
-  void *const blocks[] = {m->grid, m->rules, m->base,   m->rubbing,     m->touches,
-                          m->last, m->hits,  m->memory, m->next_memory, m->ways.list};
-  for (size_t k = 0; k < sizeof blocks / sizeof blocks[0]; k++) sw_free(blocks[k]);
+  SW_FREE_ALL(m->grid, m->rules, m->base, m->rubbing, m->touches, m->last, m->hits, m->memory,
+              m->next_memory, m->ways.list);
   sw_meets_free(&m->still);
   sw_free(m);
 }
@@ -234,8 +230,7 @@ const void *sw_mutual_memory(const sw_mutual *m, size_t *bytes) {
 
 sw_status sw_mutual_set_memory(sw_mutual *m, const void *memory, size_t bytes) {
   const size_t n = bytes / sizeof *m->memory;
-  SW_TRY(sw_grow((void **)&m->memory, &m->memory_capacity, n, sizeof *m->memory));
-  if (n) memcpy(m->memory, memory, bytes);
+  SW_TRY(sw_fill((void **)&m->memory, &m->memory_capacity, memory, n, sizeof *m->memory));
   m->memory_count = n;
   m->touch_count = 0, m->still.accepted = 0;
   sw_mutual_forget_still(m);
@@ -261,8 +256,7 @@ sw_status sw_mutual_set_seen(sw_mutual *m, const void *seen, size_t bytes, const
   const size_t n = bytes / sizeof *m->touches;
   m->touch_count = 0;
   if (bytes % sizeof *m->touches != 0) return SW_EINVAL;
-  SW_TRY(sw_grow((void **)&m->touches, &m->touch_capacity, n, sizeof *m->touches));
-  if (n) memcpy(m->touches, seen, bytes);
+  SW_TRY(sw_fill((void **)&m->touches, &m->touch_capacity, seen, n, sizeof *m->touches));
   for (size_t i = 0; i < n; i++)
     for (int k = 0; k < 2; k++) {
       const sw_ends *e = &m->touches[i].of;

@@ -22,8 +22,7 @@ static void forget(sw_mutual *m) { sw_pairs_of(m)->listed_nodes = 0; }
 
 static void free_own(sw_mutual *m) {
   const sw_pairs *p = sw_pairs_of(m);
-  void *const blocks[] = {p->edge, p->near, p->listed_at, p->pairs, p->barriers};
-  for (size_t k = 0; k < sizeof blocks / sizeof blocks[0]; k++) sw_free(blocks[k]);
+  SW_FREE_ALL(p->edge, p->near, p->listed_at, p->pairs, p->barriers);
 }
 
 static const sw_finder wires = {

@@ -21,23 +21,6 @@ static sw_meet *new_touch(sw_pairs *p, const sw_pair *k, sw_meet_kind kind, cons
   return t;
 }
 
-/* Adds the touch at given places, unless the wires are apart there. */
-static sw_status touch_at(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
-                          sw_meet_kind kind, const double at[2], int slides_one, int slides_two) {
-  const sw_bow bow[2] = {sw_bow_chord(k->one, at[0]), sw_bow_chord(k->two, at[1])};
-  const sw_vec d = sw_bows_apart(y, bow);
-  double distance = sw_norm(d);
-  if (!(distance < (1.0 + SW_LISTED_GAP) * k->reach)) return SW_OK;
-  const sw_met *met = sw_pair_recall(p, k, at, kind);
-  const sw_meet *last = sw_pair_last(p, k, at, kind);
-  sw_vec normal = sw_unit_or(d, met ? met->normal : sw_v(0, 0, 1));
-  sw_meet_side(met, k->reach, &normal, &distance);
-  sw_meet *t = new_touch(p, k, kind, at, bow, (int[2]){slides_one, slides_two});
-  if (!t) return SW_ENOMEM;
-  sw_meet_add(&p->m, s, y, t, distance - k->reach, normal, met, last);
-  return SW_OK;
-}
-
 static sw_status behind_barrier(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
                                 int *found) {
   for (size_t i = 0; i < p->m.barrier_count; i++) {
@@ -69,25 +52,34 @@ static int is_had(const sw_pairs *p, const sw_pair *k, const double at[2]) {
   return 0;
 }
 
-/* Adds the touch of two smooth curves. */
-static sw_status touch_curves(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
-                              const double at[2], const int slides[2]) {
-  const sw_bow bow[2] = {sw_pair_bow(s, k, 0, at[0]), sw_pair_bow(s, k, 1, at[1])};
-  sw_vec normal = sw_pair_normal(y, bow, slides);
-  double distance = sw_dot(normal, sw_bows_apart(y, bow));
+/* Adds the touch at given places, unless the wires are apart there. Smooth wires cross as curves:
+ * the touch is on their curves, and a place at a joint counts once. */
+static sw_status touch_at(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
+                          sw_meet_kind kind, const double at[2], const int slides[2]) {
+  const int curved = k->smooth && kind == SW_CROSSING;
+  const sw_bow bow[2] = {curved ? sw_pair_bow(s, k, 0, at[0]) : sw_bow_chord(k->one, at[0]),
+                         curved ? sw_pair_bow(s, k, 1, at[1]) : sw_bow_chord(k->two, at[1])};
+  const sw_vec d = sw_bows_apart(y, bow);
+  sw_vec normal = curved ? sw_pair_normal(y, bow, slides) : d;
+  double distance = curved ? sw_dot(normal, d) : sw_norm(d);
   if (!(distance < (1.0 + SW_LISTED_GAP) * k->reach)) return SW_OK;
-  const sw_met *met = sw_pair_recall(p, k, at, SW_CROSSING);
-  const sw_meet *last = sw_pair_last(p, k, at, SW_CROSSING);
+  const sw_met *met = sw_pair_recall(p, k, at, kind);
+  const sw_meet *last = sw_pair_last(p, k, at, kind);
+  if (!curved) normal = sw_unit_or(d, met ? met->normal : sw_v(0, 0, 1));
   sw_meet_side(met, k->reach, &normal, &distance);
-  if (is_had(p, k, at)) return SW_OK;
-  sw_meet *t = new_touch(p, k, SW_CROSSING, at, bow, slides);
+  if (curved && is_had(p, k, at)) return SW_OK;
+  sw_meet *t = new_touch(p, k, kind, at, bow, slides);
   if (!t) return SW_ENOMEM;
-  t->steady = met ? met->kept.steady : 0;
-  t->square = normal;
-  normal = sw_pair_leaning(s, k, y, t, normal, t->steady);
+  if (curved) {
+    t->steady = met ? met->kept.steady : 0;
+    t->square = normal;
+    normal = sw_pair_leaning(s, k, y, t, normal, t->steady);
+  }
   sw_meet_add(&p->m, s, y, t, distance - k->reach, normal, met, last);
   return SW_OK;
 }
+
+static int is_within(double at) { return at > 0 && at < 1; }
 
 static int is_last(const sw_system *s, uint32_t body, uint32_t e) {
   return e + 2 == s->bodies[body].first_node + s->bodies[body].plan->nodes;
@@ -115,14 +107,14 @@ static sw_status touch_crossing(sw_pairs *p, const sw_system *s, const sw_pair *
   if (k->smooth) {
     int slides[2];
     if (!sw_pair_crossing(s, k, y, at, slides)) return SW_OK;
-    return touch_curves(p, s, k, y, at, slides);
+    return touch_at(p, s, k, y, SW_CROSSING, at, slides);
   }
   const sw_bow bow[2] = {sw_bow_chord(k->one, at[0]), sw_bow_chord(k->two, at[1])};
   const sw_vec away = sw_bows_apart(y, bow);
   if (!owns_end(s, k->body[0], k->one, at[0], away, y) ||
       !owns_end(s, k->body[1], k->two, at[1], sw_neg(away), y))
     return SW_OK;
-  return touch_at(p, s, k, y, SW_CROSSING, at, at[0] > 0 && at[0]<1, at[1]> 0 && at[1] < 1);
+  return touch_at(p, s, k, y, SW_CROSSING, at, (int[2]){is_within(at[0]), is_within(at[1])});
 }
 
 static double along(const double *y, uint32_t e, sw_vec q) {
@@ -182,12 +174,12 @@ static sw_status touch_parallel(sw_pairs *p, const sw_system *s, const sw_pair *
   for (uint32_t end = 0; end < ends[0]; end++)
     if (beside(s, k->body[1], k->two, y, k->one + end, &at[1])) {
       at[0] = end;
-      SW_TRY(touch_at(p, s, k, y, SW_NODE_OF_ONE, at, 0, at[1] > 0 && at[1] < 1));
+      SW_TRY(touch_at(p, s, k, y, SW_NODE_OF_ONE, at, (int[2]){0, is_within(at[1])}));
     }
   for (uint32_t end = 0; end < ends[1]; end++)
     if (beside(s, k->body[0], k->one, y, k->two + end, &at[0])) {
       at[1] = end;
-      SW_TRY(touch_at(p, s, k, y, SW_NODE_OF_TWO, at, at[0] > 0 && at[0] < 1, 0));
+      SW_TRY(touch_at(p, s, k, y, SW_NODE_OF_TWO, at, (int[2]){is_within(at[0]), 0}));
     }
   return SW_OK;
 }
@@ -203,7 +195,7 @@ static sw_status keep_pushing(sw_pairs *p, const sw_system *s, const sw_pair *k,
     if (!(last->press.normal_force > 0)) continue;
     for (size_t j = first; j < p->m.touch_count; j++)
       found |= sw_pair_is_same(k, last->at, k, p->m.touches[j].at);
-    if (!found) SW_TRY(touch_at(p, s, k, y, last->kind, last->at, 0, 0));
+    if (!found) SW_TRY(touch_at(p, s, k, y, last->kind, last->at, (int[2]){0, 0}));
   }
   return SW_OK;
 }

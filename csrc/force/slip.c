@@ -140,12 +140,6 @@ static void scalar_gradients(const sw_slip_hinge *h, sw_vec p, sw_vec b, int sid
 
 static sw_vec across(sw_vec v, sw_vec t) { return sw_madd(v, t, -sw_dot(v, t)); }
 
-static void add_outer(sw_vec a, sw_vec b, double f, double out[9]) {
-  const double x[3] = {f * a.x, f * a.y, f * a.z}, y[3] = {b.x, b.y, b.z};
-  for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++) out[3 * i + j] += x[i] * y[j];
-}
-
 static void add_upper(const double full[9], double out[6]) {
   for (int i = 0, at = 0; i < 3; i++)
     for (int j = i; j < 3; j++, at++) out[at] += full[3 * i + j];
@@ -165,12 +159,12 @@ static void edge_stiffness(const sw_slip_hinge *h, int side, sw_vec g[2][SCALARS
       row = sw_madd(row, g[side][j], w2[i][j]);
       cross = sw_madd(cross, g[1][j], w2[i][j]);
     }
-    add_outer(g[side][i], row, 1.0, own);
-    if (side == 0) add_outer(g[0][i], cross, 1.0, out->next);
+    sw_add_outer(own, g[side][i], row, 1.0);
+    if (side == 0) sw_add_outer(out->next, g[0][i], cross, 1.0);
   }
-  add_outer(t, bent, -1.0, own);
-  add_outer(bent, t, -1.0, own);
-  add_outer(t, t, along, own);
+  sw_add_outer(own, t, bent, -1.0);
+  sw_add_outer(own, bent, t, -1.0);
+  sw_add_outer(own, t, t, along);
   own[0] -= along, own[4] -= along, own[8] -= along;
   add_upper(own, out->own[side]);
 }

@@ -14,14 +14,6 @@
  * [-]. */
 static const double AT_REST = 1e-4;
 
-static double shift_from(const sw_statics *p, const double *before) {
-  const sw_system *s = sw_scene_system(p->s);
-  double largest = 0;
-  for (size_t i = 0; i < s->nodes; i++)
-    largest = fmax(largest, sw_dist(sw_vec_at(s->x, i), sw_vec_at(before, i)));
-  return largest;
-}
-
 /* Finds the equilibrium while nothing moves. *far: 1 if it is elsewhere. */
 static sw_status find(sw_statics *p, int *far, sw_error *err) {
   sw_status status = sw_rest_newton(p, SW_REST_ITERATIONS, err);
@@ -30,7 +22,7 @@ static sw_status find(sw_statics *p, int *far, sw_error *err) {
     sw_rest_take_back(p->s, p->kept);
     status = sw_rest_continue(p, err);
   }
-  *far = status == SW_OK && shift_from(p, p->kept) > AT_REST * sw_rest_longest(p->s);
+  *far = status == SW_OK && sw_rest_shift_from(p, p->kept) > AT_REST * sw_rest_longest(p->s);
   return status;
 }
 

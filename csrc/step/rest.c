@@ -55,6 +55,13 @@ static double widest_mesh(const sw_system *s) {
   return widest;
 }
 
+/* Returns the shift of hold k at this distance from its axis [m]; *turn: its turn [rad]. */
+static double hold_shift(const sw_statics *p, size_t k, double lever, double *turn) {
+  const sw_pose *from = &p->from_poses[k], *to = &sw_scene_system(p->s)->hold_states[k].pose;
+  *turn = sw_norm(sw_quat_log(sw_quat_mul(to->q, sw_quat_conj(from->q))));
+  return sw_dist(from->p, to->p) + lever * *turn;
+}
+
 /* Returns the number of parts of the holds' way for which no part shifts a hold by more than
  * longest_shift [m] or turns it far. lever: points at this distance from a hold must not shift by
  * more either [m]. */
@@ -65,9 +72,8 @@ static sw_status count_parts(sw_statics *p, double lever, double longest_shift, 
   SW_TRY(
       sw_system_place_holds(s, sw_scene_time(p->s), NULL, NULL, NULL, err)); /* feeds move nodes */
   for (size_t k = 0; k < s->hold_count; k++) {
-    const sw_pose *from = &p->from_poses[k], *to = &s->hold_states[k].pose;
-    const double turn = sw_norm(sw_quat_log(sw_quat_mul(to->q, sw_quat_conj(from->q))));
-    const double shift = (sw_dist(from->p, to->p) + lever * turn) / longest_shift;
+    double turn;
+    const double shift = hold_shift(p, k, lever, &turn) / longest_shift;
     most = fmax(most, fmax(shift, turn / WIDEST_PART));
   }
   *parts = most <= 1 ? 1 : (size_t)fmin(ceil(most), MOST_PARTS);
@@ -125,13 +131,9 @@ static sw_status follow_fast(sw_statics *p, size_t parts, int *done, sw_error *e
 
 /* Returns the holds' largest shift; a turn counts as what it does to half a wire [m]. */
 static double drive_shift(const sw_statics *p) {
-  const sw_system *s = sw_scene_system(p->s);
-  double largest = 0;
-  for (size_t k = 0; k < s->hold_count; k++) {
-    const sw_pose *from = &p->from_poses[k], *to = &s->hold_states[k].pose;
-    const double turn = sw_norm(sw_quat_log(sw_quat_mul(to->q, sw_quat_conj(from->q))));
-    largest = fmax(largest, sw_dist(from->p, to->p) + 0.5 * sw_rest_longest(p->s) * turn);
-  }
+  double largest = 0, turn;
+  for (size_t k = 0; k < sw_scene_system(p->s)->hold_count; k++)
+    largest = fmax(largest, hold_shift(p, k, 0.5 * sw_rest_longest(p->s), &turn));
   return largest;
 }
 
@@ -162,11 +164,11 @@ static sw_status follow_holds(sw_statics *p, sw_error *err) {
 static const double JUMP = 4.0;           /* largest shift over the drives' own [-] */
 static const double SMALLEST_JUMP = 0.01; /* of the longest wire [-] */
 
-static double largest_shift_since(const sw_statics *p) {
+double sw_rest_shift_from(const sw_statics *p, const double *before) {
   const sw_system *s = sw_scene_system(p->s);
   double largest = 0;
   for (size_t i = 0; i < s->nodes; i++)
-    largest = fmax(largest, sw_dist(sw_vec_at(s->x, i), sw_vec_at(p->begun, i)));
+    largest = fmax(largest, sw_dist(sw_vec_at(s->x, i), sw_vec_at(before, i)));
   return largest;
 }
 
@@ -196,7 +198,7 @@ sw_status sw_scene_rest(sw_scene *s, double since, int *too_far, const sw_settle
   const sw_status status = follow_holds(&p, why);
   system->still = 0;
   if (status == SW_OK) {
-    const double shift = largest_shift_since(&p);
+    const double shift = sw_rest_shift_from(&p, p.begun);
     report->jumped = report->transient && shift > SMALLEST_JUMP * sw_rest_longest(s) &&
                      shift > JUMP * drive_shift(&p);
   } else if (status != SW_EINTR) {

@@ -40,6 +40,8 @@ static inline void sw_rest_take_back(sw_scene *s, const double *kept) {
 enum { SW_REST_ITERATIONS = 60 }; /* usual limit of Newton iterations [-] */
 /* Returns the length of the longest wire [m]. */
 double sw_rest_longest(const sw_scene *scene);
+/* Returns the largest distance of a node from its place in an earlier state [m]. */
+double sw_rest_shift_from(const sw_statics *p, const double *before);
 /* 1 for errors that another way to the equilibrium cannot avoid. */
 int sw_rest_stops(sw_status status);
 /* Finds the equilibrium by Newton's iteration alone, from the present state; it becomes the state.

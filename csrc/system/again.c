@@ -11,7 +11,7 @@ int sw_body_solves_again(const sw_system *s, const sw_body *b) {
 
 void sw_body_solve_again(const sw_body *b, double *more) {
   sw_band3_solve(b->field.rows, b->plan->nodes, more);
-  if (b->has_twist) sw_twist_correct_again(b, more);
+  if (b->has_twist) (void)sw_twist_correct_again(b, more);
 }
 
 void sw_body_take_solution(sw_body *b, const double *delta) {

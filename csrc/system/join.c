@@ -145,12 +145,6 @@ static sw_status eval_spring(sw_system *s, const sw_join_spring *p, const double
 
 /* --- matrices of three by three --------------------------------------------------- */
 
-static void add_outer(double out[9], sw_vec u, sw_vec w, double f) {
-  const double x[3] = {f * u.x, f * u.y, f * u.z}, y[3] = {w.x, w.y, w.z};
-  for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++) out[3 * i + j] += x[i] * y[j];
-}
-
 static void add_unit(double out[9], double f) { out[0] += f, out[4] += f, out[8] += f; }
 
 static void multiply(const double a[9], const double b[9], double out[9]) {
@@ -188,7 +182,7 @@ static void measure(const sw_join_hub *h, const double *x, arm *arms) {
     const sw_vec edge = sw_sub(sw_vec_at(x, h->arms[a].to), sw_vec_at(x, h->arms[a].from));
     arms[a].inverse = 1.0 / sw_norm(edge);
     arms[a].p = sw_scale(edge, arms[a].inverse);
-    add_outer(B, arms[a].p, h->arms[a].rest, h->arms[a].k);
+    sw_add_outer(B, arms[a].p, h->arms[a].rest, h->arms[a].k);
   }
   const sw_quat q = sw_rotation_fit(B);
   for (size_t a = 0; a < h->count; a++) {
@@ -223,8 +217,8 @@ static void turn_compliance(const sw_join_hub *h, const arm *arms, double out[9]
   for (size_t a = 0; a < h->count; a++) {
     const double k = h->arms[a].k;
     add_unit(H, k * arms[a].c);
-    add_outer(H, arms[a].p, arms[a].r, -0.5 * k);
-    add_outer(H, arms[a].r, arms[a].p, -0.5 * k);
+    sw_add_outer(H, arms[a].p, arms[a].r, -0.5 * k);
+    sw_add_outer(H, arms[a].r, arms[a].p, -0.5 * k);
     sum += k;
   }
   /* parallel arms do not feel that axis: any stiffness there gives the same result */
@@ -267,9 +261,9 @@ static void own_stiffness(const arm *v, double k, double out[9]) {
   const sw_vec u = sw_madd(v->r, v->p, -v->c);
   const double f = k * v->inverse * v->inverse;
   memset(out, 0, 9 * sizeof *out);
-  add_outer(out, v->p, u, f);
-  add_outer(out, u, v->p, f);
-  add_outer(out, v->p, v->p, -f * v->c);
+  sw_add_outer(out, v->p, u, f);
+  sw_add_outer(out, u, v->p, f);
+  sw_add_outer(out, v->p, v->p, -f * v->c);
   add_unit(out, f * v->c);
 }
 

@@ -16,6 +16,7 @@
 #include "state/hinge.h"
 #include "system/part.h"
 #include "system/roll.h"
+#include "system/twist.h"
 
 size_t sw_spin_state_size(const sw_plan *p) {
   return p->rest_bend ? 3 * p->edges + p->nodes + p->clamp_count : 0;
@@ -142,6 +143,10 @@ long sw_spin_held_edge(const sw_system *s, const sw_body *b, size_t number) {
   return (long)(h->node - b->first_node);
 }
 
+static sw_vec square_up(sw_vec n, sw_vec t) {
+  return sw_unit_or(sw_madd(n, t, -sw_dot(n, t)), sw_perpendicular(t));
+}
+
 /* Turns edges between two nodes of one hold with it. */
 static void turn_held_edges(const sw_system *s, sw_body *b) {
   for (size_t i = 0; i + 1 < s->held_count; i++) {
@@ -154,14 +159,10 @@ static void turn_held_edges(const sw_system *s, sw_body *b) {
     const sw_vec n =
         sw_rotate(s->hold_states[h->hold].pose.q, sw_unrotate(before, state_normal(s, b, e)));
     const sw_vec t = sw_vec_across(b->spin_tangent, e);
-    set(b->spin_normal, e, sw_unit_or(sw_madd(n, t, -sw_dot(n, t)), sw_perpendicular(t)));
+    set(b->spin_normal, e, square_up(n, t));
     if (b->roll_block)
       b->roll_turn[e] += remainder(sw_spin_turned(s, b, e) - b->roll_turn[e], 6.283185307179586477);
   }
-}
-
-static sw_vec square_up(sw_vec n, sw_vec t) {
-  return sw_unit_or(sw_madd(n, t, -sw_dot(n, t)), sw_perpendicular(t));
 }
 
 /* sw_carry_unit for all edges, for its usual case only. Returns the number of other cases. */
@@ -185,18 +186,6 @@ static long carry_all(size_t m, const double *restrict tx, const double *restric
   return others;
 }
 
-/* Computes the directions of all edges. */
-SW_HOT
-static void directions(size_t m, const double *restrict x, double *restrict tx, double *restrict ty,
-                       double *restrict tz) {
-  for (size_t e = 0; e < m; e++) {
-    const double dx = x[3 * e + 3] - x[3 * e], dy = x[3 * e + 4] - x[3 * e + 1];
-    const double dz = x[3 * e + 5] - x[3 * e + 2];
-    const double r = 1.0 / sqrt(dx * dx + dy * dy + dz * dz);
-    tx[e] = dx * r, ty[e] = dy * r, tz[e] = dz * r;
-  }
-}
-
 /* Carries all frames to tangents t. */
 static void carry_on(sw_body *b, double *const t[3]) {
   double *const *o = b->spin_tangent, *const *n = b->spin_normal;
@@ -211,7 +200,7 @@ static void carry_on(sw_body *b, double *const t[3]) {
 /* The same to the body's positions x. */
 static void carry_to(sw_body *b, const double *x) {
   double *const *t = b->field.scratch;
-  directions(b->plan->edges, x, t[0], t[1], t[2]);
+  sw_edge_directions(0, b->plan->edges - 1, x, t[0], t[1], t[2]);
   carry_on(b, t);
 }
 

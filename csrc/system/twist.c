@@ -75,10 +75,9 @@ static clamp_change change_of(const sw_system *s, const sw_clamp_hinge *h) {
   return c;
 }
 
-/* Computes the unit edge vectors of positions x. */
 SW_HOT
-static void directions(size_t first, size_t last, const double *restrict x, double *restrict tx,
-                       double *restrict ty, double *restrict tz) {
+void sw_edge_directions(size_t first, size_t last, const double *restrict x, double *restrict tx,
+                        double *restrict ty, double *restrict tz) {
   for (size_t e = first; e <= last; e++) {
     const double dx = x[3 * e + 3] - x[3 * e], dy = x[3 * e + 4] - x[3 * e + 1];
     const double dz = x[3 * e + 5] - x[3 * e + 2];
@@ -126,8 +125,8 @@ static double span_change(const sw_system *s, const sw_body *b, const sw_span *s
   const size_t n = b->plan->nodes, first = span->first, last = span->last;
   double *const w = b->twist_rank, *const v = b->twist_solved, *const area = b->field.scratch[3];
   double *const old[3] = {w, w + n, w + 2 * n}, *const now[3] = {v, v + n, v + 2 * n};
-  directions(first, last, s->x + 3 * b->first_node, old[0], old[1], old[2]);
-  directions(first, last, x, now[0], now[1], now[2]);
+  sw_edge_directions(first, last, s->x + 3 * b->first_node, old[0], old[1], old[2]);
+  sw_edge_directions(first, last, x, now[0], now[1], now[2]);
   const long large = small_areas(first, last, old[0], old[1], old[2], now[0], now[1], now[2], area);
   const clamp_change left = change_of(s, &b->plan->clamps[span->left]);
   const clamp_change right = change_of(s, &b->plan->clamps[span->right]);
@@ -177,31 +176,25 @@ double sw_twist_dot(const sw_body *b, const sw_span *span, const double *x) {
 /* Spans are separate in the matrix, because a clamp holds the node between them. So one solve
  * serves all, and Sherman and Morrison's formula is applied to each. */
 size_t sw_twist_correct(sw_body *b, double *delta) {
-  size_t fewer = 0;
   sw_twist_gather(b);
   sw_band3_solve(b->field.rows, b->plan->nodes, b->twist_solved);
-  for (size_t k = 0; k < b->plan->span_count; k++) {
-    const sw_span *span = &b->plan->spans[k];
-    const double stiffness = b->field.twist_stiffness[k];
-    const double self = 1.0 + stiffness * sw_twist_dot(b, span, b->twist_solved);
-    const double share = stiffness * sw_twist_dot(b, span, delta) / self;
-    fewer += self < 0;
-    for (size_t i = 3 * span->first; i < 3 * (span->last + 2); i++)
-      delta[i] -= share * b->twist_solved[i];
-  }
+  const size_t fewer = sw_twist_correct_again(b, delta);
   sw_twist_gain(b, delta);
   return fewer;
 }
 
-void sw_twist_correct_again(const sw_body *b, double *more) {
+size_t sw_twist_correct_again(const sw_body *b, double *more) {
+  size_t fewer = 0;
   for (size_t k = 0; k < b->plan->span_count; k++) {
     const sw_span *span = &b->plan->spans[k];
     const double stiffness = b->field.twist_stiffness[k];
     const double self = 1.0 + stiffness * sw_twist_dot(b, span, b->twist_solved);
     const double share = stiffness * sw_twist_dot(b, span, more) / self;
+    fewer += self < 0;
     for (size_t i = 3 * span->first; i < 3 * (span->last + 2); i++)
       more[i] -= share * b->twist_solved[i];
   }
+  return fewer;
 }
 
 void sw_twist_gain(sw_body *b, const double *delta) {

@@ -5,6 +5,10 @@
 
 #include "system/system.h"
 
+/* Computes the unit vectors of edges first to last, whose nodes are at x. */
+void sw_edge_directions(size_t first, size_t last, const double *x, double *tx, double *ty,
+                        double *tz);
+
 /* Computes the total twist of the body's spans with the field's present tangents. */
 void sw_twist_measure(sw_system *system, sw_body *body);
 
@@ -12,7 +16,7 @@ void sw_twist_measure(sw_system *system, sw_body *body);
  * much the number of negative directions falls. */
 size_t sw_twist_correct(sw_body *body, double *delta);
 /* The same for another solution with the same factor. */
-void sw_twist_correct_again(const sw_body *body, double *more);
+size_t sw_twist_correct_again(const sw_body *body, double *more);
 /* Computes the torques that the solution delta adds (twist_gain). */
 void sw_twist_gain(sw_body *body, const double *delta);
 
