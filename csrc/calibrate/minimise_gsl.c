@@ -102,6 +102,17 @@ static sw_status look(bridge *b, const sw_minimise_args *args, double at[LOOKS],
   return SW_OK;
 }
 
+/* Tells how the search ended. near: 1 if it came as near as wanted; code: of GSL. */
+static sw_status conclude(bridge *b, int code, int near) {
+  b->out->ok = near && code == GSL_SUCCESS;
+  if (code != GSL_SUCCESS)
+    sw_fail(&b->out->reason, SW_ENOCONV, "GSL: %s", gsl_strerror(code));
+  else
+    sw_fail(&b->out->reason, SW_ENOCONV,
+            near ? "the wanted accuracy was reached" : "iterations used up");
+  return b->status;
+}
+
 static sw_status brent(bridge *b, const sw_minimise_args *args, const double at[3],
                        const double value[3], double *x) {
   gsl_function f = {on_line, b};
@@ -120,13 +131,7 @@ static sw_status brent(bridge *b, const sw_minimise_args *args, const double at[
   *x = gsl_min_fminimizer_x_minimum(m);
   b->out->value = gsl_min_fminimizer_f_minimum(m);
   gsl_min_fminimizer_free(m);
-  b->out->ok = near && code == GSL_SUCCESS;
-  if (code != GSL_SUCCESS)
-    sw_fail(&b->out->reason, SW_ENOCONV, "GSL: %s", gsl_strerror(code));
-  else
-    sw_fail(&b->out->reason, SW_ENOCONV,
-            near ? "the wanted accuracy was reached" : "iterations used up");
-  return b->status;
+  return conclude(b, code, near);
 }
 
 sw_status sw_minimise_interval(sw_objective f, void *user, const sw_minimise_args *args,
@@ -182,14 +187,7 @@ static sw_status nelder_mead(bridge *b, const sw_minimise_args *args, gsl_vector
   b->out->value = gsl_multimin_fminimizer_minimum(m);
   gsl_multimin_fminimizer_free(m);
   /* ENOPROG: the simplex cannot shrink further; this counts as reached. */
-  near = near || code == GSL_ENOPROG;
-  b->out->ok = near && (code == GSL_SUCCESS || code == GSL_ENOPROG);
-  if (!b->out->ok && code != GSL_SUCCESS)
-    sw_fail(&b->out->reason, SW_ENOCONV, "GSL: %s", gsl_strerror(code));
-  else
-    sw_fail(&b->out->reason, SW_ENOCONV,
-            near ? "the wanted accuracy was reached" : "iterations used up");
-  return b->status;
+  return code == GSL_ENOPROG ? conclude(b, GSL_SUCCESS, 1) : conclude(b, code, near);
 }
 
 sw_status sw_minimise_simplex(sw_objective f, void *user, size_t n, double *x, const double *step,

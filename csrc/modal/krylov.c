@@ -52,6 +52,11 @@ static void subtract(double *restrict a, const double *restrict b, double share,
   for (size_t i = 0; i < n; i++) a[i] -= share * b[i];
 }
 
+static double length_of_work(sw_krylov *k) {
+  sw_system_mass_times(k->system, k->body, k->work, k->image);
+  return sqrt(fmax(0.0, sw_krylov_dot(k->work, k->image, k->n)));
+}
+
 /* Removes the basis from work and adds the removed coefficients to sums. Returns the M-norm of the
  * rest; image = M work. */
 static double orthogonalise(sw_krylov *k, double *sums) {
@@ -64,13 +69,7 @@ static double orthogonalise(sw_krylov *k, double *sums) {
       if (sums) sums[j] += k->coefficients[j];
     }
   }
-  sw_system_mass_times(k->system, k->body, k->work, k->image);
-  return sqrt(fmax(0.0, sw_krylov_dot(k->work, k->image, k->n)));
-}
-
-static double length_of_work(sw_krylov *k) {
-  sw_system_mass_times(k->system, k->body, k->work, k->image);
-  return sqrt(fmax(0.0, sw_krylov_dot(k->work, k->image, k->n)));
+  return length_of_work(k);
 }
 
 static sw_status append(sw_krylov *k, double length) {

@@ -10,14 +10,20 @@
 #include "solve/dense.h"
 #include "system/system.h"
 
+/* Returns the mass matrix' row of node i, times v: the momentum of node i [N s]. */
+static sw_vec mass_times(const sw_plan *p, const double *v, size_t i) {
+  sw_vec m = sw_scale(sw_vec_at(v, i), p->mass_own[i]);
+  if (i > 0) m = sw_madd(m, sw_vec_at(v, i - 1), p->mass_next[i - 1]);
+  if (i + 1 < p->nodes) m = sw_madd(m, sw_vec_at(v, i + 1), p->mass_next[i]);
+  return m;
+}
+
 /* Momentum of velocities v and its moment about a point: out (6) [N s], [N m s]. */
 static void momentum(const sw_plan *p, const double *x, const double *v, sw_vec about,
                      double out[6]) {
   sw_vec P = sw_v(0, 0, 0), L = sw_v(0, 0, 0);
   for (size_t i = 0; i < p->nodes; i++) {
-    sw_vec m = sw_scale(sw_vec_at(v, i), p->mass_own[i]);
-    if (i > 0) m = sw_madd(m, sw_vec_at(v, i - 1), p->mass_next[i - 1]);
-    if (i + 1 < p->nodes) m = sw_madd(m, sw_vec_at(v, i + 1), p->mass_next[i]);
+    const sw_vec m = mass_times(p, v, i);
     P = sw_add(P, m);
     L = sw_add(L, sw_cross(sw_sub(sw_vec_at(x, i), about), m));
   }
@@ -112,12 +118,7 @@ void sw_inertia_of(const sw_system *s, const double *a, double *out) {
     const sw_plan *p = s->bodies[b].plan;
     const double *own = a + 3 * s->bodies[b].first_node;
     double *to = out + 3 * s->bodies[b].first_node;
-    for (size_t i = 0; i < p->nodes; i++) {
-      sw_vec m = sw_scale(sw_vec_at(own, i), p->mass_own[i]);
-      if (i > 0) m = sw_madd(m, sw_vec_at(own, i - 1), p->mass_next[i - 1]);
-      if (i + 1 < p->nodes) m = sw_madd(m, sw_vec_at(own, i + 1), p->mass_next[i]);
-      sw_store(to + 3 * i, sw_neg(m));
-    }
+    for (size_t i = 0; i < p->nodes; i++) sw_store(to + 3 * i, sw_neg(mass_times(p, own, i)));
   }
 }
 

@@ -253,7 +253,6 @@ const sw_shape_class sw_shape_class_box = {
     .traits = SW_SHAPE_FACED | SW_SHAPE_SQUARE,
 
     .params = SW_PARAMS("obstacle box", rows),
-    .args_size = sizeof(box_args),
     .size = sizeof(box),
     .create = create,
     .distance = distance,

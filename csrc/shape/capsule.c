@@ -116,7 +116,6 @@ const sw_shape_class sw_shape_class_capsule = {
     .wrong = wrong,
 
     .params = SW_PARAMS("obstacle capsule", rows),
-    .args_size = sizeof(capsule_args),
     .size = sizeof(capsule),
     .create = create,
     .distance = distance,

@@ -116,7 +116,6 @@ const sw_shape_class sw_shape_class_cylinder = {
     .wrong = wrong,
 
     .params = SW_PARAMS("obstacle cylinder", rows),
-    .args_size = sizeof(cylinder_args),
     .size = sizeof(cylinder),
     .create = create,
     .distance = distance,

@@ -131,7 +131,6 @@ const sw_shape_class sw_shape_class_hull = {
     .traits = SW_SHAPE_FACED | SW_SHAPE_LISTED,
 
     .params = SW_PARAMS(object, rows),
-    .args_size = sizeof(hull_args),
     .size = sizeof(hull),
     .create = create,
     .destroy = destroy,

@@ -64,7 +64,6 @@ const sw_shape_class sw_shape_class_mesh = {
     .traits = SW_SHAPE_FACED | SW_SHAPE_LISTED,
 
     .params = SW_PARAMS(object, rows),
-    .args_size = sizeof(mesh_args),
     .size = sizeof(sw_meshed),
     .create = create,
     .destroy = destroy,

@@ -61,7 +61,6 @@ const sw_shape_class sw_shape_class_plane = {
     .traits = SW_SHAPE_FLAT,
 
     .params = SW_PARAMS("obstacle plane", rows),
-    .args_size = sizeof(plane_args),
     .size = sizeof(plane),
     .create = create,
     .distance = distance,

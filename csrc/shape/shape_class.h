@@ -28,8 +28,7 @@ struct sw_shape_class {
   const sw_shape_wrong *wrong;
   unsigned traits; /* SW_SHAPE_FLAT | ... */
   sw_params params;
-  size_t args_size; /* size of the struct that the rows fill [B] */
-  size_t size;      /* size of the kind's struct [B] */
+  size_t size; /* size of the kind's struct [B] */
 
   /* Fills the zeroed struct, bounds included. On failure destroy is called. */
   sw_status (*create)(sw_shape *shape, const void *args, const sw_shape_source *source,

@@ -85,7 +85,6 @@ const sw_shape_class sw_shape_class_sphere = {.kind = "sphere",
                                               .wrong = wrong,
 
                                               .params = SW_PARAMS("obstacle sphere", rows),
-                                              .args_size = sizeof(sphere_args),
                                               .size = sizeof(sphere),
                                               .create = create,
                                               .distance = distance,

@@ -121,10 +121,8 @@ static sw_status move_places(sw_wear *w, const sw_plan *p) {
 static sw_status fit(sw_wear *w, const sw_plan *p) {
   if (w->count && is_same(w, p)) return move_places(w, p);
   sw_wear new = {.count = along(p) + at_clamps(p), .nodes = along(p)};
-  new.places = sw_alloc(new.count, sizeof *new.places);
-  new.cycles = sw_alloc(SW_WEAR_SIGNALS * new.count, sizeof *new.cycles);
-  new.across = sw_alloc(new.count, sizeof *new.across);
-  if (!new.places || !new.cycles || !new.across) {
+  if (SW_ALLOC_ALL(SW_ROOM(new.places, new.count), SW_ROOM(new.cycles, SW_WEAR_SIGNALS * new.count),
+                   SW_ROOM(new.across, new.count)) != SW_OK) {
     sw_wear_free(&new);
     return SW_ENOMEM;
   }

@@ -2,16 +2,14 @@
 --- The axes in which a case is built: x along the wire, z up. Options gravity, rotation
 -- and at turn and shift them; a case's answers are in its own axes.
 -- @module softworld.cases.frame
-local frame = {}
+local vec = require "softworld.vec"
 
-local function cross(a, b)
-  return { a[2] * b[3] - a[3] * b[2], a[3] * b[1] - a[1] * b[3], a[1] * b[2] - a[2] * b[1] }
-end
+local frame = {}
 
 local function turn(q, p) -- p turned by the unit quaternion q
   local u = { q[2], q[3], q[4] }
-  local c = cross(u, p)
-  local d = cross(u, c)
+  local c = vec.cross(u, p)
+  local d = vec.cross(u, c)
   return { p[1] + 2 * (q[1] * c[1] + d[1]), p[2] + 2 * (q[1] * c[2] + d[2]),
     p[3] + 2 * (q[1] * c[3] + d[3]) }
 end
@@ -19,13 +17,6 @@ end
 local function normal(q)
   local n = (q[1] ^ 2 + q[2] ^ 2 + q[3] ^ 2 + q[4] ^ 2) ^ 0.5
   return { q[1] / n, q[2] / n, q[3] / n, q[4] / n }
-end
-
-local function product(p, q)
-  return { p[1] * q[1] - p[2] * q[2] - p[3] * q[3] - p[4] * q[4],
-    p[1] * q[2] + p[2] * q[1] + p[3] * q[4] - p[4] * q[3],
-    p[1] * q[3] - p[2] * q[4] + p[3] * q[1] + p[4] * q[2],
-    p[1] * q[4] + p[2] * q[3] - p[3] * q[2] + p[4] * q[1] }
 end
 
 -- Returns the shortest turn of straight down into the direction g of length size.
@@ -44,7 +35,7 @@ function frame.new(options)
     g = (v[1] ^ 2 + v[2] ^ 2 + v[3] ^ 2) ^ 0.5
     if g > 0 then q = hang(v, g) end
   end
-  if options.rotation then q = product(normal(options.rotation), q) end
+  if options.rotation then q = vec.multiply(normal(options.rotation), q) end
   local back = { q[1], -q[2], -q[3], -q[4] }
   local f = { g = g, quaternion = q }
   function f.vector(x, y, z) return turn(q, { x, y, z }) end
@@ -59,6 +50,6 @@ function frame.new(options)
 end
 
 --- Returns the product of two turns.
-frame.product = product
+frame.product = vec.multiply
 
 return frame

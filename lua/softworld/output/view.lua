@@ -4,14 +4,11 @@
 
 local sink = require "softworld.output.sink"
 local solid = require "softworld.output.solid"
+local vec = require "softworld.vec"
 
 local view = {}
 
-local function dot(a, b) return a[1] * b[1] + a[2] * b[2] + a[3] * b[3] end
-
-local function cross(a, b)
-  return { a[2] * b[3] - a[3] * b[2], a[3] * b[1] - a[1] * b[3], a[1] * b[2] - a[2] * b[1] }
-end
+local dot, cross = vec.dot, vec.cross
 
 local function unit(a, what)
   local length = math.sqrt(dot(a, a))
