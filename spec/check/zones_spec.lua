@@ -368,7 +368,8 @@ describe("a zone on an obstacle", function()
     end
   end)
 
-  for words, on in pairs{ ["on must be an obstacle of the scene (from scene:obstacle), got number 3"] = 3, ["got table"] = {} } do
+  for words, on in pairs{ ["got table"] = {},
+    ["on must be an obstacle of the scene (from scene:obstacle), got number 3"] = 3 } do
     it("refuses an invalid obstacle: " .. words, function()
       local scene = sw.scene{}
       local fine, why = pcall(scene.zone, scene, { shape = "sphere", radius = 1, on = on })
