@@ -26,8 +26,8 @@ double sw_contact_jolt(sw_contact *contact, const sw_system *system, int followe
                        void *user);
 /* A run begins: no blow came before. The owner's sw_contact_past must forget it too. */
 void sw_contact_forget_hardest(sw_contact *contact);
-/* Longest part in which the end of a wire that is pushed onto an obstacle may be followed; HUGE_VAL
- * if no wire is [s]. */
+/* Longest part of a step for a wire whose end is pushed onto an obstacle; HUGE_VAL: there is no
+ * such wire [s]. */
 double sw_contact_push_part(const sw_contact *contact, const sw_system *system);
 /* Length from an end of the wire (0: its start) to the next held node, or to its other end [m]. */
 double sw_contact_free_length(const sw_plan *plan, int last);

@@ -85,8 +85,8 @@ sw_kept sw_press_keep(const sw_press *press, double usual, double stiffer, doubl
 /* 1 if it falls in this step. */
 int sw_press_eases(const sw_press *press, double usual, double stiffer, double deepest);
 /* Hardens a squeezed touch. A squeezed wire cannot come out: letting it out would create energy,
- * and the step would be refused. So a touch that is too deep gets stiffer from the next step on at
- * the same force, and the rest of the depth stays (left). axial: stiffness of the wire's edge, the
+ * and the step would be refused. So a touch that is too deep keeps its force and gets stiffer from
+ * the next step on. The rest of its depth stays (left). axial: stiffness of the wire's edge, the
  * upper limit: between rigid things no force could be set [N/m]. */
 void sw_kept_harden(sw_kept *kept, double axial, double deepest);
 /* Energy that a touch gains if its stiffness rises to k [J]. A mesh keeps its depth, and its spring

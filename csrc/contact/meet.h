@@ -200,8 +200,8 @@ double sw_segments_nearest(sw_vec a0, sw_vec a1, sw_vec b0, sw_vec b1, double at
 /* Closing speed of a place in a step of h, minus the speed that just reaches contact [m/s]. */
 double sw_meet_excess(const sw_system *system, const sw_bow bow[2], double reach, sw_vec normal,
                       double h);
-/* Second derivative of half the squared distance by the place along a wire [m2], from the square of
- * its slope [m2], its bend along the distance [m2] and its firmness [-]. */
+/* Second derivative of d^2/2 by the place along a wire, d the distance [m2]. along2: square of the
+ * wire's slope there [m2]; bends: its bend along d [m2]; firm: its firmness [-]. */
 double sw_meet_rise(double along2, double bends, double firm);
 
 #endif

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Tells the wires that strike an obstacle from those that rest on it, and the blow of one from
- * those of others. Only for the files of this folder. */
+/* Finds which wires strike an obstacle and which rest on it, and the blow of each. Only for the
+ * files of this folder. */
 #ifndef SW_CONTACT_STRIKERS_H
 #define SW_CONTACT_STRIKERS_H
 
 #include "contact/touch.h"
 
-/* After a trial: finds who strikes the obstacles. A blow is judged by the load of the strikers: 25
- * wires that lie on a table would hide the blow of one more, and wires that are laid on it together
- * would be taken for a blow. */
+/* After a trial: finds which wires strike the obstacles. A blow is judged by their load alone. Else
+ * 25 wires that lie on a table would hide the blow of one more, and wires that are laid on it
+ * together would count as a blow. */
 void sw_contact_find_strikers(sw_contact *c, const sw_system *s);
 /* A trial begins: nobody is known to strike. */
 void sw_contact_forget_strikers(sw_contact *c);

@@ -23,16 +23,16 @@ void sw_jaw_follow(sw_scene *scene);
 int sw_jaw_begin_rest(sw_scene *scene);
 /* After that equilibrium: returns 1 if the jaws have to go further. */
 int sw_jaw_end_rest(sw_scene *scene, int went_well);
-/* Returns the largest pose step up to h in which jaws that close with a force go no further than a
- * small part of the wires' thickness [s]. */
+/* Returns the pose step, at most h. In it jaws that close to a force go no further than a small
+ * part of the wires' thickness [s]. */
 double sw_jaw_step(const sw_scene *scene, double h);
 /* After a pose of size h: returns a shorter one if pads press a mesh's section by too much at once;
  * else h [s]. */
 double sw_jaw_part(sw_scene *scene, double h);
-/* 1 if that may be so. */
+/* 1 if pads may press a mesh's section. */
 int sw_jaw_presses_sections(const sw_scene *scene);
-/* After a trial of size h: returns the way by which jaws closed on wires over the way that they may
- * close in one part; up to 1 is allowed [-]. */
+/* After a trial of size h: returns how far jaws closed on wires, as a share of what is allowed in
+ * one part; at most 1 is allowed [-]. */
 double sw_jaw_closes(sw_scene *scene, double h);
 
 #endif

@@ -10,8 +10,8 @@
  * 1 when the solve failed because obstacles drag wires too far, and a shorter way may succeed. */
 sw_status sw_scene_rest(sw_scene *scene, double since, int *too_far, const sw_settle_args *args,
                         int (*interrupted)(void), sw_settle_report *report, sw_error *why);
-/* The same, with the openings for which the jaws that have begun a step have the forces that they
- * want. On failure contact's memory is as before too. */
+/* The same, and finds the openings of the jaws that have begun a step, at which their forces are
+ * those wanted. On failure contact's memory is as before too. */
 sw_status sw_scene_squeezed_rest(sw_scene *scene, double since, int *too_far,
                                  const sw_settle_args *args, int (*interrupted)(void),
                                  sw_settle_report *report, sw_error *why);
