@@ -316,6 +316,32 @@ static int may_move(const sw_mesh *m, size_t i, double s, const double *keep, si
   return share > 0.22 && share < 0.78; /* first edges stay within b = 0.45 .. 1.55 */
 }
 
+/* Moves node *i to s, or inserts one beside it; *i becomes its number. */
+static sw_status place_on_chords(sw_mesh *m, size_t *i, double s, const double *keep,
+                                 size_t count) {
+  if (may_move(m, *i, s, keep, count)) {
+    move_node(m, *i, s);
+    return SW_OK;
+  }
+  const size_t edge = m->s[*i] < s ? *i : *i - 1;
+  *i = edge + 1;
+  return sw_mesh_insert(m, edge, s);
+}
+
+static sw_status place_on_curve(sw_mesh *m, size_t i, double s, const double *keep, size_t count) {
+  sw_mesh before = {0};
+  SW_TRY(sw_mesh_copy(m, &before));
+  sw_status status = place_on_chords(m, &i, s, keep, count);
+  if (status == SW_OK) status = sw_mesh_smooth(m, i, &before, keep, count);
+  if (status == SW_OK) {
+    sw_mesh_free(&before);
+  } else {
+    sw_mesh_free(m);
+    *m = before;
+  }
+  return status;
+}
+
 sw_status sw_mesh_place(sw_mesh *m, double s, const double *keep, size_t keep_count,
                         double *placed) {
   const double total = m->s[m->n - 1] - m->s[0];
@@ -327,9 +353,6 @@ sw_status sw_mesh_place(sw_mesh *m, double s, const double *keep, size_t keep_co
     return SW_OK;
   }
   *placed = s;
-  if (may_move(m, i, s, keep, keep_count)) {
-    move_node(m, i, s);
-    return SW_OK;
-  }
-  return sw_mesh_insert(m, m->s[i] < s ? i : i - 1, s);
+  if (m->rest) return place_on_curve(m, i, s, keep, keep_count);
+  return place_on_chords(m, &i, s, keep, keep_count);
 }

@@ -54,6 +54,12 @@ sw_status sw_mesh_like(const sw_mesh *other, size_t n, sw_mesh *to);
 sw_status sw_mesh_resample(const sw_mesh *from, const double *s, size_t count, const double *held,
                            size_t held_count, sw_mesh *out);
 
+/* Puts node i, which was moved or inserted on its edges' chords, and its neighbours on the curve
+ * through the nodes before, if the unloaded wire is curved there. keep: arc lengths (count) of
+ * nodes that must stay. SW_ENOMEM. */
+sw_status sw_mesh_smooth(sw_mesh *mesh, size_t i, const sw_mesh *before, const double *keep,
+                         size_t keep_count);
+
 /* Gives the wire frames without twist in its present shape. Their first axis at the wire's start is
  * the part of normal across it. straight: 1 if the unloaded wire is straight, else it has the
  * present shape; rest_twist: twist of the unloaded wire [rad/m]. SW_ENOMEM. */
