@@ -134,6 +134,8 @@ static sw_status place(sw_scene *s, sw_hold *h, const sw_hold_args *a) {
     status = sw_mesh_place(m, ends[!order], keep, n, &placed[!order]);
   }
   h->s1 = placed[0], h->s2 = placed[1];
+  if (status == SW_OK && !m->rest)
+    status = sw_mesh_lean(m, sw_mesh_node(m, h->s1), sw_mesh_node(m, h->s2), keep, n);
   sw_free(keep);
   return status;
 }

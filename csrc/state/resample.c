@@ -22,7 +22,9 @@ typedef struct resample {
   const double *held; /* (held_count x 2) from, to [m] */
   size_t held_count;
   double *diagonal, *next, *rhs, *want; /* (edges) of the equations for the shift */
-  double *turned;                       /* (old edges) twist from the first edge on [rad] */
+  double *strain;                       /* (edges) of the unloaded wire or of the wire [-] */
+  double *turned, *known; /* (old edges) twist from the first edge on [rad]; of the unloaded wire,
+                             chord over length - 1 [-] */
 } resample;
 
 static int is_held(const resample *p, double from, double to) {
@@ -149,16 +151,14 @@ static void shift(resample *p, const double *x, double *values) {
   }
 }
 
-/* Shifts nodes at x until each chord has the length that its tension requires; unloaded: 1 if that
- * is none. */
-static void give_strains(resample *p, double *x, int unloaded) {
+/* Shifts nodes at x until each chord has the length that its strain requires. */
+static void give_strains(resample *p, double *x, const double *strain) {
   sw_mesh *m = p->out;
   double before = HUGE_VAL;
   for (int k = 0; k < MOST_SHIFTS; k++) {
     double worst = 0;
     for (size_t e = 0; e + 1 < m->n; e++) {
-      const double strain = unloaded ? 0.0 : m->tension[e] / m->EA;
-      const double want = (m->s[e + 1] - m->s[e]) * (1.0 + strain);
+      const double want = (m->s[e + 1] - m->s[e]) * (1.0 + strain[e]);
       p->rhs[e] = sw_norm(edge_vector(x, e)) - want;
       if (!is_held(p, m->s[e], m->s[e + 1])) worst = fmax(worst, fabs(p->rhs[e]) / want);
     }
@@ -219,11 +219,22 @@ static void add_up_twist(resample *p, const double *x, const double *normals, co
   }
 }
 
+/* Places the nodes of the unloaded wire. Its edges keep their chords over their lengths, as those
+ * of the wire do: else it would begin with a false bend. */
+static void give_rest(resample *p) {
+  const sw_mesh *m = p->old;
+  sw_mesh *out = p->out;
+  for (size_t e = 0; e + 1 < m->n; e++)
+    p->known[e] = sw_norm(edge_vector(m->rest, e)) / (m->s[e + 1] - m->s[e]) - 1.0;
+  for (size_t e = 0; e + 1 < out->n; e++) p->strain[e] = edge_value_at(p, p->known, middle(out, e));
+  for (size_t i = 0; i < out->n; i++) sw_store(out->rest + 3 * i, curve_at(p, m->rest, out->s[i]));
+  give_strains(p, out->rest, p->strain);
+}
+
 static void give_frames(resample *p) {
   const sw_mesh *m = p->old;
   sw_mesh *out = p->out;
-  for (size_t i = 0; i < out->n; i++) sw_store(out->rest + 3 * i, curve_at(p, m->rest, out->s[i]));
-  give_strains(p, out->rest, 1);
+  give_rest(p);
   add_up_twist(p, m->rest, m->rest_normal, NULL);
   carry_normals(p, m->rest, m->rest_normal, out->rest, out->rest_normal);
   add_up_twist(p, m->x, m->normal, m->twist);
@@ -246,14 +257,14 @@ sw_status sw_mesh_resample(const sw_mesh *from, const double *s, size_t count, c
                            size_t held_count, sw_mesh *out) {
   resample p = {.old = from, .out = out, .held = held, .held_count = held_count};
   SW_TRY(sw_mesh_like(from, count, out));
-  double *block SW_LOCAL = sw_alloc(4 * count + 2 * from->n, sizeof *block);
+  double *block SW_LOCAL = sw_alloc(5 * count + 2 * from->n, sizeof *block);
   if (!block) {
     sw_mesh_free(out);
     return SW_ENOMEM;
   }
   p.diagonal = block, p.next = block + count, p.rhs = block + 2 * count, p.want = block + 3 * count;
-  p.turned = block + 4 * count;
-  double *rate = p.turned + from->n;
+  p.strain = block + 4 * count, p.turned = block + 5 * count;
+  double *rate = p.known = p.turned + from->n; /* the rates are needed no more when known is made */
   out->drawn = 0;
   memcpy(out->s, s, count * sizeof *s);
   old_rates(from, rate);
@@ -266,65 +277,9 @@ sw_status sw_mesh_resample(const sw_mesh *from, const double *s, size_t count, c
     out->rate[e] = edge_value_at(&p, from->rate, middle(out, e));
     p.want[e] = (s[e + 1] - s[e]) * edge_value_at(&p, rate, middle(out, e));
   }
-  give_strains(&p, out->x, 0);
+  for (size_t e = 0; e + 1 < count; e++) p.strain[e] = out->tension[e] / out->EA;
+  give_strains(&p, out->x, p.strain);
   give_rates(&p);
   if (from->rest) give_frames(&p);
-  return SW_OK;
-}
-
-/* --- near a node that was moved or inserted ------------------------------------------- */
-
-/* Nodes on each side that move with it. Alone, a node that keeps the lengths of both edges leaves
- * the curve: an arc is up to 1.45 times as sharp there, 1.03 with three nodes [-]. */
-enum { REACH = 3 };
-static const double STRAIGHT = 1e-9; /* rounding: change of an edge's direction [-] */
-
-/* Finds the stretch that may move: lo and hi stay. */
-static void find_reach(const sw_mesh *m, size_t i, const double *keep, size_t count, size_t *lo,
-                       size_t *hi) {
-  *lo = i > REACH ? i - REACH : 0;
-  *hi = i + REACH < m->n ? i + REACH : m->n - 1;
-  for (size_t k = 0; k < count; k++)
-    for (size_t j = *lo; j <= *hi; j++) {
-      if (m->s[j] != keep[k] || j == i) continue;
-      if (j < i) *lo = j;
-      if (j > i) *hi = j;
-    }
-}
-
-static int is_bent(const double *nodes, size_t lo, size_t hi) {
-  for (size_t e = lo + 1; e < hi; e++)
-    if (sw_dist(direction(nodes, e - 1), direction(nodes, e)) > STRAIGHT) return 1;
-  return 0;
-}
-
-/* Copies nodes between lo and hi, and the edges there. */
-static void copy_stretch(const sw_mesh *from, sw_mesh *to, size_t lo, size_t hi) {
-  double *const nodes[] = {to->x, to->v, to->rest};
-  const double *const new_nodes[] = {from->x, from->v, from->rest};
-  double *const edges[] = {to->normal, to->rest_normal};
-  const double *const new_edges[] = {from->normal, from->rest_normal};
-  double *const plain[] = {to->tension, to->rate, to->turn, to->spin};
-  const double *const new_plain[] = {from->tension, from->rate, from->turn, from->spin};
-  const size_t inner = 3 * (hi - lo - 1) * sizeof(double);
-  for (size_t k = 0; k < 3; k++)
-    memcpy(nodes[k] + 3 * (lo + 1), new_nodes[k] + 3 * (lo + 1), inner);
-  for (size_t k = 0; k < 2; k++)
-    memcpy(edges[k] + 3 * lo, new_edges[k] + 3 * lo, 3 * (hi - lo) * sizeof(double));
-  for (size_t k = 0; k < 4; k++)
-    memcpy(plain[k] + lo, new_plain[k] + lo, (hi - lo) * sizeof(double));
-  memcpy(to->twist + lo + 1, from->twist + lo + 1, (hi - lo - 1) * sizeof(double));
-}
-
-sw_status sw_mesh_smooth(sw_mesh *m, size_t i, const sw_mesh *before, const double *keep,
-                         size_t keep_count) {
-  size_t lo, hi;
-  sw_mesh fresh = {0};
-  find_reach(m, i, keep, keep_count, &lo, &hi);
-  if (!is_bent(m->rest, lo, hi)) return SW_OK;
-  const double held[4] = {m->s[0], m->s[lo], m->s[hi], m->s[m->n - 1]};
-  SW_TRY(sw_mesh_resample(before, m->s, m->n, held, 2, &fresh));
-  copy_stretch(&fresh, m, lo, hi);
-  sw_mesh_free(&fresh);
   return SW_OK;
 }

@@ -156,11 +156,15 @@ describe("a clamp put on in mid-run", function()
       local e, before = c.scene:energy(), {}
       local places = { 0.1, 0.3, 0.49, 0.7, 0.9, 1 }
       for i, u in ipairs(places) do before[i] = { c.wire:position(u), c.wire:velocity(u) } end
+      -- A clamp lies k h^2/12 inside the curve, so that the hinges beside it have the wire's bend. Three
+      -- nodes on each side make room for it.
+      local inside = c.wire:curvature(s) * 0.02 ^ 2 / 12
       c.scene:clamp(c.wire, { s = s })
       for i, u in ipairs(places) do
         -- a node moves along the curve: the cubic between nodes differs by h^3 = 8e-6 times the change of
         -- curvature, which is about 1
-        t.below(1e-5, t.distance(before[i][1], c.wire:position(u)), "position changed by")
+        local near = math.abs(u - s) < 0.08 and 1.3 * inside or 0
+        t.below(1e-5 + near, t.distance(before[i][1], c.wire:position(u)), "position changed by")
         t.below(2e-3, t.distance(before[i][2], c.wire:velocity(u)), "velocity changed by")
       end
       local now = c.scene:energy()
