@@ -20,6 +20,7 @@ typedef struct sw_slip {
   double way;           /* sign of the force against which it slips; 0 = no slip [-] */
   double way_before;    /* the same at the end of the last accepted step [-] */
   sw_bracket found;     /* growths with too small and too large a force [m/s2], [N] */
+  int evened;           /* 1: this step's force is the mix of the method's stages, without a blow */
   double slope;         /* last slope of the force over the growth; 0 = unknown [kg] */
 } sw_slip;
 

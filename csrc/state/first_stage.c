@@ -26,3 +26,21 @@ sw_vec sw_even_force(const sw_first_stage *at, const sw_vec *before, sw_vec firs
   const sw_vec even = sw_madd(first, sw_sub(now, first), at->share);
   return before && holds(at, *before, first, now, even) ? now : even;
 }
+
+/* A force that changes in a step by less than SLOW of its value, and is below LARGE times that
+ * value at the last stage (sdirk2: 5.1), comes from no blow; beyond FAST or LARGEST it comes from a
+ * blow. Between these it counts as partly so [-]. */
+static const double SLOW = 0.25, FAST = 0.5, LARGE = 6.0, LARGEST = 8.0;
+
+/* Returns 1 for x up to `from`, 0 from `to` on, and a straight line between them. */
+static double falls(double x, double from, double to) {
+  return fmin(1.0, fmax(0.0, (to - x) / (to - from)));
+}
+
+double sw_obeyed_force(double before, double read, double now) {
+  const double size = fabs(before);
+  if (!(size > 0)) return now;
+  const double share =
+      fmin(falls(fabs(read - before) / size, SLOW, FAST), falls(fabs(now) / size, LARGE, LARGEST));
+  return now + share * (read - now);
+}

@@ -17,4 +17,10 @@ typedef struct sw_first_stage {
  * value, else the mix of both stages [N]. */
 sw_vec sw_even_force(const sw_first_stage *at, const sw_vec *before, sw_vec first, sw_vec now);
 
+/* Returns the force that a drive compares with its target, from its value before the step, the one
+ * that is read out at the end and the last stage's. It is the read-out, or the last stage's value
+ * in a blow, after which the mix of both stages would let the drive's speed swing. It has no jumps:
+ * across a jump there would be no speed at which the force is as wanted [N]. */
+double sw_obeyed_force(double before, double read, double now);
+
 #endif

@@ -17,6 +17,10 @@
 static const double PRECISION = 1e-7; /* of the force, the wire's weight or EI/L2, whichever is
                                          largest [-] */
 
+/* Positions are rounded to about this share of their size. In a short step the inertia of the node
+ * in the guide turns this into a force that no speed can remove [-]. */
+static const double ROUNDED = 1e-15;
+
 static const double NO_WAY = 1e-13; /* way of the wire in a step that does not count [m] */
 
 /* Returns the slip of a hold that yields, or NULL. */
@@ -40,6 +44,7 @@ static int begin(sw_scene *s, double step) {
     /* a discarded step may have left other values */
     f->growth = f->growth_before;
     f->way = f->way_before;
+    f->evened = 0;
     if (!isfinite(f->push) && f->way == 0) f->growth = 0; /* first tried without slip */
   }
   return any;
@@ -91,20 +96,32 @@ static int stops(sw_slip *f, double h) {
   return 1;
 }
 
+/* Returns how far the drive's force may be off [N]. */
+static double allowed(const sw_scene *s, const sw_hold *h, const double *x, double want,
+                      double step) {
+  const sw_body *b = &sw_scene_system(s)->bodies[h->wire];
+  const sw_plan *p = b->plan;
+  const double L = p->length, weight = p->beam.mass * L * sw_norm(sw_scene_gravity(s));
+  const double reach = sw_norm(sw_vec_at(x, b->first_node + h->node));
+  const double rounded = ROUNDED * reach * p->lumped[h->node] / (step * step);
+  const double scale = fmax(fabs(want), fmax(weight, p->beam.EI / (L * L)));
+  return fmax(PRECISION * scale, rounded);
+}
+
 static int correct_slip(sw_scene *s, sw_hold *h, sw_slip *f, double step, int first) {
   const sw_plan *p = sw_scene_system(s)->bodies[h->wire].plan;
   const double *x = sw_scene_course(s)->stepper.trial_x;
-  const double drive = sw_hold_way_of(s, h, sw_scene_time(s), x).obeys;
-  const double L = p->length;
-  const double weight = p->beam.mass * L * sw_norm(sw_scene_gravity(s));
+  const sw_hold_way now = sw_hold_way_of(s, h, sw_scene_time(s), x);
+  const double drive = now.obeys;
+  f->evened = now.obeys == now.force && now.force != now.stage;
   if (!isfinite(f->push) && f->way == 0) {
     if (f->way_before != 0 || fabs(drive) <= f->limit) return 1; /* it stopped, or it holds */
     f->way = copysign(1.0, drive);
   }
   const double want = isfinite(f->push) ? f->push : copysign(f->limit, f->way);
-  const double off = drive - want, scale = fmax(fabs(want), fmax(weight, p->beam.EI / (L * L)));
-  if (fabs(off) <= PRECISION * scale) return !stops(f, step);
-  return improve(f, off, first, p->beam.mass * L, step);
+  const double off = drive - want;
+  if (fabs(off) <= allowed(s, h, x, want, step)) return !stops(f, step);
+  return improve(f, off, first, p->beam.mass * p->length, step);
 }
 
 static int correct(sw_scene *s, double h, int first) {
