@@ -206,12 +206,16 @@ static int meth_min_bend_radius(lua_State *L) {
   return push_extreme(L, x.value > 0 ? 1.0 / x.value : HUGE_VAL, &x);
 }
 
-/* How sharp that bend is for the wire's edges: the second difference of the curvature from node to
- * node over the curvature [-]. */
+/* How sharp that bend is for the wire's edges, see sw_sharpness: shares of its bend [-].
+ */
 static int meth_bend_sharpness(lua_State *L) {
   const sw_wire_extremes e = read_extremes(L, "wire:bend_sharpness");
-  lua_pushnumber(L, e.curvature.value > 0 ? e.uneven / e.curvature.value : 0.0);
-  return 1;
+  lua_pushnumber(L, e.sharp.uneven);
+  lua_pushnumber(L, e.sharp.swings);
+  lua_pushnumber(L, e.sharp.more);
+  lua_pushnumber(L, e.sharp.less);
+  lua_pushnumber(L, e.sharp.round);
+  return 5;
 }
 
 typedef struct tension_args {

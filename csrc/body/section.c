@@ -121,7 +121,7 @@ void sw_strand_extremes(const sw_scene *s, size_t wire, double *tension, sw_wire
   const double *x = system->x + 3 * b->first_node, *T = sw_system_elastic(system, b);
   const double EA = b->plan->beam.EA, GJ = b->plan->beam.GJ;
   const sw_extreme least = {.value = -HUGE_VAL};
-  *now = (sw_wire_extremes){least, least, least, least, least, least, least, 0, 0};
+  *now = (sw_wire_extremes){least, least, least, least, least, least, least, 0, {0, 0, 0, 0, 0}};
   if (!w->rings) return; /* an object of particles */
   for (size_t r = 0; r + 1 < w->rings; r++) {
     const sw_slice at = sw_strand_slice(b->plan, x, T, r);

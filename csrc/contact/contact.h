@@ -50,7 +50,7 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_
 /* Makes a copy with the same obstacles and memory, for a look ahead. SW_ENOMEM. */
 sw_status sw_contact_copy(const sw_contact *contact, sw_contact **out);
 void sw_contact_free(sw_contact *contact);
-/* Keeps only the obstacles with these owner's numbers (count); wires no longer touch the others. */
+/* Keeps only the obstacles with these owner's numbers (count). */
 void sw_contact_keep(sw_contact *contact, const size_t *ids, size_t count);
 
 /* How the coming steps are computed. This decides the normal stiffness. */
@@ -149,8 +149,7 @@ int sw_contact_review_static(sw_contact *contact, sw_system *system, const doubl
 /* Accepts the trial: keeps friction anchors and sides for the next step. */
 void sw_contact_commit(sw_contact *contact, sw_system *system);
 
-/* Total force on obstacle o (the owner's number) at the last evaluated state, and its moment about
- * a point [N], [N m]. */
+/* Total force on obstacle o (the owner's number) as last evaluated, its moment [N], [N m]. */
 void sw_contact_force(const sw_contact *contact, int o, sw_vec about, sw_vec *force,
                       sw_vec *moment);
 /* Sums over the touches of obstacle o (the owner's number) that hold wires. */
@@ -182,8 +181,7 @@ typedef struct sw_contact_push {
   double place;       /* arc length [m] */
   double slid;        /* sliding way since the touch began to press [m] */
 } sw_contact_push;
-/* Number of touches, with or without a force. sw_contact_push_at reads touch number k and returns 0
- * if it has no force. */
+/* Touches, with or without a force. sw_contact_push_at reads touch k; 0: it has no force. */
 size_t sw_contact_touches(const sw_contact *contact);
 /* Touches from *first up to *end (exclusive) are those of nodes from node up to end_node
  * (exclusive). */
@@ -191,6 +189,8 @@ void sw_contact_touches_of(const sw_contact *contact, size_t node, size_t end_no
                            size_t *end);
 int sw_contact_push_at(const sw_contact *contact, const sw_system *system, size_t k,
                        sw_contact_push *out);
+/* Largest radius of round obstacles that press on a wire within an edge of a node; 0: none [m]. */
+double sw_contact_round_beside(const sw_contact *contact, const sw_system *system, size_t node);
 
 /* After a step: 1 if the obstacles' forces at its end come from a shock, so that the next step must
  * not begin with them. */

@@ -43,28 +43,32 @@ double sw_scene_hinge_chord(const sw_field *f, size_t i) {
   return sqrt(d2);
 }
 
-static void curvature_extreme(const sw_system *s, const sw_body *b, sw_extreme *out,
-                              double *uneven) {
+/* Finds the largest curvature, and how sharp it is if it is more than `above` [1/m]. */
+static void curvature_extreme(const sw_scene *s, const sw_body *b, double above, sw_extreme *out,
+                              sw_sharpness *sharp) {
   const sw_plan *p = b->plan;
   const sw_field *f = &b->field;
   const double bound2 =
       largest_curvature2(p->nodes, p->hinge, f->tangent[0], f->tangent[1], f->tangent[2]);
+  const sw_clamp_hinge *clamp = NULL;
+  size_t node = 0;
   *out = (sw_extreme){.s = p->s[0]};
-  *uneven = 0;
+  *sharp = (sw_sharpness){0};
   for (size_t i = 1; i + 1 < p->nodes; i++) {
     if (!(p->hinge[i] > 0)) continue;
     const double chord = sw_scene_hinge_chord(f, i);
     if (chord * chord < (1 - 1e-12) * bound2 * p->hinge[i] * p->hinge[i]) continue;
     *out = (sw_extreme){.value = sw_angle_of_chord(chord) / p->hinge[i], .s = p->s[i]};
-    *uneven = sw_scene_uneven(s, b, i);
+    node = i;
     break;
   }
   SW_ITEMS(const sw_clamp_hinge, h, p->clamps, p->clamp_count) {
-    const double value = sw_scene_clamp_curvature(s, b, h);
+    const double value = sw_scene_clamp_curvature(sw_scene_system(s), b, h);
     if (!(value > out->value)) continue;
     *out = (sw_extreme){.value = value, .s = p->s[h->node]};
-    *uneven = sw_scene_uneven_at_clamp(s, b, h);
+    node = h->node, clamp = h;
   }
+  if (out->value > above) *sharp = sw_scene_sharpness(s, b, node, clamp, out->value);
 }
 
 /* T: tensions of the wire's edges. */
@@ -139,7 +143,8 @@ static void strain_extreme(const sw_system *s, const sw_body *b, sw_extreme *out
   }
 }
 
-static void wire_now(sw_scene *s, size_t w, double *tension, sw_wire_extremes *now) {
+/* above: see curvature_extreme [1/m]. */
+static void wire_now(sw_scene *s, size_t w, double *tension, double above, sw_wire_extremes *now) {
   sw_system *system = sw_scene_system(s);
   if (sw_scene_wire_in(s, w)->strand.web) {
     sw_strand_extremes(s, w, tension, now);
@@ -148,7 +153,7 @@ static void wire_now(sw_scene *s, size_t w, double *tension, sw_wire_extremes *n
     now->torsion.time = sw_scene_time(s);
     return;
   }
-  curvature_extreme(system, &system->bodies[w], &now->curvature, &now->uneven);
+  curvature_extreme(s, &system->bodies[w], above, &now->curvature, &now->sharp);
   const sw_body *b = &system->bodies[w];
   largest_tension(b, sw_system_pull(system, b), &now->tension);
   strain_extreme(system, &system->bodies[w], &now->strain);
@@ -157,7 +162,9 @@ static void wire_now(sw_scene *s, size_t w, double *tension, sw_wire_extremes *n
   now->curvature.time = now->tension.time = now->strain.time = now->torsion.time = sw_scene_time(s);
 }
 
-void sw_scene_wire_now(sw_scene *s, size_t w, sw_wire_extremes *now) { wire_now(s, w, NULL, now); }
+void sw_scene_wire_now(sw_scene *s, size_t w, sw_wire_extremes *now) {
+  wire_now(s, w, NULL, 0, now);
+}
 
 /* Number of edges, or of stretches between rings, whose tension is recorded. */
 static size_t watched_edges(const sw_body *b) {
@@ -271,7 +278,7 @@ void sw_scene_run_tension(const sw_scene *s, size_t w, const sw_wire_extremes *n
 }
 
 void sw_scene_keep_extremes(sw_wire_extremes *kept, const sw_wire_extremes *now) {
-  if (now->curvature.value > kept->curvature.value) kept->uneven = now->uneven;
+  if (now->curvature.value > kept->curvature.value) kept->sharp = now->sharp;
   keep_largest(&kept->curvature, &now->curvature);
   keep_largest(&kept->strain, &now->strain);
   keep_largest(&kept->ovalisation, &now->ovalisation);
@@ -288,7 +295,7 @@ sw_status sw_scene_note_extremes(sw_scene *s, size_t w, sw_wire_extremes *now, s
   if (sw_scene_wire_in(s, w)->strand.web &&
       sw_scene_wire_in(s, w)->window.edges == watched_edges(&sw_scene_system(s)->bodies[w]))
     tension = sw_window_values(&sw_scene_wire_in(s, w)->window);
-  wire_now(s, w, tension, now);
+  wire_now(s, w, tension, sw_scene_wire_in(s, w)->extremes.curvature.value, now);
   sw_scene_keep_extremes(&sw_scene_wire_in(s, w)->extremes, now);
   keep_tension(s, w, now);
   return SW_OK;
@@ -298,7 +305,7 @@ void sw_scene_reset_extremes(sw_scene *s) {
   for (size_t w = 0; w < sw_scene_wire_slots(s); w++) {
     const sw_extreme least = {.value = -HUGE_VAL};
     sw_scene_wire_in(s, w)->extremes =
-        (sw_wire_extremes){least, least, least, least, least, least, least, 0, 0};
+        (sw_wire_extremes){least, least, least, least, least, least, least, 0, {0, 0, 0, 0, 0}};
     sw_scene_wire_in(s, w)->blow = 0;
     sw_window_forget(&sw_scene_wire_in(s, w)->window);
     sw_wear_free(&sw_scene_wire_in(s, w)->wear);

@@ -28,10 +28,9 @@ sw_status sw_scene_note_extremes(sw_scene *scene, size_t w, sw_wire_extremes *no
 static inline double sw_angle_of_chord(double chord) { return 2.0 * asin(fmin(1.0, 0.5 * chord)); }
 /* Returns |t2 - t1| at inner node i of a line [-]. */
 double sw_scene_hinge_chord(const sw_field *field, size_t i);
-/* Second difference of the curvature from node to node: about an inner node, or from a clamp on. At
- * a free end the curvature is zero [1/m]. */
-double sw_scene_uneven(const sw_system *system, const sw_body *body, size_t node);
-double sw_scene_uneven_at_clamp(const sw_system *system, const sw_body *body,
-                                const sw_clamp_hinge *hinge);
+/* How sharp a refreshed line's bend of this curvature is for its edges: about an inner node, or
+ * from a clamp on (else NULL). At a free end the curvature is zero [1/m]. */
+sw_sharpness sw_scene_sharpness(const sw_scene *scene, const sw_body *body, size_t node,
+                                const sw_clamp_hinge *clamp, double value);
 
 #endif

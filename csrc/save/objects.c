@@ -35,14 +35,21 @@ void sw_tape_extreme(sw_tape *t, sw_extreme *x) {
 
 /* --- wires ------------------------------------------------------------------------- */
 
+static void tape_sharpness(sw_tape *t, sw_sharpness *x) {
+  SW_TAPE_STRUCT(t, sw_sharpness, 40);
+  DOUBLE(uneven), DOUBLE(swings), DOUBLE(more), DOUBLE(less), DOUBLE(round);
+  const double all[] = {x->uneven, x->swings, x->more, x->less, x->round};
+  for (int k = 0; k < 5; k++)
+    sw_tape_expect(t, all[k] >= 0 && isfinite(all[k]), "how sharp a bend is");
+}
+
 static void tape_extremes(sw_tape *t, sw_wire_extremes *x) {
-  SW_TAPE_STRUCT(t, sw_wire_extremes, 184);
+  SW_TAPE_STRUCT(t, sw_wire_extremes, 216);
   sw_tape_extreme(t, &x->curvature), sw_tape_extreme(t, &x->tension);
   sw_tape_extreme(t, &x->strain), sw_tape_extreme(t, &x->folding);
   sw_tape_extreme(t, &x->ovalisation), sw_tape_extreme(t, &x->raw), DOUBLE(raw_span);
-  sw_tape_extreme(t, &x->torsion), DOUBLE(uneven);
+  sw_tape_extreme(t, &x->torsion), tape_sharpness(t, &x->sharp);
   sw_tape_expect(t, x->raw_span >= 0 && x->raw_span <= 1e9, "the length of a step");
-  sw_tape_expect(t, x->uneven >= 0 && isfinite(x->uneven), "how sharp a bend is");
 }
 
 static void tape_drawing(sw_tape *t, sw_drawing *x) {
@@ -69,7 +76,7 @@ static void tape_poke(sw_tape *t, sw_poke *x) {
 }
 
 void sw_tape_wire(sw_tape *t, sw_scene_wire *x, int placed) {
-  SW_TAPE_STRUCT(t, sw_scene_wire, 1288);
+  SW_TAPE_STRUCT(t, sw_scene_wire, 1320);
   SW_TAPE_STRUCT(t, sw_twisted, 24);
   UINT32(generation), SIZE(number), NAME(name);
   SW_TAPE_CLASS(t, x->cls, sw_scene_body_class);

@@ -15,6 +15,14 @@ typedef struct sw_point_state {
   double strain, least_strain;        /* of the outermost fibres outside and inside the bend [-] */
 } sw_point_state;
 
+/* How sharp a bend is for the wire's edges. All are shares of its curvature [-]. */
+typedef struct sw_sharpness {
+  double uneven;     /* second difference of the curvature from node to node */
+  double swings;     /* what the acceleration of nodes there makes of it */
+  double more, less; /* how much more, or less, a wire at rest may be bent between its nodes */
+  double round;      /* bend around the round obstacle that presses on it there; 0: none does */
+} sw_sharpness;
+
 /* The wire's largest values: at present, or since the last run or settle began. */
 typedef struct sw_wire_extremes {
   sw_extreme curvature, tension, strain; /* [1/m], [N], outermost fibre [-] */
@@ -24,8 +32,7 @@ typedef struct sw_wire_extremes {
   sw_extreme raw;         /* tension of a single step; `tension` is that of means over the window
                              [N] */
   double raw_span;        /* size of that step; 0: it was an equilibrium [s] */
-  double uneven;          /* second difference of the curvature from node to node, where and when it
-                             is largest [1/m] */
+  sw_sharpness sharp;     /* where and when the curvature is largest */
 } sw_wire_extremes;
 
 /* One recorded row per step of a hold: time, force, moment, held point. */

@@ -83,7 +83,7 @@ static void watch(sw_scene *s, const sw_scene_wire *w) {
   const sw_extreme *bend = &w->extremes.curvature;
   const sw_drawing *d = &w->drawing;
   if (d->count < 3 || w->strand.web || !(w->beam.EI > 0) || !(bend->value > 0)) return;
-  if (w->extremes.uneven < ALONE * bend->value) return;
+  if (w->extremes.sharp.uneven < ALONE) return;
   const double scale = length_of(d) / (d->length * w->mesh.scale); /* path over mesh [-] */
   const double edge = edge_at(&w->mesh, bend->s);
   const corner c = corner_near(d, bend->s * scale, SPREAD * edge * scale);

@@ -4,8 +4,8 @@
 #include <math.h>
 
 #include "base/halving.h"
+#include "contact/contact.h"
 #include "scene/events.h"
-#include "scene/obstacle.h"
 #include "scene/parts.h"
 #include "scene/values.h"
 #include "scene/wire.h"
@@ -46,21 +46,8 @@ static double turn_at(const sw_body *b, const double *x, size_t i) {
   return sw_dist(before, after);
 }
 
-/* 1 if a round obstacle presses on the wire beside the node, in the system's numbers. */
 static int is_on_round(const sw_scene *s, size_t node) {
-  const sw_contact *c = sw_scene_contact(s);
-  size_t first = 0, end = 0;
-  sw_contact_push push;
-  sw_pose before, now;
-  sw_vec q, along;
-  if (c) sw_contact_touches_of(c, node > 0 ? node - 1 : 0, node + 2, &first, &end);
-  for (size_t k = first; k < end; k++) {
-    if (!sw_contact_push_at(c, sw_scene_system(s), k, &push)) continue;
-    if (!sw_contact_poses(c, push.obstacle, &before, &now)) continue;
-    const sw_shape *shape = sw_scene_obstacle_in(s, (size_t)push.obstacle)->shape;
-    if (sw_shape_middle(shape, sw_pose_local(now, push.point), &q, &along) > 0) return 1;
-  }
-  return 0;
+  return sw_contact_round_beside(sw_scene_contact(s), sw_scene_system(s), node) > 0;
 }
 
 /* Two neighbouring bends a, b at one sharp edge make the path longer by NEXT a b h/8 more than each

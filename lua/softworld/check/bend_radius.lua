@@ -4,6 +4,7 @@
 -- @module softworld.check.bend_radius
 local bendrule = require "softworld.wire.bendrule"
 local cable = require "softworld.cable"
+local edges = require "softworld.check.edges"
 
 local function limit(entry, context)
   local known = entry.object:cable()
@@ -20,8 +21,8 @@ return { name = "min_bend_radius", unit = "m", side = "min", peaks = true, on = 
   missing = "bend (its wire has no entry of the catalogue)",
   value = function(entry)
     local radius, s, time = entry.object:min_bend_radius()
-    local skin, uneven = entry.object.radius, entry.object:bend_sharpness()
-    return { value = radius - skin, inside = skin, uneven = uneven, s = s, time = time }
+    local skin, sharp = entry.object.radius, edges.sharpness(entry.object)
+    return { value = radius - skin, inside = skin, sharp = sharp, s = s, time = time }
   end,
   limit = limit,
   reference = function(entry) return 8 * entry.object.radius end }

@@ -7,12 +7,19 @@ local number = require "softworld.output.number"
 
 local edges = {}
 
--- A bend may be sharper by this share of `uneven`, the second difference of the curvature from node to node
--- over the curvature. Runs with eight times as many segments: landings up to 1.11, wires laid by an end,
--- over pegs, and gripped loops up to 0.8, static bends up to 0.2 [-].
+-- The bend of a wire at rest may be sharper and wider by the shares that wire:bend_sharpness gives. In
+-- motion it may be sharper by SHARE of `uneven`, the second difference of the curvature from node to node
+-- over the curvature: in runs with eight times as many segments landings were by up to 1.11, wires laid by
+-- an end and gripped loops by up to 0.8 [-].
 local SHARE = 1.25
--- It may be wider by `uneven`, at most by this share: up to 0.037 was measured, beside grips and clamps [-].
+-- In motion it may be wider by `uneven`, at most by this share: up to 0.037 was measured, beside grips and
+-- clamps [-].
 local WIDER = 0.04
+-- A bend counts as one in motion if the acceleration of the nodes there makes 1/MOVING of `uneven`; if it
+-- makes less, in proportion [-].
+local MOVING = 2
+-- Share by which the bend of a wire on a round obstacle may seem sharper than that of the obstacle [-].
+local ROUND = 0.05
 -- Below SMOOTH edges are fine for the bend. From ZIGZAG on, curvature alternates between nodes: bends were
 -- up to ten times sharper, so SHARPER times are taken [-].
 local SMOOTH, ZIGZAG, SHARPER = 0.02, 1.5, 12
@@ -32,15 +39,29 @@ local function add_note(value, text)
   value.note = value.note and value.note .. "; " .. text or text
 end
 
--- Widens the range of a bend radius that has value.uneven; returns why, or nil.
+-- Returns by which factor a bend may be sharper, at most: where a round obstacle presses on the wire, not
+-- more than the obstacle.
+local function limited(factor, sharp)
+  if not (sharp and sharp.round > 0) then return factor end
+  return math.min(factor, math.max(1, sharp.round) * (1 + ROUND))
+end
+
+-- Returns by which factors the curvature of a bend may be larger, and the radius.
+local function factors(sharp)
+  local moves = math.min(1, MOVING * sharp.swings / sharp.uneven)
+  local more = sharp.uneven < ZIGZAG and 1 + math.max(sharp.more, moves * SHARE * sharp.uneven) or SHARPER
+  local wider = 1 / (1 - math.min(sharp.less, 0.5))
+  return limited(more, sharp), math.max(wider, 1 + moves * math.min(sharp.uneven, WIDER))
+end
+
+-- Widens the range of a bend radius that has value.sharp; returns why, or nil.
 local function widen_bend(value, entry)
-  if not (value.uneven and value.uneven > SMOOTH and value.value < math.huge) then return nil end
-  local wire, known = entry.object, value.uneven < ZIGZAG
+  local sharp, inside, wire = value.sharp, value.inside, entry.object
+  if not (sharp and sharp.uneven > SMOOTH and value.value < math.huge) then return nil end
   if value.value > STRAIGHT * wire.length then return nil end
-  local axis, uneven, inside = value.value + value.inside, value.uneven, value.inside
-  local least = axis / (known and 1 + SHARE * uneven or SHARPER) - inside
-  value.low = math.max(0, math.min(value.low or value.value, least))
-  value.high = math.max(value.high or value.value, axis * (1 + math.min(uneven, WIDER)) - inside)
+  local axis, more, wider = value.value + inside, factors(sharp)
+  value.low = math.max(0, math.min(value.low or value.value, axis / more - inside))
+  value.high = math.max(value.high or value.value, axis * wider - inside)
   local most = number.text(value.high, "m")
   return ("between %s and %s: edges of %s are coarse for this bend; more segments, or tolerance, would tell")
     :format(number.text(value.low, "m"), most, number.text(wire.length / wire.segments, "m"))
@@ -49,17 +70,23 @@ end
 -- Widens the range of a bend radius that is that of a corner of the wire's path (event `corner`), up to that
 -- of a smooth curve through the path's points.
 local function widen_corner(value, entry, run)
-  local event = value.uneven and event_of(run, entry.name, "corner")
+  local event = value.sharp and event_of(run, entry.name, "corner")
   if not event or event.value - value.inside <= (value.high or value.value) then return end
   value.high = event.value - value.inside
   add_note(value, ("the wire's path has a corner there: %s if it is meant to be smooth"):format(
     number.text(value.high, "m")))
 end
 
+--- Returns the results of wire:bend_sharpness as a table.
+function edges.sharpness(wire, options)
+  local uneven, swings, more, less, round = wire:bend_sharpness(options)
+  return { uneven = uneven, swings = swings, more = more, less = less, round = round }
+end
+
 --- Widens the range of a value. A bend of radius R in edges of length h may be sharper by h / (0.4 R), as
 -- many times as more segments are needed; a tension may be off by this factor to either side. A value with
 -- an error bar keeps it. value.inside: what the value is less than the radius of the centre line, to which
--- the factor applies [m]. value.uneven: how sharp a bend is for its edges, see wire:bend_sharpness [-].
+-- the factor applies [m]. value.sharp: how sharp a bend is for its edges, see edges.sharpness.
 -- @tparam table value { value =, low =, high = }
 -- @tparam string way "low", "high" or "both": the side to which the value may be off; nil: it does not
 -- depend on bends
@@ -72,7 +99,7 @@ function edges.widen(value, way, entry, run)
     if why then add_note(value, why) end
     return value
   end
-  local factor = math.max(1, event.value / entry.object.segments)
+  local factor = limited(math.max(1, event.value / entry.object.segments), value.sharp)
   if way ~= "high" then value.low = math.min(value.low or low, (low + inside) / factor - inside) end
   if way ~= "low" then value.high = (value.high or value.value) * factor end
   add_note(value, ("edges are too long for a bend: segments = %.0f, or tolerance, would tell"):format(

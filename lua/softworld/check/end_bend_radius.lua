@@ -4,6 +4,7 @@
 -- @module softworld.check.end_bend_radius
 local bendrule = require "softworld.wire.bendrule"
 local cable = require "softworld.cable"
+local edges = require "softworld.check.edges"
 
 local USE = "fixed"
 
@@ -14,8 +15,8 @@ return { name = "end_bend_radius", unit = "m", side = "min", places = true, on =
   wanted = function(context) return context.use ~= nil and context.use ~= USE end,
   value = function(entry, context)
     local radius, s = entry.object:min_bend_radius{ now = true }
-    local skin, uneven = entry.object.radius, entry.object:bend_sharpness{ now = true }
-    return { value = radius - skin, inside = skin, uneven = uneven, s = s, time = context.run.time }
+    local skin, sharp = entry.object.radius, edges.sharpness(entry.object, { now = true })
+    return { value = radius - skin, inside = skin, sharp = sharp, s = s, time = context.run.time }
   end,
   limit = function(entry)
     local known = entry.object:cable()
