@@ -40,7 +40,9 @@ local function at_rest(d, contact)
   if contact then return math.max(d.last, d.before / 8) end -- touches jump from node to node
   if d.turns or d.rate < slowest then return math.max(d.last, d.before / 2) end
   local rate = math.min(second_order, d.rate)
-  -- the last change may be small by chance if the one before was large
+  -- The last change may be small by chance if the one before was large. If it is smaller than any order
+  -- makes it, parts of opposite signs cancelled in it: what comes may be as large as the order makes it.
+  if d.rate > even[2] then return d.before / second_order end
   return math.max(d.last / (rate - 1), d.before / (second_order * (second_order - 1)))
 end
 
