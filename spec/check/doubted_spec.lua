@@ -94,6 +94,40 @@ describe("an event doubts", function()
     end
   end)
 
+  it("rows of wires and grippers by a false balance, a false grasp and a hand", function()
+    local bar, time = { value = 1, error = 0.1 }, { name = "cycle_time" }
+    local function event(kind) return { kind = kind, object = "a", text = "" } end
+    for kind, rows in pairs{ unbalanced = { true, false, false }, grasp = { true, true, false },
+      hand = { true, true, true } } do
+      for i, member in ipairs{ { peaks = true }, { places = true }, time } do
+        assert.equal(rows[i], why(event(kind), member, bar) ~= nil, kind .. i)
+      end
+      assert.truthy(why(event(kind), { peaks = true, on = "gripper" }, bar, "hand"), kind)
+    end
+    assert.is_nil(why(event "unbalanced", nil, bar, "b"))
+    assert.truthy(why(event "hand", time, bar, "b"))
+  end)
+
+  it("checks of the script, unless they say that it does not matter", function()
+    for _, kind in ipairs{ "crash", "buckling", "hand", "grasp", "unbalanced" } do
+      local scene = sw.scene{}
+      local wire = scene:wire{ name = "a", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.2, 0, 0 } }
+      scene:clamp(wire, { s = 0 })
+      scene:process(function(p)
+        p:wait(0.01)
+        scene:tell{ kind = kind, object = "a", text = "something is wrong" }
+      end)
+      local function one(name, max, asked)
+        return { name = name, unit = "m", max = max, doubted = asked, of = function() return 1 end }
+      end
+      local check = scene:run{ dt = 0.005, duration = 0.02 }:check{ trial = true, checks = {
+        one("kept", 2), one("broken", 0.5), one("certain", 2, false) } }
+      assert.same({ "OPEN", "FAIL", "PASS" }, { check:row "kept".verdict, check:row "broken".verdict,
+        check:row "certain".verdict })
+      assert.truthy(check:row "kept".note:find(("event '%s'"):format(kind), 1, true))
+    end
+  end)
+
   it("nothing where the model is right: a clip that breaks, steps that were redone", function()
     assert.is_nil(why{ kind = "clip", object = "a", text = "clip 'a': OVERLOADED, the wire breaks" })
     local made = { kind = "energy", object = "", text = "steps made 0.1 J from nowhere, 3 % of" }

@@ -207,6 +207,7 @@ local function judge_own(self, one)
     return
   end
   with_error(value, error_bar(self.run, nil, one.name))
+  value.doubt = one.doubted ~= false and doubted.why(doubted.OWN, value, {}, self.run) or nil
   local function fresh() return start_row(self, one.name, nil, one.name, one.unit, value) end
   local given = {}
   for _, side in ipairs{ "min", "max" } do

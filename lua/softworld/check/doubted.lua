@@ -10,6 +10,7 @@ local doubted = {}
 --   own: only rows of the wire that the event names are in doubt, and those of grippers and ties, which may
 --     hold it
 --   places: places are in doubt too, not only peaks
+--   all: every row is in doubt
 --   always: an error bar says nothing of it. Other doubts end with a bar, which comes from other steps
 --   only, unless: pattern of the event's text that such an event has, or has not
 local kinds = {
@@ -26,6 +27,9 @@ local kinds = {
   walls = { "walls of a mesh meet, which its springs do not feel", own = true, always = true },
   kink = { "the walls of a fold do not touch each other: forces are too low", own = true, always = true },
   clip = { "the clip's model does not cover this", always = true, unless = "OVERLOADED" },
+  unbalanced = { "forces after a change of model may be too large", own = true, always = true },
+  grasp = { "a gripper held another wire than the one to grasp", places = true, always = true },
+  hand = { "something was moved by hand: this is not the script's process", all = true, always = true },
 }
 
 local UNKNOWN = "come from nowhere" -- in events `energy` about a gap that no step made
@@ -37,9 +41,12 @@ local mean = checks.set "mean_force"
 local function concerns(kind, e, member, entry)
   if kind.only and not e.text:find(kind.only) then return false end
   if kind.unless and e.text:find(kind.unless) then return false end
-  local held = member.on == "gripper" or member.on == "tie"
+  local held = member.on == "gripper" or member.on == "tie" or member == doubted.OWN
   return not kind.own or held or e.object == entry.name
 end
+
+--- Stands for the checks of the script: what they read is unknown, so every event doubts them.
+doubted.OWN = { peaks = true, places = true }
 
 --- Returns why the row of an object may not pass, or nil.
 -- @tparam table member of softworld.check.registry; peaks: true if its value is a peak of the motion; places:
@@ -49,10 +56,10 @@ end
 -- @tparam table run
 function doubted.why(member, value, entry, run)
   local peaks = member.peaks or mean[member.name]
-  if not peaks and not member.places then return nil end
   for _, e in ipairs(run.events) do
     local kind = kinds[e.kind]
-    local asked = kind and (peaks or kind.places) and (kind.always or not value.error)
+    local met = kind and (kind.all or peaks or kind.places and member.places)
+    local asked = met and (kind.always or not value.error)
     if asked and concerns(kind, e, member, entry) then
       local dt = e.text:match "with dt = ([%d.e-]+) s"
       return ("%s (event '%s')%s"):format(kind[1], e.kind, dt and (": dt = %s s, or tolerance, would tell")

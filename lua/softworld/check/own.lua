@@ -15,6 +15,7 @@ own.rows = rows.list{
   { "max", "number", "its own", "the value must not be above it" },
   { "min", "number", "its own", "the value must not be below it" },
   { "source", "text", "-", "source of the limit", usual = "the script" },
+  { "doubted", "boolean", "-", "false: no event of the run doubts the value", usual = "true" },
   { "sure", "boolean", "-", "true: accept the limit, however far it is from the value", usual = "false" },
 }
 
