@@ -39,11 +39,11 @@ describe("a wire driven into a wall", function()
     end)
   end
 
-  it("with its end first: the reason names both, and when they touched", function()
+  it("with its end first: the reason names the hold that points it there, and when they touched", function()
     for _, v in ipairs{ 0.25, 0.5 } do
       local run = drive{ s = 0.01, E = 1e9, v = v }
       assert.is_false(run.ok)
-      local t = run.reason:match "'w' and 'the wall' are pressed into each other from t = ([%d.]+) s on"
+      local t = run.reason:match "another path: that of 'hand' leads into 'the wall' from t = ([%d.]+) s on"
       assert.is_truthy(t, run.reason)
       -- The end's cap is a half sphere: it touches at (FACE - RADIUS)/v. A row of the log is the mean over a
       -- window of 10 ms at most, so it may be that much later.
@@ -52,8 +52,40 @@ describe("a wire driven into a wall", function()
     end
   end)
 
+  -- The held place of a clamp that only turns stays out of the table: its event `pressed` has other words
+  -- than those of holds that go deep.
+  it("by a hold that only points it there: the reason names hold and time, whatever the names", function()
+    local advice = require "softworld.run.advice"
+    for _, names in ipairs{ { "hand", "table" }, { "a 'b' c", "10 % (of) it" } } do
+      local scene, r = sw.scene{}, sw.cable "GXL 1.5".outer_diameter.value / 2
+      scene:obstacle{ name = names[2], shape = "plane", friction = 0.3 }
+      scene:obstacle{ name = "other", shape = "plane", at = { 0, 0, -1 } }
+      local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, r }, to = { 0.3, 0, r },
+        segments = 30 }
+      scene:force{ kind = "damping", mass = 5, stiffness = 1e-3 }
+      scene:clamp(wire, { name = names[1], s = 0 }):follow{ relative = true, duration = 0.2,
+        points = { { 0, 0, 0 }, { 0, 0, 0 } }, turn = { axis = { 0, 1, 0 }, angle = 0.02 } }
+      assert.is_true(scene:run{ dt = 0.01, duration = 0.4 }.ok)
+      local pressed = {}
+      for _, e in ipairs(scene:events()) do if e.kind == "pressed" then pressed[#pressed + 1] = e end end
+      assert.equal(1, #pressed)
+      assert.truthy(pressed[1].text:find("by its direction", 1, true))
+      local function advised(obstacle)
+        return advice.of(("no convergence; obstacle '%s' presses 'w' with 9 N"):format(obstacle), {}, scene)
+      end
+      local wanted = "another path: that of '%s' leads into '%s' from t = %.3f s on"
+      assert.equal(wanted:format(names[1], names[2], pressed[1].first), advised(names[2]))
+      assert.is_nil(advised "other":find("path", 1, true))
+    end
+  end)
+
   it("is no reason where the wire is pressed by something that no hold enters", function()
     local advice = require "softworld.run.advice"
+    -- a crushed wire that no event explains: both are named, and when they touched
+    local crushed = "wire 'w' is crushed near s = 0 m; obstacle 'table' presses 'w' with 9 kN near s = 0 m, "
+      .. "after touching since t = 0.184 s"
+    assert.matches("'w' and 'table' are pressed into each other from t = 0.184 s on",
+      advice.of(crushed, { dt = 0.02 }, sw.scene{}))
     local text = advice.of("no convergence in 30 iterations", { dt = 0.02 }, sw.scene{})
     assert.is_nil(text:find("path", 1, true))
   end)

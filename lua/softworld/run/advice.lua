@@ -26,20 +26,18 @@ local function is_explicit(integrator)
   return false
 end
 
--- Texts of events of holds, grippers and their parts that are driven into obstacles.
-local driven = {
-  "^%S+ '(.-)' pushes wire '.-' %S+ mm deep into '(.*)'; no force can stop that$",
-  "^%S+ '(.-)' presses wire '.-' %S+ mm into '(.*)' with .*; a rod's section is rigid, ",
-  "^'(.-)' runs %S+ mm deep into '(.*)'",
-}
+-- Kinds of events of what is driven into something, or presses or points a wire into it. Their object is
+-- what is driven, or the wire between two things; their text quotes what it is driven into.
+local driven = { crash = true, pressed = true }
 
--- Returns what was driven into the obstacle, and since when [s]; nil if nothing was.
-local function driven_into(events, obstacle)
+-- Returns what was driven into the obstacle that presses on this wire, and since when [s]; or nil.
+local function driven_into(events, obstacle, wire)
   local by, since
+  local into = ("'%s'"):format(obstacle)
   for _, e in ipairs(events) do
-    for _, pattern in ipairs(e.text and driven or {}) do
-      local who, into = e.text:match(pattern)
-      if into == obstacle and e.first < (since or math.huge) then by, since = who, e.first end
+    local other = driven[e.kind] and e.object ~= wire and e.object ~= obstacle
+    if other and e.text:find(into, 1, true) and e.first < (since or math.huge) then
+      by, since = e.object, e.first
     end
   end
   return by, since
@@ -49,7 +47,7 @@ end
 local function path_of(reason, scene)
   local name, wire = reason:match "; obstacle '(.-)' presses '(.-)' with "
   if not name then return nil end
-  local by, since = driven_into(scene:events(), name)
+  local by, since = driven_into(scene:events(), name, wire)
   if by then
     return ("another path: that of '%s' leads into '%s' from t = %.3f s on"):format(by, name, since)
   end
