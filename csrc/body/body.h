@@ -36,6 +36,8 @@ typedef struct sw_body_class {
    * and its pose. refine: makes enough edges between the hold and others. SW_ENOMEM. */
   sw_status (*place)(sw_scene *scene, sw_hold *hold, const sw_hold_args *args);
   sw_status (*grasp)(const sw_scene_wire *wire, sw_hold *hold, const sw_hold_args *args);
+  /* A hold has let go: its nodes may move. NULL: they do not. SW_ENOMEM. */
+  sw_status (*leave)(sw_scene *scene, const sw_hold *hold);
   sw_status (*refine)(const sw_scene *scene, const sw_hold *hold, sw_mesh *mesh);
   /* Adds what the hold holds to the system's held nodes, each like `node`. */
   void (*add_held)(const sw_body *body, const sw_hold *hold, sw_held_node node, sw_system *system);

@@ -119,6 +119,21 @@ static double off_nodes(const sw_mesh *m, double s) {
   return i > 0 ? fmin(fabs(m->s[i] - s), s - m->s[i - 1]) : fabs(m->s[i] - s);
 }
 
+/* 1 if the hold clamps the wire, so that the hinges beside it count. A feed's wire goes on moving.
+ */
+static int leans(const sw_hold *h, const sw_mesh *m) {
+  return h->cls->hold->direction && !sw_hold_passes(h) && !m->rest;
+}
+
+static sw_status leave(sw_scene *s, const sw_hold *h) {
+  sw_mesh *m = &sw_scene_wire_in(s, h->wire)->mesh;
+  if (!leans(h, m)) return SW_OK;
+  double *keep SW_LOCAL = new_places(s, h->wire);
+  if (!keep) return SW_ENOMEM;
+  const size_t first = sw_mesh_node(m, h->s1), last = sw_mesh_node(m, h->s2);
+  return sw_mesh_lean(m, first, last, -1, keep, kept_places(s, h->wire, keep));
+}
+
 static sw_status place(sw_scene *s, sw_hold *h, const sw_hold_args *a) {
   sw_mesh *m = &sw_scene_wire_in(s, h->wire)->mesh;
   double ends[2], placed[2], *keep = new_places(s, h->wire);
@@ -134,8 +149,8 @@ static sw_status place(sw_scene *s, sw_hold *h, const sw_hold_args *a) {
     status = sw_mesh_place(m, ends[!order], keep, n, &placed[!order]);
   }
   h->s1 = placed[0], h->s2 = placed[1];
-  if (status == SW_OK && !m->rest)
-    status = sw_mesh_lean(m, sw_mesh_node(m, h->s1), sw_mesh_node(m, h->s2), keep, n);
+  if (status == SW_OK && leans(h, m))
+    status = sw_mesh_lean(m, sw_mesh_node(m, h->s1), sw_mesh_node(m, h->s2), 1, keep, n);
   sw_free(keep);
   return status;
 }
@@ -237,6 +252,7 @@ const sw_body_class sw_body_line = {.held = "node",
                                     .take = take,
                                     .widen = widen,
                                     .place = place,
+                                    .leave = leave,
                                     .grasp = grasp,
                                     .refine = refine_gaps,
                                     .add_held = add_held,

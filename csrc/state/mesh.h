@@ -60,9 +60,12 @@ sw_status sw_mesh_resample(const sw_mesh *from, const double *s, size_t count, c
 sw_status sw_mesh_smooth(sw_mesh *mesh, size_t i, const sw_mesh *before, const double *keep,
                          size_t keep_count);
 
-/* Shifts nodes first to last, which a hold is about to take, to where the hinges beside them have
- * the bend that the wire has there. keep: as above. SW_ENOMEM. */
-sw_status sw_mesh_lean(sw_mesh *mesh, size_t first, size_t last, const double *keep, size_t count);
+/* Shifts nodes first to last of a bent wire for a hold that is about to clamp them (way 1), to
+ * where the hinges beside them have the bend that the wire has there, or back for one that has let
+ * go
+ * (-1). keep: as above. SW_ENOMEM. */
+sw_status sw_mesh_lean(sw_mesh *mesh, size_t first, size_t last, int way, const double *keep,
+                       size_t count);
 
 /* Gives the wire frames without twist in its present shape. Their first axis at the wire's start is
  * the part of normal across it. straight: 1 if the unloaded wire is straight, else it has the

@@ -92,23 +92,40 @@ sw_status sw_mesh_smooth(sw_mesh *m, size_t i, const sw_mesh *before, const doub
   return status;
 }
 
+/* Returns the curvature between the middles of edges a and b, a vector [1/m]. */
+static sw_vec curvature_between(const sw_mesh *m, size_t a, size_t b) {
+  const double way = 0.5 * (m->s[b] + m->s[b + 1] - m->s[a] - m->s[a + 1]);
+  return sw_scale(sw_sub(direction(m->x, b), direction(m->x, a)), 1.0 / way);
+}
+
+/* Returns the curvature at node i, as a mean over the edges beside it, in which hinges beside a
+ * clamp and others count alike; at an end, it is extrapolated from the two nodes before. */
+static sw_vec curvature_at(const sw_mesh *m, size_t i) {
+  const size_t last = m->n - 2; /* edge */
+  if (last < 2) return sw_v(0, 0, 0);
+  if (i > 0 && i <= last) return curvature_between(m, i > 1 ? i - 2 : 0, i < last ? i + 1 : last);
+  const size_t e = i ? last - 1 : 0, next = i ? last - 2 : 1; /* pairs of edges: near, far */
+  const sw_vec near = curvature_between(m, e, e + 1), far = curvature_between(m, next, next + 1);
+  const double way = fabs(m->s[e + 1] - m->s[i]) / fabs(m->s[next + 1] - m->s[e + 1]);
+  return sw_madd(near, sw_sub(near, far), way);
+}
+
 /* Adds to *sum how far a clamp at node i must lie inside the curve through the nodes on this side.
  * Where a wire has curvature k and edges h, the hinges beside a clamp put all free nodes k h^2/12
  * further from its tangent than the axis (clamp_hinge_length in plan.c). A clamp put on the axis
- * would begin with up to four times the bend. Returns 0 if there is no curve. */
+ * would begin with up to four times the bend. Returns 0 if there is no wire on this side. */
 static int add_offset(const sw_mesh *m, size_t i, int side, sw_vec *sum) {
-  if (side > 0 ? i == 0 || i + 2 >= m->n : i < 2 || i + 1 == m->n) return 0;
-  const double before = m->s[i] - m->s[i - 1], after = m->s[i + 1] - m->s[i];
-  const double first = side > 0 ? after : before;
+  if (side > 0 ? i + 2 >= m->n : i < 2) return 0;
+  const double first = side > 0 ? m->s[i + 1] - m->s[i] : m->s[i] - m->s[i - 1];
   const double second = side > 0 ? m->s[i + 2] - m->s[i + 1] : m->s[i - 1] - m->s[i - 2];
   double clamp, next;
   sw_plan_clamp_lengths(first, second, &clamp, &next);
-  const sw_vec turn = sw_sub(direction(m->x, i), direction(m->x, i - 1));
-  *sum = sw_add(*sum, sw_scale(turn, 2.0 / (before + after) * (0.5 * first - clamp) * first));
+  *sum = sw_madd(*sum, curvature_at(m, i), (0.5 * first - clamp) * first);
   return 1;
 }
 
-sw_status sw_mesh_lean(sw_mesh *m, size_t first, size_t last, const double *keep, size_t count) {
+sw_status sw_mesh_lean(sw_mesh *m, size_t first, size_t last, int way, const double *keep,
+                       size_t count) {
   size_t lo, hi;
   sw_vec sum = sw_v(0, 0, 0);
   sw_mesh chords = {0}, fresh = {0};
@@ -118,9 +135,9 @@ sw_status sw_mesh_lean(sw_mesh *m, size_t first, size_t last, const double *keep
   const double held[6] = {m->s[0], m->s[lo], m->s[first], m->s[last], m->s[hi], m->s[m->n - 1]};
   sw_status status = copy_chords(m, &chords);
   for (size_t i = first; i <= last && status == SW_OK; i++)
-    sw_store(chords.x + 3 * i, sw_madd(sw_vec_at(m->x, i), sum, 1.0 / sides));
+    sw_store(chords.x + 3 * i, sw_madd(sw_vec_at(m->x, i), sum, (double)way / sides));
   if (status == SW_OK) status = sw_mesh_resample(&chords, m->s, m->n, held, 3, &fresh);
-  if (status == SW_OK && is_near(m, &fresh, lo, hi, m->n)) copy(m->x, fresh.x, 3, lo + 1, hi);
+  if (status == SW_OK && is_near(m, &fresh, lo, hi, m->n)) copy(m->x, fresh.x, 3, lo, hi + 1);
   sw_mesh_free(&chords);
   sw_mesh_free(&fresh);
   return status;
