@@ -76,17 +76,6 @@ static void check_keys(lua_State *L, int index, const char *what) {
   }
 }
 
-sw_vec lsw_turn(lua_State *L, int index, const char *what) {
-  const int top = lua_gettop(L);
-  lua_getfield(L, index, "axis");
-  const sw_vec axis = lsw_vector(L, -2, lua_pushfstring(L, "%s.axis", what), "-");
-  lua_getfield(L, index, "angle");
-  const double angle = lsw_number(L, -2, lua_pushfstring(L, "%s.angle", what), "rad");
-  if (sw_norm(axis) == 0) luaL_error(L, "%s.axis must not be the zero vector", what);
-  lua_settop(L, top);
-  return sw_scale(sw_unit_or(axis, sw_v(0, 0, 1)), angle);
-}
-
 /* Returns the turn {axis=, angle=} on top of the stack, as axis times angle [rad]. */
 static sw_vec read_turn(lua_State *L, const char *what) {
   const int index = lua_gettop(L);

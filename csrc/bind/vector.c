@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Vectors, places, rotations: Lua tables to C and back. */
+#include <math.h>
+#include <stdio.h>
+
+#include "bind/class.h"
+
+/* Pushes item i of the table, or its field name if there is no item i. */
+static void push_item(lua_State *L, int table, int i, const char *name) {
+  if (lua_geti(L, table, i) == LUA_TNIL) {
+    lua_pop(L, 1);
+    lua_getfield(L, table, name);
+  }
+}
+
+static void numbers(lua_State *L, int index, const char *what, const char *unit, int count,
+                    const char *const *names, double *out) {
+  index = lua_absindex(L, index);
+  if (!lua_istable(L, index)) {
+    luaL_error(L, "%s must be a table of %d numbers [%s], got %s", what, count, unit,
+               lsw_describe(L, index));
+    return;
+  }
+  if (lua_rawlen(L, index) > (size_t)count)
+    luaL_error(L, "%s must have %d numbers, got %d", what, count, (int)lua_rawlen(L, index));
+  for (int i = 0; i < count; i++) {
+    push_item(L, index, i + 1, names[i]);
+    out[i] = lsw_number(L, -2, lua_pushfstring(L, "%s, item %d,", what, i + 1), unit);
+    lua_pop(L, 2);
+  }
+}
+
+sw_vec lsw_vector(lua_State *L, int index, const char *what, const char *unit) {
+  static const char *const names[] = {"x", "y", "z"};
+  double v[3] = {0, 0, 0};
+  numbers(L, index, what, unit, 3, names, v);
+  return sw_v(v[0], v[1], v[2]);
+}
+
+sw_vec lsw_place(lua_State *L, int index, const char *what) {
+  const sw_vec p = lsw_vector(L, index, what, "m");
+  const double v[] = {p.x, p.y, p.z};
+  for (int i = 0; i < 3; i++) {
+    if (fabs(v[i]) <= SW_PLACE_FARTHEST) continue;
+    char range[96];
+    snprintf(range, sizeof range, "%g m is not allowed; it must be in [%g, %g] m", v[i],
+             -SW_PLACE_FARTHEST, SW_PLACE_FARTHEST);
+    luaL_error(L, "%s: %c = %s", what, "xyz"[i], range);
+  }
+  return p;
+}
+
+sw_vec lsw_turn(lua_State *L, int index, const char *what) {
+  const int top = lua_gettop(L);
+  lua_getfield(L, index, "axis");
+  const sw_vec axis = lsw_vector(L, -2, lua_pushfstring(L, "%s.axis", what), "-");
+  lua_getfield(L, index, "angle");
+  const double angle = lsw_number(L, -2, lua_pushfstring(L, "%s.angle", what), "rad");
+  if (sw_norm(axis) == 0) luaL_error(L, "%s.axis must not be the zero vector", what);
+  lua_settop(L, top);
+  return sw_scale(sw_unit_or(axis, sw_v(0, 0, 1)), angle);
+}
+
+sw_quat lsw_rotation(lua_State *L, int index, const char *what) {
+  static const char *const names[] = {"w", "x", "y", "z"};
+  double q[4] = {1, 0, 0, 0};
+  index = lua_absindex(L, index);
+  if (lua_isnoneornil(L, index)) return sw_quat_identity();
+  if (lua_istable(L, index)) {
+    const int turns = lua_getfield(L, index, "axis") != LUA_TNIL;
+    lua_pop(L, 1);
+    if (turns) return sw_quat_exp(lsw_turn(L, index, what));
+  }
+  numbers(L, index, what, "-", 4, names, q);
+  if (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] == 0)
+    luaL_error(L, "%s must not be the zero quaternion", what);
+  return sw_quat_unit((sw_quat){q[0], q[1], q[2], q[3]});
+}
+
+void lsw_push_vector(lua_State *L, sw_vec a) {
+  lua_createtable(L, 3, 0);
+  lua_pushnumber(L, a.x), lua_rawseti(L, -2, 1);
+  lua_pushnumber(L, a.y), lua_rawseti(L, -2, 2);
+  lua_pushnumber(L, a.z), lua_rawseti(L, -2, 3);
+}
+
+void lsw_push_quaternion(lua_State *L, sw_quat q) {
+  lua_createtable(L, 4, 0);
+  lua_pushnumber(L, q.w), lua_rawseti(L, -2, 1);
+  lua_pushnumber(L, q.x), lua_rawseti(L, -2, 2);
+  lua_pushnumber(L, q.y), lua_rawseti(L, -2, 3);
+  lua_pushnumber(L, q.z), lua_rawseti(L, -2, 4);
+}
