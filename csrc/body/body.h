@@ -33,11 +33,13 @@ typedef struct sw_body_class {
   /* Hold. widen: extends an interval to one that can be held [m]. */
   void (*widen)(const sw_mesh *mesh, double *s1, double *s2);
   /* place: finds a new hold's interval, for which nodes may move. grasp: finds what the hold holds,
-   * and its pose. refine: makes enough edges between the hold and others. SW_ENOMEM. */
+   * and its pose. refine: makes enough edges between the hold and others; NULL: place has.
+   * SW_ENOMEM. */
   sw_status (*place)(sw_scene *scene, sw_hold *hold, const sw_hold_args *args);
   sw_status (*grasp)(const sw_scene_wire *wire, sw_hold *hold, const sw_hold_args *args);
-  /* A hold has let go: its nodes may move. NULL: they do not. SW_ENOMEM. */
-  sw_status (*leave)(sw_scene *scene, const sw_hold *hold);
+  /* lean: shifts what a clamping hold has by what its hinges need (way 1, see sw_mesh_lean), or
+   * back, before it lets go or nodes change (-1). NULL: nothing to shift. SW_ENOMEM. */
+  sw_status (*lean)(sw_scene *scene, sw_hold *hold, int way);
   sw_status (*refine)(const sw_scene *scene, const sw_hold *hold, sw_mesh *mesh);
   /* Adds what the hold holds to the system's held nodes, each like `node`. */
   void (*add_held)(const sw_body *body, const sw_hold *hold, sw_held_node node, sw_system *system);

@@ -88,26 +88,28 @@ static void widen(const sw_mesh *m, double *s1, double *s2) { (void)m, (void)s1,
  * wire's energy grows when edges are halved. */
 enum { LEAST_EDGES = 4 };
 
-/* Halves every edge between the nodes at arc lengths low and high. */
-static sw_status halve_edges(sw_mesh *m, double low, double high) {
-  const size_t first = sw_mesh_node(m, low), count = sw_mesh_node(m, high) - first + 1;
-  double placed, *nodes SW_LOCAL = sw_alloc(count, sizeof *nodes);
-  if (!nodes) return SW_ENOMEM;
-  memcpy(nodes, m->s + first, count * sizeof *nodes);
-  for (size_t i = 0; i + 1 < count; i++)
-    SW_TRY(sw_mesh_place(m, 0.5 * (nodes[i] + nodes[i + 1]), nodes, count, &placed));
-  return SW_OK;
+/* Finds the wire between hold h and another one; 0: none. */
+static int gap_between(const sw_hold *h, const sw_hold *o, double *low, double *high) {
+  if (!o->alive || o->wire != h->wire || o == h) return 0;
+  *low = o->s2 < h->s1 ? o->s2 : h->s2, *high = o->s2 < h->s1 ? h->s1 : o->s1;
+  return *low < *high;
+}
+
+static int is_short(const sw_mesh *m, double low, double high) {
+  return sw_mesh_node(m, high) - sw_mesh_node(m, low) < LEAST_EDGES;
 }
 
 /* Makes enough edges between h and the holds beside it. */
 static sw_status refine_gaps(const sw_scene *s, const sw_hold *h, sw_mesh *m) {
+  double *keep SW_LOCAL = new_places(s, h->wire);
+  if (!keep) return SW_ENOMEM;
+  const size_t count = kept_places(s, h->wire, keep);
   SW_EACH(hold, o, s) {
-    if (!o->alive || o->wire != h->wire || o == h) continue;
-    const double low = o->s2 < h->s1 ? o->s2 : h->s2, high = o->s2 < h->s1 ? h->s1 : o->s1;
-    for (size_t before = 0; low < high && before < m->n;) { /* ends when nothing is halved */
+    double low, high;
+    if (!gap_between(h, o, &low, &high)) continue;
+    for (size_t before = 0; is_short(m, low, high) && before < m->n;) { /* or nothing is halved */
       before = m->n;
-      if (sw_mesh_node(m, high) - sw_mesh_node(m, low) < LEAST_EDGES)
-        SW_TRY(halve_edges(m, low, high));
+      SW_TRY(sw_mesh_halve(m, low, high, keep, count));
     }
   }
   return SW_OK;
@@ -121,38 +123,64 @@ static double off_nodes(const sw_mesh *m, double s) {
 
 /* 1 if the hold clamps the wire, so that the hinges beside it count. A feed's wire goes on moving.
  */
-static int leans(const sw_hold *h, const sw_mesh *m) {
-  return h->cls->hold->direction && !sw_hold_passes(h) && !m->rest;
-}
+static int leans(const sw_hold *h) { return h->cls->hold->direction && !sw_hold_passes(h); }
 
-static sw_status leave(sw_scene *s, const sw_hold *h) {
+/* Leans a hold's nodes by its way, see sw_mesh_lean; where it has grasped them, they stay in its
+ * grasp. */
+static sw_status lean(sw_scene *s, sw_hold *h, int way) {
   sw_mesh *m = &sw_scene_wire_in(s, h->wire)->mesh;
-  if (!leans(h, m)) return SW_OK;
+  if (!leans(h)) return SW_OK;
   double *keep SW_LOCAL = new_places(s, h->wire);
   if (!keep) return SW_ENOMEM;
+  const size_t count = kept_places(s, h->wire, keep);
   const size_t first = sw_mesh_node(m, h->s1), last = sw_mesh_node(m, h->s2);
-  return sw_mesh_lean(m, first, last, -1, keep, kept_places(s, h->wire, keep));
+  const sw_vec from = sw_vec_at(m->x, first);
+  SW_TRY(sw_mesh_lean(m, first, last, way, keep, count));
+  const sw_vec by = sw_unrotate(h->turn, sw_sub(sw_vec_at(m->x, first), from));
+  if (!h->local || !(sw_norm(by) > 0)) return SW_OK;
+  for (size_t i = 0; i < h->count; i++) sw_accumulate(h->local + 3 * i, by);
+  h->shape = sw_scene_number(s); /* kept states have the one before */
+  return SW_OK;
 }
 
-static sw_status place(sw_scene *s, sw_hold *h, const sw_hold_args *a) {
+/* Finds places for the hold's ends. */
+static sw_status place_ends(sw_scene *s, sw_hold *h, const double ends[2], double width) {
   sw_mesh *m = &sw_scene_wire_in(s, h->wire)->mesh;
-  double ends[2], placed[2], *keep = new_places(s, h->wire);
+  double placed[2], *keep SW_LOCAL = new_places(s, h->wire);
   if (!keep) return SW_ENOMEM;
   size_t n = kept_places(s, h->wire, keep);
-  sw_body_interval(m, a, &ends[0], &ends[1]);
   /* the end nearer to a node takes it first, whichever end arc length counts from */
   const int order = off_nodes(m, ends[1]) < off_nodes(m, ends[0]);
-  sw_status status = sw_mesh_place(m, ends[order], keep, n, &placed[order]);
+  SW_TRY(sw_mesh_place(m, ends[order], keep, n, &placed[order]));
   placed[!order] = placed[order];
-  if (status == SW_OK && a->width > 0) {
+  if (width > 0) {
     keep[n++] = placed[order];
-    status = sw_mesh_place(m, ends[!order], keep, n, &placed[!order]);
+    SW_TRY(sw_mesh_place(m, ends[!order], keep, n, &placed[!order]));
   }
   h->s1 = placed[0], h->s2 = placed[1];
-  if (status == SW_OK && leans(h, m))
-    status = sw_mesh_lean(m, sw_mesh_node(m, h->s1), sw_mesh_node(m, h->s2), 1, keep, n);
-  sw_free(keep);
-  return status;
+  return SW_OK;
+}
+
+/* Holds near the new one leave the curve by another length where edges change: they go back to the
+ * curve before, and leave it again. */
+static sw_status place(sw_scene *s, sw_hold *h, const sw_hold_args *a) {
+  sw_mesh *m = &sw_scene_wire_in(s, h->wire)->mesh;
+  const size_t holds = sw_scene_hold_slots(s);
+  int *again SW_LOCAL = sw_alloc(holds, sizeof *again);
+  double ends[2], low, high;
+  if (!again) return SW_ENOMEM;
+  sw_body_interval(m, a, &ends[0], &ends[1]);
+  h->s1 = ends[0], h->s2 = ends[1];
+  for (size_t k = 0; k < holds; k++) {
+    sw_hold *o = sw_scene_hold_in(s, k);
+    again[k] = gap_between(h, o, &low, &high) && is_short(m, low, high);
+    if (again[k]) SW_TRY(lean(s, o, -1));
+  }
+  SW_TRY(place_ends(s, h, ends, a->width));
+  SW_TRY(refine_gaps(s, h, m));
+  for (size_t k = 0; k < holds; k++)
+    if (again[k]) SW_TRY(lean(s, sw_scene_hold_in(s, k), 1));
+  return lean(s, h, 1);
 }
 
 /* Finds the held places in the hold's frame. Its origin is the point at s, its axes are the world's
@@ -252,9 +280,8 @@ const sw_body_class sw_body_line = {.held = "node",
                                     .take = take,
                                     .widen = widen,
                                     .place = place,
-                                    .leave = leave,
+                                    .lean = lean,
                                     .grasp = grasp,
-                                    .refine = refine_gaps,
                                     .add_held = add_held,
                                     .check_holds = check_holds,
                                     .carry_over = carry_over,

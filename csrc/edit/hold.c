@@ -64,7 +64,7 @@ static sw_status take_places(sw_scene *s, sw_hold *h, const sw_hold_args *a) {
   const sw_body_class *body = sw_body_class_of(w);
   SW_TRY(body->place(s, h, a));
   SW_TRY(body->grasp(w, h, a));
-  return body->refine(s, h, &w->mesh);
+  return body->refine ? body->refine(s, h, &w->mesh) : SW_OK;
 }
 
 static sw_status check_axis(const sw_scene_wire *w, const sw_link_class *cls, const char *what,
@@ -239,7 +239,7 @@ sw_status sw_scene_release_hold(sw_scene *s, sw_handle hold, sw_error *err) {
   SW_TRY(sw_scene_unbuild(s));
   h->alive = 0; /* its own places may move */
   const sw_body_class *body = sw_body_class_of(sw_scene_wire_in(s, h->wire));
-  if (body->leave && body->leave(s, h) != SW_OK)
+  if (body->lean && body->lean(s, h, -1) != SW_OK)
     return h->alive = 1, sw_fail(err, SW_ENOMEM, "%s: out of memory", h->name);
   h->last_pose = now.pose;
   sw_drive_free(&h->drive);

@@ -60,6 +60,10 @@ sw_status sw_mesh_resample(const sw_mesh *from, const double *s, size_t count, c
 sw_status sw_mesh_smooth(sw_mesh *mesh, size_t i, const sw_mesh *before, const double *keep,
                          size_t keep_count);
 
+/* Halves every edge between the nodes at arc lengths low and high, with new nodes on the wire's
+ * curve. keep: as above. SW_ENOMEM. */
+sw_status sw_mesh_halve(sw_mesh *mesh, double low, double high, const double *keep, size_t count);
+
 /* Shifts nodes first to last of a bent wire for a hold that is about to clamp them (way 1), to
  * where the hinges beside them have the bend that the wire has there, or back for one that has let
  * go

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "state/hinge.h"
 #include "state/mesh.h"
 #include "state/plan.h"
 
@@ -77,11 +78,10 @@ static void copy_stretch(const sw_mesh *from, sw_mesh *to, size_t lo, size_t hi)
   copy(to->spin, from->spin, 1, lo, hi);
 }
 
-sw_status sw_mesh_smooth(sw_mesh *m, size_t i, const sw_mesh *before, const double *keep,
-                         size_t count) {
-  size_t lo, hi;
+/* Puts the nodes between lo and hi on the curve through the nodes before. i: the node that may go
+ * far, or none. */
+static sw_status put_on_curve(sw_mesh *m, size_t lo, size_t hi, size_t i, const sw_mesh *before) {
   sw_mesh chords = {0}, fresh = {0};
-  find_reach(m, i, i, keep, count, &lo, &hi);
   if (!is_bent(m, lo, hi)) return SW_OK;
   const double held[4] = {m->s[0], m->s[lo], m->s[hi], m->s[m->n - 1]};
   sw_status status = copy_chords(before, &chords);
@@ -92,52 +92,118 @@ sw_status sw_mesh_smooth(sw_mesh *m, size_t i, const sw_mesh *before, const doub
   return status;
 }
 
-/* Returns the curvature between the middles of edges a and b, a vector [1/m]. */
-static sw_vec curvature_between(const sw_mesh *m, size_t a, size_t b) {
-  const double way = 0.5 * (m->s[b] + m->s[b + 1] - m->s[a] - m->s[a + 1]);
-  return sw_scale(sw_sub(direction(m->x, b), direction(m->x, a)), 1.0 / way);
+sw_status sw_mesh_smooth(sw_mesh *m, size_t i, const sw_mesh *before, const double *keep,
+                         size_t count) {
+  size_t lo, hi;
+  find_reach(m, i, i, keep, count, &lo, &hi);
+  return put_on_curve(m, lo, hi, i, before);
 }
 
-/* Returns the curvature at node i, as a mean over the edges beside it, in which hinges beside a
- * clamp and others count alike; at an end, it is extrapolated from the two nodes before. */
-static sw_vec curvature_at(const sw_mesh *m, size_t i) {
+static int is_kept(const double *keep, size_t count, double s) {
+  for (size_t k = 0; k < count; k++)
+    if (keep[k] == s) return 1;
+  return 0;
+}
+
+/* The chord of a long edge is longer than that of its halves on the curve, so that nodes beyond its
+ * ends have to move with it: at least at one of them. */
+sw_status sw_mesh_halve(sw_mesh *m, double low, double high, const double *keep, size_t count) {
+  sw_mesh before = {0};
+  size_t lo, hi, none;
+  SW_TRY(sw_mesh_copy(m, &before));
+  sw_status status = SW_OK;
+  for (size_t e = sw_mesh_node(m, high); e-- > sw_mesh_node(m, low) && status == SW_OK;)
+    status = sw_mesh_insert(m, e, 0.5 * (m->s[e] + m->s[e + 1]));
+  const size_t first = sw_mesh_node(m, low), last = sw_mesh_node(m, high);
+  find_reach(m, first, first, keep, count, &lo, &none);
+  find_reach(m, last, last, keep, count, &none, &hi);
+  if (is_kept(keep, count, low)) lo = first;
+  if (is_kept(keep, count, high)) hi = last;
+  if (status == SW_OK && (m->rest || !m->drawn)) status = put_on_curve(m, lo, hi, m->n, &before);
+  sw_mesh_free(&before);
+  return status;
+}
+
+static double middle(const sw_mesh *m, size_t e) { return 0.5 * (m->s[e] + m->s[e + 1]); }
+
+/* Returns the curvature of a curve through nodes between the middles of edges a and b, a vector
+ * [1/m]. */
+static sw_vec curvature_between(const sw_mesh *m, const double *nodes, size_t a, size_t b) {
+  const sw_vec turn = sw_sub(direction(nodes, b), direction(nodes, a));
+  return sw_scale(turn, 1.0 / (middle(m, b) - middle(m, a)));
+}
+
+/* Returns the same at node i, as a mean over the edges beside it, in which hinges beside a clamp
+ * and others count alike; at an end, it is extrapolated from the five edges there. */
+static sw_vec curvature_at(const sw_mesh *m, const double *nodes, size_t i) {
   const size_t last = m->n - 2; /* edge */
-  if (last < 2) return sw_v(0, 0, 0);
-  if (i > 0 && i <= last) return curvature_between(m, i > 1 ? i - 2 : 0, i < last ? i + 1 : last);
-  const size_t e = i ? last - 1 : 0, next = i ? last - 2 : 1; /* pairs of edges: near, far */
-  const sw_vec near = curvature_between(m, e, e + 1), far = curvature_between(m, next, next + 1);
-  const double way = fabs(m->s[e + 1] - m->s[i]) / fabs(m->s[next + 1] - m->s[e + 1]);
+  if (last < 4) return sw_v(0, 0, 0);
+  if (i > 0 && i <= last)
+    return curvature_between(m, nodes, i > 1 ? i - 2 : 0, i < last ? i + 1 : last);
+  const size_t end = i ? last : 0, two = i ? last - 2 : 2, four = i ? last - 4 : 4;
+  const sw_vec near = curvature_between(m, nodes, i ? two : end, i ? end : two);
+  const sw_vec far = curvature_between(m, nodes, i ? four : two, i ? two : four);
+  const double at = 0.5 * (middle(m, end) + middle(m, two));
+  const double way = fabs((at - m->s[i]) / (0.5 * (middle(m, two) + middle(m, four)) - at));
   return sw_madd(near, sw_sub(near, far), way);
 }
 
-/* Adds to *sum how far a clamp at node i must lie inside the curve through the nodes on this side.
- * Where a wire has curvature k and edges h, the hinges beside a clamp put all free nodes k h^2/12
- * further from its tangent than the axis (clamp_hinge_length in plan.c). A clamp put on the axis
- * would begin with up to four times the bend. Returns 0 if there is no wire on this side. */
-static int add_offset(const sw_mesh *m, size_t i, int side, sw_vec *sum) {
-  if (side > 0 ? i + 2 >= m->n : i < 2) return 0;
+/* Returns what the wire's curvature at node i differs by from that of the unloaded wire [1/m]. */
+static sw_vec flexure_at(const sw_mesh *m, size_t i) {
+  const sw_vec now = curvature_at(m, m->x, i);
+  if (!m->rest) return now;
+  const size_t e = i + 1 < m->n ? i : i - 1;
+  const sw_vec k = curvature_at(m, m->rest, i), a = sw_vec_at(m->rest_normal, e);
+  const sw_vec n = sw_vec_at(m->normal, e);
+  const double one = sw_dot(k, a), two = sw_dot(k, sw_cross(direction(m->rest, e), a));
+  return sw_sub(now, sw_madd(sw_scale(n, one), sw_cross(direction(m->x, e), n), two));
+}
+
+/* Adds to *sum how far a clamp at node i must lie inside the curve through the nodes on this side,
+ * times a weight, and the weight to *weights. Where a wire has curvature k and edges h, the hinges
+ * beside a clamp put all free nodes k h^2/12 further from its tangent than the axis
+ * (clamp_hinge_length in plan.c). A clamp put on the axis would begin with up to four times the
+ * bend. The weight is that of least squares for the bends of both sides: short edges count more. */
+static void add_offset(const sw_mesh *m, size_t i, int side, sw_vec *sum, double *weights) {
+  if (side > 0 ? i + 2 >= m->n : i < 2) return;
   const double first = side > 0 ? m->s[i + 1] - m->s[i] : m->s[i] - m->s[i - 1];
   const double second = side > 0 ? m->s[i + 2] - m->s[i + 1] : m->s[i - 1] - m->s[i - 2];
   double clamp, next;
   sw_plan_clamp_lengths(first, second, &clamp, &next);
-  *sum = sw_madd(*sum, curvature_at(m, i), (0.5 * first - clamp) * first);
-  return 1;
+  const double weight = 1.0 / (first * clamp * first * clamp);
+  *sum = sw_madd(*sum, flexure_at(m, i), weight * (0.5 * first - clamp) * first);
+  *weights += weight;
+}
+
+/* Shifts nodes first to last; frames follow the edges beside them. */
+static void shift(const sw_mesh *m, sw_mesh *to, size_t first, size_t last, sw_vec by) {
+  for (size_t i = first; i <= last; i++) sw_store(to->x + 3 * i, sw_add(sw_vec_at(m->x, i), by));
+  for (size_t k = 0; k < 2 && m->rest; k++) {
+    const size_t e = k ? last : first - 1; /* first = 0: there is none */
+    if (e + 1 >= m->n) continue;
+    const sw_vec was = direction(m->x, e), now = direction(to->x, e);
+    sw_store(to->normal + 3 * e, sw_carry_unit(sw_vec_at(m->normal, e), was, now));
+  }
 }
 
 sw_status sw_mesh_lean(sw_mesh *m, size_t first, size_t last, int way, const double *keep,
                        size_t count) {
   size_t lo, hi;
+  double weights = 0;
   sw_vec sum = sw_v(0, 0, 0);
   sw_mesh chords = {0}, fresh = {0};
   find_reach(m, first, last, keep, count, &lo, &hi);
-  const int sides = add_offset(m, first, -1, &sum) + add_offset(m, last, 1, &sum);
-  if (!sides || m->drawn || !turns(m->x, lo, hi)) return SW_OK;
+  add_offset(m, first, -1, &sum, &weights);
+  add_offset(m, last, 1, &sum, &weights);
+  if (!(weights > 0) || m->drawn || !is_bent(m, lo, hi)) return SW_OK;
   const double held[6] = {m->s[0], m->s[lo], m->s[first], m->s[last], m->s[hi], m->s[m->n - 1]};
   sw_status status = copy_chords(m, &chords);
-  for (size_t i = first; i <= last && status == SW_OK; i++)
-    sw_store(chords.x + 3 * i, sw_madd(sw_vec_at(m->x, i), sum, (double)way / sides));
+  if (status == SW_OK) shift(m, &chords, first, last, sw_scale(sum, way / weights));
   if (status == SW_OK) status = sw_mesh_resample(&chords, m->s, m->n, held, 3, &fresh);
-  if (status == SW_OK && is_near(m, &fresh, lo, hi, m->n)) copy(m->x, fresh.x, 3, lo, hi + 1);
+  if (status == SW_OK && is_near(m, &fresh, lo, hi, m->n)) {
+    copy_stretch(&fresh, m, lo, hi);
+    copy(m->x, fresh.x, 3, lo, hi + 1); /* its ends too, where they are the wire's */
+  }
   sw_mesh_free(&chords);
   sw_mesh_free(&fresh);
   return status;
