@@ -117,6 +117,15 @@ static int mod_remesh(lua_State *L) {
   return 0;
 }
 
+/* core.chord(wire, s) -> the place on the chord of its edge, where a tie acts [m] */
+static int mod_chord(lua_State *L) {
+  sw_point_state p;
+  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
+  const double s = lsw_number(L, 2, "chord: s", "m");
+  LSW_DO(L, sw_scene_wire_motion, w.scene, w.id, s, &p);
+  return lsw_push_vector(L, p.chord), 1;
+}
+
 /* core.came_from(wire, before = flat positions [m], span [s]): sets the velocity with which the
  * wire came from these positions in the time span. */
 static int mod_came_from(lua_State *L) {
@@ -272,10 +281,9 @@ const lsw_class lsw_class_snapshot = {.name = "snapshot",
                                       .gone = "the snapshot has been closed",
                                       .busy = snapshot_busy};
 
-const luaL_Reg lsw_module_scene[] = {{"scene", mod_scene},       {"data", mod_data},
-                                     {"type", mod_type},         {"busy", mod_busy},
-                                     {"exists", mod_exists},     {"interrupted", mod_interrupted},
-                                     {"clock", mod_clock},       {"sleep", mod_sleep},
-                                     {"nearest", mod_nearest},   {"remesh", mod_remesh},
-                                     {"redraw", mod_redraw},     {"came_from", mod_came_from},
-                                     {"segments", mod_segments}, {NULL, NULL}};
+const luaL_Reg lsw_module_scene[] = {
+    {"scene", mod_scene},   {"data", mod_data},         {"type", mod_type},
+    {"busy", mod_busy},     {"exists", mod_exists},     {"interrupted", mod_interrupted},
+    {"clock", mod_clock},   {"sleep", mod_sleep},       {"nearest", mod_nearest},
+    {"remesh", mod_remesh}, {"redraw", mod_redraw},     {"came_from", mod_came_from},
+    {"chord", mod_chord},   {"segments", mod_segments}, {NULL, NULL}};

@@ -130,6 +130,7 @@ void sw_line_at(const sw_scene *s, const sw_scene_wire *w, const sw_body *b, dou
   const double h10 = f * (1 - f) * (1 - f), h01 = f * f * (3 - 2 * f), h11 = f * f * (f - 1);
   out->position = sw_add(sw_add(sw_scale(sw_load(x), h00), sw_scale(t0, l * h10)),
                          sw_add(sw_scale(sw_load(x + 3), h01), sw_scale(t1, l * h11)));
+  out->chord = sw_lerp(sw_load(x), sw_load(x + 3), f);
   out->velocity = sw_lerp(sw_load(v), sw_load(v + 3), f);
   out->tangent = sw_unit_or(sw_lerp(t0, t1, f), t0);
   out->curvature = k0 + f * (k1 - k0);

@@ -8,11 +8,12 @@
 
 typedef struct sw_point_state {
   sw_vec position, tangent, velocity; /* [m], [-], [m/s] */
-  double curvature;                   /* [1/m] */
-  double tension, elastic;            /* axial force; the same without dashpots [N] */
-  double twist_moment;                /* [N m] */
-  double spin;                        /* about the tangent, of a wire that rolls [rad/s] */
-  double strain, least_strain;        /* of the outermost fibres outside and inside the bend [-] */
+  sw_vec chord;     /* place on the chord of its edge, where ties and forces at points act [m] */
+  double curvature; /* [1/m] */
+  double tension, elastic;     /* axial force; the same without dashpots [N] */
+  double twist_moment;         /* [N m] */
+  double spin;                 /* about the tangent, of a wire that rolls [rad/s] */
+  double strain, least_strain; /* of the outermost fibres outside and inside the bend [-] */
 } sw_point_state;
 
 /* How sharp a bend is for the wire's edges. All are shares of its curvature [-]. */

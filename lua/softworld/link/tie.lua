@@ -59,12 +59,14 @@ local over = rows.call("tie:over", "t1, t2, {...}",
     usual = "that of the run" },
 })
 
+-- Returns the place that a tie holds: on the chord between two nodes. wire:position is on the curve through
+-- them, by k h^2/8 further out for a curvature k and edges h; a tie of that length would begin with a pull.
 local function place(what, wire, s, whose)
   if s > wire.length * (1 + 1e-12) then
     error(("%s: %ss = %.6g m is beyond the end of wire '%s' at %.6g m"):format(what, whose, s, wire.name,
       wire.length), 0)
   end
-  return wire:position(math.min(s, wire.length))
+  return core.chord(wire, math.min(s, wire.length))
 end
 
 -- Reads to = { wire, s = }: returns the wire, s and its position.
