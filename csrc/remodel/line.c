@@ -7,6 +7,7 @@
 
 #include "base/alloc.h"
 #include "base/interrupt.h"
+#include "link/hold.h"
 #include "read/reading.h"
 #include "scene/parts.h"
 #include "scene/values.h"
@@ -57,6 +58,13 @@ static double turn_between(sw_vec t0, sw_vec u0, sw_vec t1, sw_vec u1) {
   return sw_hinge_twist(&a, &b, 0.0);
 }
 
+/* 1 if a hold keeps the line rigid at this arc length of its mesh. */
+static int is_rigid(const sw_scene *s, size_t wire, double at) {
+  SW_EACH(hold, h, s)
+    if (h->alive && h->wire == wire && h->s1 <= at && at <= h->s2) return 1;
+  return 0;
+}
+
 static sw_status sample(sw_scene *s, sw_handle h, const double *at, sw_line *out, sw_error *err) {
   const sw_scene_wire *w = sw_scene_wire_in(s, h.slot);
   SW_TRY(sw_scene_wire_length(s, h, &out->length, err));
@@ -69,7 +77,9 @@ static sw_status sample(sw_scene *s, sw_handle h, const double *at, sw_line *out
     sw_point_state p;
     if (sw_interrupted()) return SW_EINTR;
     SW_TRY(sw_scene_wire_at(s, h, out->s[i], &p, err));
-    sw_store(out->x + 3 * i, p.position);
+    /* between the nodes in a grip it is straight: on a curve its edges would be too long there */
+    const int rigid = !w->strand.web && is_rigid(s, h.slot, out->start + out->s[i]);
+    sw_store(out->x + 3 * i, rigid ? p.chord : p.position);
     sw_store(out->v + 3 * i, p.velocity);
     sw_store(out->frame + 6 * i, p.tangent);
     out->tension[i] = p.elastic;
