@@ -32,10 +32,11 @@ typedef struct sw_body_class {
 
   /* Hold. widen: extends an interval to one that can be held [m]. */
   void (*widen)(const sw_mesh *mesh, double *s1, double *s2);
-  /* place: finds a new hold's interval, for which nodes may move. grasp: finds what the hold holds,
+  /* place: finds a new hold's interval, for which nodes may move. fresh: 0 if it held the wire
+   * before the wire's model changed, and stays where it is. grasp: finds what the hold holds,
    * and its pose. refine: makes enough edges between the hold and others; NULL: place has.
    * SW_ENOMEM. */
-  sw_status (*place)(sw_scene *scene, sw_hold *hold, const sw_hold_args *args);
+  sw_status (*place)(sw_scene *scene, sw_hold *hold, const sw_hold_args *args, int fresh);
   sw_status (*grasp)(const sw_scene_wire *wire, sw_hold *hold, const sw_hold_args *args);
   /* lean: shifts what a clamping hold has by what its hinges need (way 1, see sw_mesh_lean), or
    * back, before it lets go or nodes change (-1). NULL: nothing to shift. SW_ENOMEM. */

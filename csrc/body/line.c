@@ -163,7 +163,7 @@ static sw_status place_ends(sw_scene *s, sw_hold *h, const double ends[2], doubl
 
 /* Holds near the new one leave the curve by another length where edges change: they go back to the
  * curve before, and leave it again. */
-static sw_status place(sw_scene *s, sw_hold *h, const sw_hold_args *a) {
+static sw_status place(sw_scene *s, sw_hold *h, const sw_hold_args *a, int fresh) {
   sw_mesh *m = &sw_scene_wire_in(s, h->wire)->mesh;
   const size_t holds = sw_scene_hold_slots(s);
   int *again SW_LOCAL = sw_alloc(holds, sizeof *again);
@@ -173,14 +173,14 @@ static sw_status place(sw_scene *s, sw_hold *h, const sw_hold_args *a) {
   h->s1 = ends[0], h->s2 = ends[1];
   for (size_t k = 0; k < holds; k++) {
     sw_hold *o = sw_scene_hold_in(s, k);
-    again[k] = gap_between(h, o, &low, &high) && is_short(m, low, high);
+    again[k] = fresh && gap_between(h, o, &low, &high) && is_short(m, low, high);
     if (again[k]) SW_TRY(lean(s, o, -1));
   }
   SW_TRY(place_ends(s, h, ends, a->width));
   SW_TRY(refine_gaps(s, h, m));
   for (size_t k = 0; k < holds; k++)
     if (again[k]) SW_TRY(lean(s, sw_scene_hold_in(s, k), 1));
-  return lean(s, h, 1);
+  return fresh ? lean(s, h, 1) : SW_OK;
 }
 
 /* Finds the held places in the hold's frame. Its origin is the point at s, its axes are the world's

@@ -57,7 +57,8 @@ static sw_status take(sw_scene *scene, size_t w) {
 
 /* --- hold ----------------------------------------------------------------------- */
 
-static sw_status place(sw_scene *s, sw_hold *h, const sw_hold_args *a) {
+static sw_status place(sw_scene *s, sw_hold *h, const sw_hold_args *a, int fresh) {
+  (void)fresh;
   const sw_mesh *m = &sw_scene_wire_in(s, h->wire)->mesh;
   sw_body_interval(m, a, &h->s1, &h->s2);
   sw_strand_rings(m, &h->s1, &h->s2);

@@ -59,10 +59,11 @@ static void take_directions(const sw_mesh *m, sw_hold *h, const sw_hold_args *a)
   }
 }
 
-static sw_status take_places(sw_scene *s, sw_hold *h, const sw_hold_args *a) {
+/* fresh: see sw_body_class. */
+static sw_status take_places(sw_scene *s, sw_hold *h, const sw_hold_args *a, int fresh) {
   sw_scene_wire *w = sw_scene_wire_in(s, h->wire);
   const sw_body_class *body = sw_body_class_of(w);
-  SW_TRY(body->place(s, h, a));
+  SW_TRY(body->place(s, h, a, fresh));
   SW_TRY(body->grasp(w, h, a));
   return body->refine ? body->refine(s, h, &w->mesh) : SW_OK;
 }
@@ -99,7 +100,7 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_link_class *cls, sw_handle wir
   h.args = *args, h.scale = sw_scene_wire_in(s, wire.slot)->mesh.scale;
   sw_scene_give_name(h.name, args->name, cls->name, sw_scene_hold_slots(s));
   take_directions(&sw_scene_wire_in(s, wire.slot)->mesh, &h, args);
-  sw_status status = take_places(s, &h, args);
+  sw_status status = take_places(s, &h, args, 1);
   if (status == SW_OK && acts->begin) {
     const sw_link_wire of = sw_scene_link_wire(s, wire.slot);
     status = acts->begin(&h, &of);
@@ -189,7 +190,7 @@ sw_status sw_scene_rehold(sw_scene *s, sw_hold *h, sw_pose pose, sw_error *err) 
   take_directions(&w->mesh, &new, &a);
   for (int k = 0; k < 2; k++) new.give[k].axis = sw_rotate(pose.q, h->give[k].axis);
   sw_status status = check_again(s, h, &a, err);
-  if (status == SW_OK) status = take_places(s, &new, &a);
+  if (status == SW_OK) status = take_places(s, &new, &a, 0);
   h->alive = 1;
   if (status != SW_OK) return drop_places(&new), status;
   seen_from(&new, pose);
@@ -225,7 +226,7 @@ sw_status sw_scene_retake_hold(sw_scene *s, sw_hold *h) {
   sw_hold new = without_places(h);
   a.s = fmin(a.s * m->scale / h->scale, m->s[m->n - 1]);
   take_directions(m, &new, &a);
-  sw_status status = take_places(s, &new, &a);
+  sw_status status = take_places(s, &new, &a, 0);
   if (status != SW_OK) return drop_places(&new), status;
   return become(s, h, &new, h->turn);
 }
