@@ -353,6 +353,7 @@ sw_status sw_mesh_place(sw_mesh *m, double s, const double *keep, size_t keep_co
     return SW_OK;
   }
   *placed = s;
-  if (m->rest || !m->drawn) return place_on_curve(m, i, s, keep, keep_count);
+  if ((m->rest || !m->drawn) && sw_mesh_is_bent_near(m, i))
+    return place_on_curve(m, i, s, keep, keep_count);
   return place_on_chords(m, &i, s, keep, keep_count);
 }

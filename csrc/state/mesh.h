@@ -60,6 +60,9 @@ sw_status sw_mesh_resample(const sw_mesh *from, const double *s, size_t count, c
 sw_status sw_mesh_smooth(sw_mesh *mesh, size_t i, const sw_mesh *before, const double *keep,
                          size_t keep_count);
 
+/* 1 if the wire, or the unloaded wire, is bent where such neighbours are. */
+int sw_mesh_is_bent_near(const sw_mesh *mesh, size_t i);
+
 /* Halves every edge between the nodes at arc lengths low and high, with new nodes on the wire's
  * curve. keep: as above. SW_ENOMEM. */
 sw_status sw_mesh_halve(sw_mesh *mesh, double low, double high, const double *keep, size_t count);

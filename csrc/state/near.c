@@ -42,6 +42,24 @@ static int is_bent(const sw_mesh *m, size_t lo, size_t hi) {
   return turns(m->x, lo, hi) || (m->rest && turns(m->rest, lo, hi));
 }
 
+int sw_mesh_is_bent_near(const sw_mesh *m, size_t i) {
+  size_t lo, hi;
+  find_reach(m, i, i, NULL, 0, &lo, &hi);
+  return is_bent(m, lo, hi);
+}
+
+/* Returns nodes lo to hi of a mesh, in the mesh's own arrays. */
+static sw_mesh stretch_of(const sw_mesh *m, size_t lo, size_t hi) {
+  sw_mesh part = *m;
+  part.n = hi - lo + 1;
+  part.s += lo, part.tension += lo, part.rate += lo;
+  part.x += 3 * lo, part.v += 3 * lo, part.a += 3 * lo;
+  if (!m->rest) return part;
+  part.rest += 3 * lo, part.normal += 3 * lo, part.rest_normal += 3 * lo;
+  part.twist += lo, part.turn += lo, part.spin += lo;
+  return part;
+}
+
 /* Copies the mesh with the tensions that its chords have. Those of the wire differ from them by
  * what the solve leaves, which would bend a taut wire. */
 static sw_status copy_chords(const sw_mesh *m, sw_mesh *to) {
@@ -52,9 +70,9 @@ static sw_status copy_chords(const sw_mesh *m, sw_mesh *to) {
   return SW_OK;
 }
 
-/* 1 if no node between lo and hi, but node i, moved far. */
-static int is_near(const sw_mesh *from, const sw_mesh *to, size_t lo, size_t hi, size_t i) {
-  for (size_t k = lo + 1; k < hi; k++) {
+/* 1 if no inner node, but node i, moved far. */
+static int is_near(const sw_mesh *from, const sw_mesh *to, size_t i) {
+  for (size_t k = 1; k + 1 < from->n; k++) {
     const double edge = fmin(from->s[k + 1] - from->s[k], from->s[k] - from->s[k - 1]);
     const double way = sw_dist(sw_vec_at(from->x, k), sw_vec_at(to->x, k));
     if (k != i && !(way < FARTHEST * edge)) return 0;
@@ -66,27 +84,30 @@ static void copy(double *to, const double *from, size_t width, size_t first, siz
   if (to) memcpy(to + width * first, from + width * first, width * (end - first) * sizeof *to);
 }
 
-/* Copies nodes between lo and hi, and what the edges there have of frames. */
-static void copy_stretch(const sw_mesh *from, sw_mesh *to, size_t lo, size_t hi) {
-  copy(to->x, from->x, 3, lo + 1, hi);
-  copy(to->v, from->v, 3, lo + 1, hi);
-  copy(to->rest, from->rest, 3, lo + 1, hi);
-  copy(to->normal, from->normal, 3, lo, hi);
-  copy(to->rest_normal, from->rest_normal, 3, lo, hi);
-  copy(to->twist, from->twist, 1, lo + 1, hi);
-  copy(to->turn, from->turn, 1, lo, hi);
-  copy(to->spin, from->spin, 1, lo, hi);
+/* Copies inner nodes, and what edges have of frames. */
+static void copy_inner(const sw_mesh *from, sw_mesh *to) {
+  const size_t last = to->n - 1;
+  copy(to->x, from->x, 3, 1, last);
+  copy(to->v, from->v, 3, 1, last);
+  copy(to->rest, from->rest, 3, 1, last);
+  copy(to->normal, from->normal, 3, 0, last);
+  copy(to->rest_normal, from->rest_normal, 3, 0, last);
+  copy(to->twist, from->twist, 1, 1, last);
+  copy(to->turn, from->turn, 1, 0, last);
+  copy(to->spin, from->spin, 1, 0, last);
 }
 
 /* Puts the nodes between lo and hi on the curve through the nodes before. i: the node that may go
  * far, or none. */
 static sw_status put_on_curve(sw_mesh *m, size_t lo, size_t hi, size_t i, const sw_mesh *before) {
-  sw_mesh chords = {0}, fresh = {0};
+  sw_mesh part = stretch_of(m, lo, hi), chords = {0}, fresh = {0};
   if (!is_bent(m, lo, hi)) return SW_OK;
-  const double held[4] = {m->s[0], m->s[lo], m->s[hi], m->s[m->n - 1]};
-  sw_status status = copy_chords(before, &chords);
-  if (status == SW_OK) status = sw_mesh_resample(&chords, m->s, m->n, held, 2, &fresh);
-  if (status == SW_OK && is_near(m, &fresh, lo, hi, i)) copy_stretch(&fresh, m, lo, hi);
+  const sw_mesh was =
+      stretch_of(before, sw_mesh_node(before, m->s[lo]), sw_mesh_node(before, m->s[hi]));
+  const double held[4] = {m->s[lo], m->s[lo], m->s[hi], m->s[hi]};
+  sw_status status = copy_chords(&was, &chords);
+  if (status == SW_OK) status = sw_mesh_resample(&chords, part.s, part.n, held, 2, &fresh);
+  if (status == SW_OK && is_near(&part, &fresh, i - lo)) copy_inner(&fresh, &part);
   sw_mesh_free(&chords);
   sw_mesh_free(&fresh);
   return status;
@@ -196,13 +217,14 @@ sw_status sw_mesh_lean(sw_mesh *m, size_t first, size_t last, int way, const dou
   add_offset(m, first, -1, &sum, &weights);
   add_offset(m, last, 1, &sum, &weights);
   if (!(weights > 0) || m->drawn || !is_bent(m, lo, hi)) return SW_OK;
-  const double held[6] = {m->s[0], m->s[lo], m->s[first], m->s[last], m->s[hi], m->s[m->n - 1]};
-  sw_status status = copy_chords(m, &chords);
-  if (status == SW_OK) shift(m, &chords, first, last, sw_scale(sum, way / weights));
-  if (status == SW_OK) status = sw_mesh_resample(&chords, m->s, m->n, held, 3, &fresh);
-  if (status == SW_OK && is_near(m, &fresh, lo, hi, m->n)) {
-    copy_stretch(&fresh, m, lo, hi);
-    copy(m->x, fresh.x, 3, lo, hi + 1); /* its ends too, where they are the wire's */
+  sw_mesh part = stretch_of(m, lo, hi);
+  const double held[6] = {m->s[lo], m->s[lo], m->s[first], m->s[last], m->s[hi], m->s[hi]};
+  sw_status status = copy_chords(&part, &chords);
+  if (status == SW_OK) shift(&part, &chords, first - lo, last - lo, sw_scale(sum, way / weights));
+  if (status == SW_OK) status = sw_mesh_resample(&chords, part.s, part.n, held, 3, &fresh);
+  if (status == SW_OK && is_near(&part, &fresh, part.n)) {
+    copy_inner(&fresh, &part);
+    copy(part.x, fresh.x, 3, 0, part.n); /* its ends too, where they are the wire's */
   }
   sw_mesh_free(&chords);
   sw_mesh_free(&fresh);
