@@ -121,9 +121,11 @@ static double off_nodes(const sw_mesh *m, double s) {
   return i > 0 ? fmin(fabs(m->s[i] - s), s - m->s[i - 1]) : fabs(m->s[i] - s);
 }
 
-/* 1 if the hold clamps the wire, so that the hinges beside it count. A feed's wire goes on moving.
- */
-static int leans(const sw_hold *h) { return h->cls->hold->direction && !sw_hold_passes(h); }
+/* 1 if the hold clamps the wire, so that the hinges beside it count. A feed's wire goes on moving,
+ * and a frozen grip's places are given. */
+static int leans(const sw_hold *h) {
+  return h->cls->hold->direction && !sw_hold_passes(h) && !h->formed;
+}
 
 /* Leans a hold's nodes by its way, see sw_mesh_lean; where it has grasped them, they stay in its
  * grasp. */

@@ -96,11 +96,11 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_link_class *cls, sw_handle wir
     return sw_fail(err, SW_EINVAL, "feed: wire '%s' is joined to others by '%s': it cannot be fed",
                    sw_scene_wire_in(s, wire.slot)->name, join->name);
   SW_TRY(sw_scene_unbuild(s));
-  sw_hold h = {.alive = 1, .cls = cls, .wire = wire.slot};
+  sw_hold h = {.alive = 1, .cls = cls, .wire = wire.slot, .formed = args->formed};
   h.args = *args, h.scale = sw_scene_wire_in(s, wire.slot)->mesh.scale;
   sw_scene_give_name(h.name, args->name, cls->name, sw_scene_hold_slots(s));
   take_directions(&sw_scene_wire_in(s, wire.slot)->mesh, &h, args);
-  sw_status status = take_places(s, &h, args, 1);
+  sw_status status = take_places(s, &h, args, !args->formed);
   if (status == SW_OK && acts->begin) {
     const sw_link_wire of = sw_scene_link_wire(s, wire.slot);
     status = acts->begin(&h, &of);

@@ -29,6 +29,7 @@ typedef struct sw_hold_args {
   const double *points; /* (count x 3) of a curved rail, or NULL [m] */
   size_t count;
   int closed;      /* 1: the last point is followed by the first */
+  int formed;      /* 1: of a frozen grip, whose places are given */
   double friction; /* [-] */
 } sw_hold_args;
 

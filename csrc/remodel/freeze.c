@@ -112,9 +112,9 @@ static sw_status grip(sw_scene *s, sw_handle tool, const sw_frozen *f, const sw_
   args.s = 0.5 * (out->s1 + out->s2);
   args.width = out->s2 - out->s1;
   args.direction = sw_v(NAN, NAN, NAN);
+  args.formed = 1;
   SW_TRY(sw_scene_add_hold(s, cls, f->wire, &args, &out->hold, err));
   sw_hold *h = sw_scene_hold_in(s, out->hold.slot);
-  h->formed = 1;
   for (size_t k = 0; k < 2; k++) {
     const sw_vec at = sw_sub(ends[k].at, h->drive.pose.p);
     sw_store(h->local + 3 * (k ? h->count - 1 : 0), at);
