@@ -12,7 +12,7 @@
 void sw_tape_feed(sw_tape *t, sw_feed *x) {
   sw_guide *g = &x->guide;
   int shaped = g->shape.n > 0;
-  SW_TAPE_STRUCT(t, sw_feed, 384);
+  SW_TAPE_STRUCT(t, sw_feed, 392);
   sw_tape_int(t, &g->outward), GUIDE(label), DOUBLE(fed), DOUBLE(since), DOUBLE(speed);
   DOUBLE(start);
   sw_tape_motion(t, &x->motion);

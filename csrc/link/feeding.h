@@ -21,7 +21,9 @@ typedef struct sw_slip {
   double way_before;    /* the same at the end of the last accepted step [-] */
   sw_bracket found;     /* growths with too small and too large a force [m/s2], [N] */
   int evened;           /* 1: this step's force is the mix of the method's stages, without a blow */
-  double slope;         /* last slope of the force over the growth; 0 = unknown [kg] */
+  int anew;             /* 1: this step begins anew, see sw_course */
+  double off;   /* force less the asked one at this step's end, where it jumps; else 0 [N] */
+  double slope; /* last slope of the force over the growth; 0 = unknown [kg] */
 } sw_slip;
 
 /* The present values become those from which the next step starts. */

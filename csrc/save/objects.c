@@ -119,7 +119,7 @@ static void tape_sums(sw_tape *t, sw_hold_sums *x) {
 }
 
 void sw_tape_hold(sw_tape *t, sw_scene *s, sw_hold *x) {
-  SW_TAPE_STRUCT(t, sw_hold, 1640); /* node, number and rail are set when it is built */
+  SW_TAPE_STRUCT(t, sw_hold, 1648); /* node, number and rail are set when it is built */
   UINT32(generation), INT(alive), NAME(name);
   SW_TAPE_CLASS(t, x->cls, sw_link_find);
   sw_tape_expect(t, x->cls && x->cls->hold, "a clamp of an unknown kind");

@@ -11,8 +11,11 @@
 #include "body/hold.h"
 #include "link/hold.h"
 #include "scene/course.h"
+#include "scene/events.h"
 #include "scene/parts.h"
+#include "scene/wire.h"
 #include "step/obey.h"
+#include "step/restart.h"
 
 static const double PRECISION = 1e-7; /* of the force, the wire's weight or EI/L2, whichever is
                                          largest [-] */
@@ -23,14 +26,13 @@ static const double ROUNDED = 1e-15;
 
 static const double NO_WAY = 1e-13; /* way of the wire in a step that does not count [m] */
 
-/* Returns the slip of a hold that yields, or NULL. */
-static sw_slip *slip_of(sw_hold *h) {
+sw_slip *sw_slip_of(sw_hold *h) {
   return h->alive && h->cls->hold->slips ? h->cls->hold->slips(h) : NULL;
 }
 
 int sw_slip_any(const sw_scene *s) {
   SW_EACH(hold, h, s)
-    if (slip_of(h)) return 1;
+    if (sw_slip_of(h)) return 1;
   return 0;
 }
 
@@ -38,13 +40,13 @@ static int begin(sw_scene *s, double step) {
   int any = 0;
   (void)step;
   SW_EACH(hold, h, s) {
-    sw_slip *f = slip_of(h);
+    sw_slip *f = sw_slip_of(h);
     if (!f) continue;
     any = 1;
     /* a discarded step may have left other values */
     f->growth = f->growth_before;
     f->way = f->way_before;
-    f->evened = 0;
+    f->evened = 0, f->anew = sw_restart_changed(s);
     if (!isfinite(f->push) && f->way == 0) f->growth = 0; /* first tried without slip */
   }
   return any;
@@ -52,7 +54,7 @@ static int begin(sw_scene *s, double step) {
 
 static void give_up(sw_scene *s) {
   SW_EACH(hold, h, s) {
-    sw_slip *f = slip_of(h);
+    sw_slip *f = sw_slip_of(h);
     if (!f) continue;
     f->growth = f->growth_before;
     f->way = f->way_before;
@@ -96,16 +98,25 @@ static int stops(sw_slip *f, double h) {
   return 1;
 }
 
+double sw_slip_scale(const sw_scene *s, const sw_hold *h, double want) {
+  const sw_plan *p = sw_scene_system(s)->bodies[h->wire].plan;
+  const double L = p->length, weight = p->beam.mass * L * sw_norm(sw_scene_gravity(s));
+  return fmax(fabs(want), fmax(weight, p->beam.EI / (L * L)));
+}
+
 /* Returns how far the drive's force may be off [N]. */
 static double allowed(const sw_scene *s, const sw_hold *h, const double *x, double want,
                       double step) {
   const sw_body *b = &sw_scene_system(s)->bodies[h->wire];
   const sw_plan *p = b->plan;
-  const double L = p->length, weight = p->beam.mass * L * sw_norm(sw_scene_gravity(s));
   const double reach = sw_norm(sw_vec_at(x, b->first_node + h->node));
   const double rounded = ROUNDED * reach * p->lumped[h->node] / (step * step);
-  const double scale = fmax(fabs(want), fmax(weight, p->beam.EI / (L * L)));
-  return fmax(PRECISION * scale, rounded);
+  return fmax(PRECISION * sw_slip_scale(s, h, want), rounded);
+}
+
+/* Returns the force with which the drive moves wire that slips [N]. */
+static double asked(const sw_slip *f) {
+  return isfinite(f->push) ? f->push : copysign(f->limit, f->way);
 }
 
 static int correct_slip(sw_scene *s, sw_hold *h, sw_slip *f, double step, int first) {
@@ -113,24 +124,60 @@ static int correct_slip(sw_scene *s, sw_hold *h, sw_slip *f, double step, int fi
   const double *x = sw_scene_course(s)->stepper.trial_x;
   const sw_hold_way now = sw_hold_way_of(s, h, sw_scene_time(s), x);
   const double drive = now.obeys;
+  f->off = 0;
   f->evened = now.obeys == now.force && now.force != now.stage;
   if (!isfinite(f->push) && f->way == 0) {
     if (f->way_before != 0 || fabs(drive) <= f->limit) return 1; /* it stopped, or it holds */
     f->way = copysign(1.0, drive);
   }
-  const double want = isfinite(f->push) ? f->push : copysign(f->limit, f->way);
-  const double off = drive - want;
+  const double want = asked(f), off = drive - want;
   if (fabs(off) <= allowed(s, h, x, want, step)) return !stops(f, step);
-  return improve(f, off, first, p->beam.mass * p->length, step);
+  const int jumps = improve(f, off, first, p->beam.mass * p->length, step);
+  if (jumps) f->off = off;
+  return jumps;
 }
 
 static int correct(sw_scene *s, double h, int first) {
   int good = 1;
   SW_EACH(hold, hold, s) {
-    sw_slip *f = slip_of(hold);
+    sw_slip *f = sw_slip_of(hold);
     if (f) good &= correct_slip(s, hold, f, h, first);
   }
   return good;
+}
+
+/* --- where it cannot obey --------------------------------------------------------- */
+
+/* Deviations that are told. JUMPED: of the force that the drive obeys, over the precision with
+ * which it is searched for. READ: of the force that is read out, over what forces are compared
+ * with. They differ in a blow; the first step of a run begins abruptly and is none [-]. */
+static const double JUMPED = 100.0, READ = 0.01;
+
+/* Returns the deviation of the force after a step of size h, if it is to be told; else 0 [N]. */
+static double disobeys(const sw_scene *s, const sw_hold *h, const sw_slip *f, double want,
+                       double step) {
+  const double drive = h->feed.guide.drive, scale = sw_slip_scale(s, h, want);
+  const double most = JUMPED * allowed(s, h, sw_scene_system(s)->x, want, step);
+  const double read = isfinite(f->push) ? drive - want : fmax(0.0, fabs(drive) - f->limit);
+  if (fabs(f->off) > most) return f->off;
+  return !f->anew && fabs(read) > fmax(most, READ * scale) ? read : 0.0;
+}
+
+void sw_slip_tell(sw_scene *s, double step) {
+  SW_EACH(hold, h, s) {
+    const sw_slip *f = sw_slip_of(h);
+    if (!f) continue;
+    const sw_scene_wire *wire = sw_scene_wire_in(s, h->wire);
+    const double drive = h->feed.guide.drive;
+    const double want = isfinite(f->push) ? f->push : copysign(f->limit, f->way ? f->way : drive);
+    const double off = disobeys(s, h, f, want, step);
+    if (off == 0) continue;
+    sw_events_go_on(sw_scene_events_of(s), "jump", h->name, sw_scene_time(s)); /* one in a run */
+    sw_scene_tell(s, "jump", h->name, h->s1 - wire->mesh.s[0], off,
+                  "feed '%s' of wire '%s': the drive's force is %.6g N at t = %.6g s, and %.6g N "
+                  "are asked: it jumps there, because of a blow or a touch that opens or slides",
+                  h->name, wire->name, want + off, sw_scene_time(s), want);
+  }
 }
 
 /* --- the rung --------------------------------------------------------------------- */

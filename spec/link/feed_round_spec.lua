@@ -52,6 +52,13 @@ local function pull(case, EI, top)
   return low
 end
 
+-- Returns the largest jump of a drive's force that the run told [N].
+local function told(run)
+  local most = 0
+  for _, e in ipairs(run.events) do if e.kind == "jump" then most = math.max(most, math.abs(e.value)) end end
+  return most
+end
+
 local CASES = {
   { cable = "GXL 1.5", force = 2.4, R = 0.0465, friction = 0, wrap = 0.79, edge = 0.01, settled = true },
   { cable = "GXL 1.5", force = 9.6, R = 0.0487, friction = 0.1, wrap = 3.14, edge = 0.01, settled = true },
@@ -65,7 +72,9 @@ local CASES = {
 -- Regression: the force that the drive compared with its target jumped between that of the last stage and a
 -- mix of both stages. Where the target was in the jump, no speed was found: 5 of these 18 cases did not
 -- start. In 12 others the drive's force was off by 0.03 to 1.8 % at a step.
--- Tolerances: a drive obeys to 1e-7 in each step; 1e-5 leaves a hundred times that. The pull at the hand
+-- Tolerances: a drive obeys to 1e-7 in each step; 1e-5 leaves a hundred times that. Where a touch begins to
+-- slide the force may jump past the asked one (measured: by 7e-5 of it, in one step of 180); an event tells
+-- that. The pull at the hand
 -- contains damping (below 1 %), and edges up to R/5 make the wire stiffer: measured up to 2.3 %.
 describe("a wire drawn round a peg out of a feed with a force", function()
   for number, case in ipairs(CASES) do
@@ -76,13 +85,17 @@ describe("a wire drawn round a peg out of a feed with a force", function()
         case.lean = lean
         local scene, wire, feed, hand, top = drawn(case)
         t.fine(scene:run{ duration = 0.4, dt = dt })
-        local sum, steps = 0, 10
+        local sum, steps, jumps = 0, 10, 0
         for _ = 1, steps do
-          t.fine(scene:run{ duration = 0.02, dt = dt })
-          local f = hand:force()
+          local run = t.fine(scene:run{ duration = 0.02, dt = dt })
+          local f, off = hand:force(), feed:drive_force() + case.force
           sum = sum + (f[1] ^ 2 + f[3] ^ 2) ^ 0.5 / steps
-          t.share(-case.force, feed:drive_force(), 1e-5, "drive's force [N]")
+          if math.abs(off) > 1e-5 * case.force then
+            jumps = jumps + 1
+            t.above(math.abs(off) * (1 - 1e-6), told(run), "jump of the drive's force that was told [N]")
+          end
         end
+        assert.is_true(jumps <= 1, jumps .. " steps with jumps")
         t.share(pull(case, wire.beam.EI, top), sum, 0.04, "pull at the hand [N]")
       end)
     end
