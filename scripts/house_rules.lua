@@ -44,9 +44,9 @@ rules.ROOMS = {
   -- changing the model of a wire; returns to a snapshot if that fails
   remodel = { "base", "state", "wire", "solve", "system", "contact", "link", "strand", "scene", "body",
     "grip", "edit", "read", "save" },
-  -- time steps, runs and equilibria
+  -- time steps, runs and equilibria; a search for equilibrium that leads nowhere returns to a snapshot
   step = { "base", "motion", "state", "force", "system", "integrate", "contact", "link", "scene",
-    "body", "grip", "edit", "read", "watch" },
+    "body", "grip", "edit", "read", "watch", "save" },
   film = { "base", "read" },
   view = { "base" }, -- bytes for pages; knows no scene
   draw = { "base", "film" }, -- uses only the compression of film

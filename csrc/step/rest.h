@@ -15,6 +15,19 @@ sw_status sw_scene_rest(sw_scene *scene, double since, int *too_far, const sw_se
 sw_status sw_scene_squeezed_rest(sw_scene *scene, double since, int *too_far,
                                  const sw_settle_args *args, int (*interrupted)(void),
                                  sw_settle_report *report, sw_error *why);
+/* Finds the equilibrium at the scene's time; jaws that hold with a force go on holding with it. */
+sw_status sw_scene_held_rest(sw_scene *scene, const sw_settle_args *args, int (*interrupted)(void),
+                             sw_settle_report *report, sw_error *err);
+/* The same, and feeds that obey a force pay out or draw in wire until they have that force; nodes
+ * may come and go. *lost: 1 if this leads nowhere; the scene is then anywhere. */
+sw_status sw_scene_yielded_rest(sw_scene *scene, const sw_settle_args *args,
+                                int (*interrupted)(void), int *lost, sw_settle_report *report,
+                                sw_error *err);
+/* The same with feeds that are held, like clamps. */
+sw_status sw_scene_clamped_rest(sw_scene *scene, const sw_settle_args *args,
+                                int (*interrupted)(void), sw_settle_report *report, sw_error *err);
+/* Tells of all feeds whose observed force at rest is not the asked one. */
+void sw_yield_tell(sw_scene *scene);
 /* Makes t1 earlier (cut: 1) where wires between pads could not follow the pads to it. */
 sw_status sw_scene_cut_pose(sw_scene *scene, double *t1, int *cut, sw_error *err);
 typedef struct sw_pose_args {

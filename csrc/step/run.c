@@ -145,6 +145,7 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   }
   if (status == SW_OK && (sw_scene_wears(s) || sw_scene_zones_of(s)->count))
     status = sw_scene_begin_watching(s, &why);
+  if (sw_course_rests(sw_scene_course(s))) sw_yield_tell(s);
   if (status == SW_OK) status = run_loop(&p, until, interrupted, &why);
   sw_scene_enter(s, -1);
   sw_scene_system(s)->judged = NULL;

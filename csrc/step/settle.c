@@ -3,11 +3,13 @@
 
 #include "body/build.h"
 #include "read/extremes.h"
+#include "save/life.h"
 #include "scene/course.h"
 #include "scene/parts.h"
 #include "step/jaw.h"
 #include "step/rest.h"
 #include "step/run.h"
+#include "step/slip.h"
 
 static const sw_param rows[] = {
     {"tolerance", SW_PARAM_NUMBER, "m", 1e-9, 0, 1, SW_PARAM_ABOVE_MIN, NULL,
@@ -27,8 +29,7 @@ static void conclude(sw_scene *s, sw_status status, sw_settle_report *report, co
 
 enum { MOST_ROUNDS = 100 };
 
-/* Finds the equilibrium; jaws that hold with a force go on holding with it. */
-static sw_status settle_held(sw_scene *s, const sw_settle_args *args, int (*interrupted)(void),
+sw_status sw_scene_held_rest(sw_scene *s, const sw_settle_args *args, int (*interrupted)(void),
                              sw_settle_report *report, sw_error *err) {
   if (!sw_jaw_begin_rest(s))
     return sw_scene_rest(s, sw_scene_time(s), NULL, args, interrupted, report, err);
@@ -42,6 +43,39 @@ static sw_status settle_held(sw_scene *s, const sw_settle_args *args, int (*inte
   }
 }
 
+/* Finds the equilibrium in which feeds have the forces that they obey. Where there is none, they
+ * are held where they were. */
+static sw_status settle_feeds(sw_scene *s, const sw_settle_args *args, int (*interrupted)(void),
+                              sw_settle_report *report, sw_error *err) {
+  sw_snapshot *before = NULL;
+  sw_settle_report seeking = {0};
+  int lost = 0;
+  SW_TRY(sw_scene_snapshot(s, &before, err));
+  sw_scene_enter(s, 1);
+  sw_status status = sw_scene_yielded_rest(s, args, interrupted, &lost, report, err);
+  sw_scene_enter(s, -1);
+  if (lost || status == SW_ENOCONV) {
+    seeking = *report, *report = (sw_settle_report){0};
+    status = sw_scene_restore(s, before, err);
+    if (status == SW_OK) status = sw_scene_build(s, err);
+    sw_scene_enter(s, 1);
+    if (status == SW_OK) status = sw_scene_clamped_rest(s, args, interrupted, report, err);
+    sw_scene_enter(s, -1);
+    report->iterations += seeking.iterations;
+  }
+  sw_snapshot_free(before);
+  return status;
+}
+
+static sw_status settle(sw_scene *s, const sw_settle_args *args, int (*interrupted)(void),
+                        sw_settle_report *report, sw_error *err) {
+  if (sw_slip_any(s)) return settle_feeds(s, args, interrupted, report, err);
+  sw_scene_enter(s, 1);
+  const sw_status status = sw_scene_held_rest(s, args, interrupted, report, err);
+  sw_scene_enter(s, -1);
+  return status;
+}
+
 sw_status sw_scene_settle(sw_scene *s, const sw_settle_args *args, int (*interrupted)(void),
                           sw_settle_report *report, sw_error *err) {
   sw_error why = {""};
@@ -50,12 +84,11 @@ sw_status sw_scene_settle(sw_scene *s, const sw_settle_args *args, int (*interru
   if (!sw_scene_wire_slots(s))
     return sw_fail(err, SW_EINVAL, "scene '%s': there is no wire", sw_scene_name(s));
   SW_TRY(sw_scene_build(s, err));
-  sw_scene_enter(s, 1);
-  sw_status status = settle_held(s, args, interrupted, report, &why);
-  sw_scene_enter(s, -1);
+  sw_status status = settle(s, args, interrupted, report, &why);
   sw_scene_reset_extremes(s);
   sw_scene_course(s)->span = 0;
   if (status == SW_OK) status = sw_step_observe(s, &why);
+  if (status == SW_OK) sw_yield_tell(s);
   conclude(s, status, report, &why);
   return status == SW_ECALLBACK || status == SW_ENOMEM ? sw_fail(err, status, "%s", why.text)
                                                        : SW_OK;

@@ -64,4 +64,23 @@ describe("a feed whose force jumps past the asked one", function()
     end
     t.above(3, told, "steps with jumps")
   end)
+
+  it("tells nothing where a wire that hangs free is pulled out", function()
+    for _, cable in ipairs{ "GXL 1.5", "FLRY-B 0.5", "H07V-K 4" } do
+      for _, dt in ipairs{ 0.02, 0.005 } do
+        local scene = sw.scene{}
+        local wire = scene:wire{ cable = cable, from = { 0, 0, 0 }, to = { 0.3, 0, 0 }, segments = 40 }
+        scene:force{ kind = "damping", on = wire, mass = 5, stiffness = 1e-3 }
+        local feed = scene:feed(wire, { s = 0, force = -2 })
+        local hand = scene:clamp(wire, { s = wire.length })
+        t.fine(scene:settle())
+        local start = feed:fed()
+        hand:follow{ points = { { 0, 0, 0 }, { 0.1, 0, 0 } }, duration = 0.5, relative = true }
+        local run = t.fine(scene:run{ duration = 0.6, dt = dt })
+        assert.is_nil(jump_of(run))
+        t.share(-2, feed:drive_force(), 1e-6, "force [N]")
+        t.share(0.1, feed:fed() - start, 0.01, "fed [m]")
+      end
+    end
+  end)
 end)

@@ -26,31 +26,33 @@ end
 local Rest = { __name = "rest" }
 Rest.__index = checks.fields("the result of scene:settle",
   "ok reason iterations residual unstable transient jumped",
-  "kinked steps rejected evaluations quantities met levels advice error_bars where refused asked start")
+  "kinked held steps rejected evaluations quantities met levels advice error_bars where refused asked start")
 
 function Rest:__tostring()
   if not self.ok then return self.reason end
   local unstable = self.unstable > 0 and (", unstable in %d directions"):format(self.unstable) or ""
-  local kinked = self.kinked and "; " .. self.kinked or ""
-  return ("at rest after %d iterations%s%s"):format(self.iterations, unstable, kinked)
+  local kinked, held = self.kinked and "; " .. self.kinked or "", self.held and "; " .. self.held or ""
+  return ("at rest after %d iterations%s%s%s"):format(self.iterations, unstable, kinked, held)
 end
 
 local core_settle = core.class.scene.settle
--- Returns the last kink event of each tube; its count tells how often the kink was reported.
-local function kinks(scene)
-  local counts = {}
-  for _, e in ipairs(scene:events()) do if e.kind == "kink" then counts[e.object] = e end end
-  return counts
+local TOLD = { kink = "kinked", held = "held" } -- fields of the result with the text of such an event
+
+-- Returns the last event of each object of these kinds; its count tells how often it was reported.
+local function events(scene)
+  local found = {}
+  for _, e in ipairs(scene:events()) do if TOLD[e.kind] then found[e.kind .. " " .. e.object] = e end end
+  return found
 end
 
 local function settle(scene, args)
   build.check(scene, "scene:settle", 4)
-  local before, data = kinks(scene), build.data(scene)
+  local before, data = events(scene), build.data(scene)
   kept.begin(scene)
   data.runs = (data.runs or 0) + 1 -- peaks start again, as in a run
   local rest = build.call(3, core_settle, scene, args)
-  for tube, e in pairs(rest.ok and kinks(scene) or {}) do
-    if not before[tube] or before[tube].count < e.count then rest.kinked = e.text end
+  for key, e in pairs(rest.ok and events(scene) or {}) do
+    if not before[key] or before[key].count < e.count then rest[TOLD[e.kind]] = e.text end
   end
   return setmetatable(rest, Rest)
 end
