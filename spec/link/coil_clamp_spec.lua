@@ -42,8 +42,8 @@ describe("a coil that is held without load", function()
           function(scene, wire) scene:grip(wire, { s = 0.15, width = 0.01 }) end,
           function(scene, wire) scene:grip(wire, { s = 0.01, width = 0.01 }) end } do
           -- The node moves by up to half an edge. It and three nodes on each side stay near the arc: they are
-          -- up to 3 % sharper beside a clamp. Between a grip's two faces and beside them fewer nodes can move:
-          -- 12 %. Before, the node alone moved, and the arc was up to 45 % sharper.
+          -- up to 3 % sharper beside a clamp. Between a grip's two faces and beside them fewer nodes can
+          -- move: 12 %. Before, the node alone moved, and the arc was up to 45 % sharper.
           t.above(R / 1.15, held(cable, segments, 0.6 * k, hold), "smallest radius [m]")
         end
       end

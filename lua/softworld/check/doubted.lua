@@ -29,6 +29,7 @@ local kinds = {
   clip = { "the clip's model does not cover this", always = true, unless = "OVERLOADED" },
   unbalanced = { "forces after a change of model may be too large", own = true, always = true },
   grasp = { "a gripper held another wire than the one to grasp", places = true, always = true },
+  held = { "a feed without its force at rest was let go", always = true },
   hand = { "something was moved by hand: this is not the script's process", all = true, always = true },
 }
 
