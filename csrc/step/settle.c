@@ -48,14 +48,14 @@ sw_status sw_scene_held_rest(sw_scene *s, const sw_settle_args *args, int (*inte
 static sw_status settle_feeds(sw_scene *s, const sw_settle_args *args, int (*interrupted)(void),
                               sw_settle_report *report, sw_error *err) {
   sw_snapshot *before = NULL;
-  sw_settle_report seeking = {0};
   int lost = 0;
   SW_TRY(sw_scene_snapshot(s, &before, err));
   sw_scene_enter(s, 1);
   sw_status status = sw_scene_yielded_rest(s, args, interrupted, &lost, report, err);
   sw_scene_enter(s, -1);
   if (lost || status == SW_ENOCONV) {
-    seeking = *report, *report = (sw_settle_report){0};
+    const sw_settle_report seeking = *report;
+    *report = (sw_settle_report){0};
     status = sw_scene_restore(s, before, err);
     if (status == SW_OK) status = sw_scene_build(s, err);
     sw_scene_enter(s, 1);

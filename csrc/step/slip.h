@@ -13,9 +13,6 @@ sw_slip *sw_slip_of(sw_hold *hold);
 /* Returns what forces of a hold are compared with: the wanted one, the wire's weight or EI/L2 [N].
  */
 double sw_slip_scale(const sw_scene *scene, const sw_hold *hold, double want);
-/* Returns what forces of a hold are compared with: the wanted one, the wire's weight or EI/L2 [N].
- */
-double sw_slip_scale(const sw_scene *scene, const sw_hold *hold, double want);
 /* Tells of feeds whose observed force at the end of a step of this size is not the one that they
  * obey [s]. */
 void sw_slip_tell(sw_scene *scene, double step);

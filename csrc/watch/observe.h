@@ -29,6 +29,8 @@ void sw_scene_watch_edges(sw_scene *scene, size_t wire, const sw_wire_extremes *
 /* Reports rods whose sharpest bend of the run is a corner of the path they were drawn along. Call
  * at the end of a run. */
 void sw_scene_end_corners(sw_scene *scene);
+/* Reports joints that pass no twist where this may count. Call at the end of a run. */
+void sw_scene_end_joints(sw_scene *scene);
 
 /* 1 if there is an unbroken tie with a strength. */
 int sw_scene_may_break(const sw_scene *scene);

@@ -1,0 +1,65 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- A joint passes no twist. In a plane two joined halves are like one wire. Between two clamps that leave a
+-- plane they are softer, and an event says so.
+local sw = require "softworld"
+local t = require "physics.tools"
+
+local L, SHARE = 0.4, 0.425
+
+-- Draws the ends of an arch together. Returns its smallest bend radius, the moment of a clamp and the angle
+-- of the event, or nil [m], [N m], [rad].
+local function arch(joined, closed, aside, turn, free)
+  local scene, a, b = sw.scene{}
+  local function wire(from, to, segments)
+    return scene:wire{ cable = "GXL 1.5", from = { from, 0, 0 }, to = { to, 0, 0 }, segments = segments }
+  end
+  if joined then
+    a, b = wire(0, SHARE * L, 17), wire(SHARE * L, L, 23)
+    scene:join{ name = "j", ends = { { a, s = SHARE * L }, { b, s = 0 } } }
+  else
+    a = wire(0, L, 40)
+    b = a
+  end
+  scene:force{ kind = "damping", mass = 2, stiffness = 2e-3 }
+  local clamp = scene:clamp(a, { s = 0 })
+  local far = free and scene:pin(b, { s = b.length }) or scene:clamp(b, { s = b.length })
+  far:follow{ relative = true, duration = 0.6, points = { { 0, 0, 0 }, { -closed, aside, -0.01 } },
+    turn = turn and { axis = { 1, 0, 0 }, angle = turn } or nil }
+  local run, angle = scene:run{ duration = 3 }, nil
+  t.fine(run)
+  for _, e in ipairs(run.events) do
+    if e.kind == "joint" then
+      angle = e.value
+      assert.equal("j", e.object)
+    end
+  end
+  return math.min((a:min_bend_radius{ now = true }), (b:min_bend_radius{ now = true })),
+    t.norm(clamp:moment()), angle
+end
+
+describe("a joint between two holds", function()
+  it("is told of where twist counts", function()
+    for _, way in ipairs{ { 0.1, 0.04 }, { 0.2, 0.005 }, { 0.2, 0.03 } } do
+      local one, moment = arch(false, way[1], way[2])
+      local two, softer, angle = arch(true, way[1], way[2])
+      t.above(0.15, angle or 0, "angle told [rad]")
+      -- The reason for the event: more than 2 % in both.
+      t.above(1.02 * one, two, "bend radius of two halves [m]")
+      t.below(0.98 * moment, softer, "moment of two halves [N m]")
+    end
+    local _, _, angle = arch(true, 0.1, 0, 0.3)
+    t.near(0.3, angle or 0, 1e-9, "turn of the holds, told [rad]")
+  end)
+
+  it("is not told of where it does not", function()
+    for _, way in ipairs{ { 0.02, 0 }, { 0.1, 0.005 }, { 0.1, 0.01 } } do
+      local one, moment = arch(false, way[1], way[2])
+      local two, softer, angle = arch(true, way[1], way[2])
+      assert.is_nil(angle)
+      t.share(one, two, 0.01, "bend radius of two halves")
+      t.share(moment, softer, 0.01, "moment of two halves")
+    end
+    local _, _, angle = arch(true, 0.1, 0.04, nil, true) -- a pin lets the wire turn
+    assert.is_nil(angle)
+  end)
+end)
