@@ -9,7 +9,8 @@ local L, SHARE = 0.4, 0.425
 -- Draws the ends of an arch together. Returns its smallest bend radius, the moment of a clamp and the angle
 -- of the event, or nil [m], [N m], [rad].
 local function arch(joined, closed, aside, turn, free)
-  local scene, a, b = sw.scene{}
+  local scene = sw.scene{}
+  local a, b
   local function wire(from, to, segments)
     return scene:wire{ cable = "GXL 1.5", from = { from, 0, 0 }, to = { to, 0, 0 }, segments = segments }
   end
