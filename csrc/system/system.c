@@ -310,13 +310,39 @@ double sw_system_term_energy(sw_system *s, size_t body, size_t term, double *ben
   return f->energy;
 }
 
+/* Retardation times of a body's dashpots: their force per rate over the stiffness beside them [s].
+ */
+typedef struct lags {
+  double axial, bending;
+} lags;
+
+static lags lags_of(const sw_body *b) {
+  lags lag = {0, 0};
+  const double EI = b->plan->beam.EI;
+  SW_ITEMS(const sw_term, t, b->terms, b->term_count) {
+    if (t->cls->axial_time) lag.axial += t->cls->axial_time(t->args);
+    if (t->cls->viscosity && EI > 0) lag.bending += t->cls->viscosity(t->args, b->plan) / EI;
+  }
+  return lag;
+}
+
+/* Returns the largest stable step of leapfrog with dashpots, whose force is that of the velocity
+ * before: 2/omega (sqrt(1 + zeta^2) - zeta) with zeta = lag omega/2. undamped: 2/omega [s]. */
+static double damped(double undamped, double lag) {
+  const double zeta = lag / undamped;
+  return undamped / (hypot(1.0, zeta) + zeta);
+}
+
 double sw_system_stable_dt(const sw_system *s) {
   double smallest = HUGE_VAL;
-  for (size_t b = 0; b < s->body_count; b++)
-    SW_ITEMS(const sw_term, t, s->bodies[b].terms, s->bodies[b].term_count) {
+  SW_ITEMS(const sw_body, b, s->bodies, s->body_count) {
+    const lags lag = lags_of(b);
+    SW_ITEMS(const sw_term, t, b->terms, b->term_count) {
       if (!t->cls->stable_dt) continue;
-      const double dt = t->cls->stable_dt(t->args, s->bodies[b].plan);
-      if (dt < smallest) smallest = dt;
+      const double dt = t->cls->stable_dt(t->args, b->plan);
+      const int bends = (t->cls->flags & SW_FORCE_BENDING) != 0;
+      if (dt < HUGE_VAL) smallest = fmin(smallest, damped(dt, bends ? lag.bending : lag.axial));
     }
+  }
   return smallest;
 }

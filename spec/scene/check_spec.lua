@@ -107,6 +107,32 @@ describe("an explicit step above its method's limit", function()
     end
   end)
 
+  -- Dashpots lower the limit to 2/omega (sqrt(1 + zeta^2) - zeta), by up to a thousand for stiff cables.
+  it("is known with dashpots, too", function()
+    for _, method in ipairs(explicit) do
+      for _, cable in ipairs{ "H07V-K 4", false } do
+        for _, lag in ipairs{ 2e-7, 2e-6, 2e-5, 2e-4 } do
+          for _, kind in ipairs{ "damping", "viscous_bend" } do
+            local scene = sw.scene{}
+            local wire = scene:wire{ cable = cable or nil, segments = 20, E = not cable and 5e6 or nil,
+              density = not cable and 1500 or nil, radius = not cable and 0.002 or nil,
+              path = { { 0, 0, 0 }, { 0.1, 0.02, 0 }, { 0.2, 0, 0.03 }, { 0.3, 0.02, 0 } } }
+            scene:clamp(wire, { s = 0 })
+            local undamped = scene:stable_dt()
+            if kind == "damping" then
+              scene:force{ kind = "damping", stiffness = lag }
+            else
+              scene:force{ kind = "viscous_bend", eta = 1000 * lag * wire.beam.EI }
+            end
+            local most = method.leapfrog_limit / 2 * scene:stable_dt()
+            t.above(scene:stable_dt() - 1e-15, undamped, "limit without dashpots")
+            t.fine(scene:run{ duration = 2000 * most, dt = 0.98 * most, integrator = method.name })
+          end
+        end
+      end
+    end
+  end)
+
   it("is taken with unstable = true; the run then fails and names the wire", function()
     for _, method in ipairs(explicit) do
       local scene, wire = soft()
