@@ -27,7 +27,7 @@ const sw_link_class *sw_link_find(const char *name) {
 
 void sw_hold_forget(sw_hold_args *a) {
   a->line = sw_v(0, 0, 0), a->from = a->to = a->friction = 0;
-  a->points = NULL, a->count = 0, a->closed = 0;
+  a->points = NULL, a->count = 0, a->closed = a->formed = 0;
 }
 
 void sw_hold_clear(sw_hold *h) {
