@@ -214,6 +214,7 @@ local function look(wire, obstacle)
   local back, shape = vec.conjugate(q), obstacle.object.shape
   if is_far(wire, shape, at, back) then return end
   local x, y, z, clear = 0, 0, 0, -1 -- last point measured; points nearer to it than clear are outside
+  local least, deepest, start = DEEP * wire.radius, nil, false
   for i, p in ipairs(along(wire)) do
     local here = { p[1] or p.x, p[2] or p.y, p[3] or p.z }
     local dx, dy, dz = here[1] - x, here[2] - y, here[3] - z
@@ -223,12 +224,12 @@ local function look(wire, obstacle)
       x, y, z = here[1], here[2], here[3]
       clear = shape:kind() == "mesh" and -1 or gap - DEEP * wire.radius
     end
-    if gap and gap < DEEP * wire.radius then
-      return tell("inside", ("wire '%s' begins inside '%s': it reaches %.4g mm into it at "
-        .. "(%.4g, %.4g, %.4g) m, %s"):format(wire.name, obstacle.name,
-        1e3 * (wire.radius - gap), here[1], here[2], here[3], i == 1 and "at its start" or "along its path"))
-    end
+    if gap and gap < least then least, deepest, start = gap, here, i == 1 end
   end
+  if not deepest then return end
+  tell("inside", ("wire '%s' begins inside '%s': it reaches %.4g mm into it at (%.4g, %.4g, %.4g) m, %s")
+    :format(wire.name, obstacle.name, 1e3 * (wire.radius - least), deepest[1], deepest[2], deepest[3],
+    start and "at its start" or "along its path"))
 end
 
 local round = { cylinder = true, capsule = true }

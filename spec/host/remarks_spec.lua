@@ -23,7 +23,8 @@ describe("remarks", function()
       "length = 500 m is above 300 m; did you mean sw.units.mm(500)?" },
     { "s:obstacle{ shape = 'plane', friction = 30 }", "friction = 30 is above 3" },
     { "s:obstacle{ shape = 'plane' } " .. wire("E = 50e6, density = 1500, radius = 0.0025, "
-      .. "from = {0,0,0.1}, to = {1,0,-0.1}"), "wire 'wire1' begins inside 'plane1': it reaches" },
+      .. "from = {0,0,0.1}, to = {1,0,-0.1}"),
+      "wire 'wire1' begins inside 'plane1': it reaches 102.5 mm into it at (1, 0, -0.1) m" },
     { wire(good) .. " s:obstacle{ name = 'ball', shape = 'sphere', radius = 0.1, at = {0.5, 0, 0.1} }",
       "wire 'wire1' begins inside 'ball'" },
     { "sw.scene{ gravity = {0, 0, -9810} }", "did you mean sw.units.mm_per_s2(9810)?" },
