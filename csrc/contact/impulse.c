@@ -185,11 +185,6 @@ double sw_contact_least_blow(double usual, double hardest, int followed) {
   return followed ? fmax(HARD * usual, GOES_ON * hardest) : fmax(LIGHT * usual, HARDER * hardest);
 }
 
-/* Longest part (substep) in which a blow is followed. The number of parts is the jolt's square, see
- * step/blow.c. Sections of a soft mesh throw a blow back within a millisecond, and the end of a
- * stiff wire that falls on a peg bounces as fast [s]. */
-static const double LONGEST_PART = 3e-4;
-
 /* A new blow may add little to what presses already: a cable that rolls down on a table presses on
  * it with several times its weight before its end slaps down. Its force differs from the mean by
  * more than PASSING times the larger of both, and by more than BRIEF times the usual force. With
@@ -207,7 +202,7 @@ int sw_contact_comes_and_goes(double usual, sw_vec start, sw_vec mean, sw_vec en
 }
 
 double sw_contact_jolt_of(double size, double usual, double h) {
-  return fmax(size / usual, sqrt(h / LONGEST_PART));
+  return fmax(size / usual, sqrt(h / SW_LONGEST_PART));
 }
 
 /* Load of the only striker: the obstacle's, without that of wires that rest. Among several strikers

@@ -7,6 +7,11 @@
 #include "contact/contact.h"
 #include "contact/mutual.h"
 
+/* Longest part (substep) in which a blow is followed. The number of parts is the jolt's square, see
+ * step/blow.c. Sections of a soft mesh throw a blow back within a millisecond, and the end of a
+ * stiff wire that falls on a peg bounces as fast [s]. */
+#define SW_LONGEST_PART 3e-4
+
 /* Least force of a blow that is followed in parts, from the wire's usual force and the hardest blow
  * before. followed: 1 if a blow is being followed and this one continues it [N]. */
 double sw_contact_least_blow(double usual, double hardest, int followed);

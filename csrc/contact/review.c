@@ -4,6 +4,7 @@
 
 #include "contact/arc.h"
 #include "contact/curve.h"
+#include "contact/jolt.h"
 #include "contact/same.h"
 
 /* 1 if a node left the reach that its candidates were chosen for. Then the reserve is widened. */
@@ -98,20 +99,24 @@ static int cuts_deep(const sw_contact *c, const sw_system *s, const double *x1, 
   return 0;
 }
 
+static const double ROUNDING = 1e-9; /* of parts [-] */
+
 /* 1 if the step must be redone without rebound, at most once in a step. An impulse at the step's
  * start does not include forces within the step that drive a wire into an obstacle. The integrator
  * makes such a touch bounce: off a moving obstacle, which does work in each bounce, step after
  * step; or of a mesh, which would hop by g h^2 for ever, because the restart at each landing gives
- * back what damping takes. */
+ * back what damping takes. In parts in which a blow is followed a rod may rebound by its own bends,
+ * as it does from a standing obstacle. */
 static int bounces(sw_contact *c, const sw_system *s, const double *v1) {
   if (c->plastic || c->regime == SW_CONTACT_EXPLICIT) return 0;
+  const int whole = c->h > SW_LONGEST_PART * (1 + ROUNDING);
   for (size_t i = 0; i < c->touch_count; i++) {
     const sw_touch *t = &c->touches[i];
     if (t->known || !(t->press.normal_force > 0) || c->obstacles[t->obstacle].restitution > 0)
       continue;
     const sw_vec wall = sw_obstacle_velocity(&c->now[t->obstacle], t->point);
     const int moves = fabs(sw_dot(wall, t->press.normal)) > SW_SLOWEST_IMPACT;
-    if (!moves && !s->bodies[t->body].plan->web) continue;
+    if (!(moves && whole) && !s->bodies[t->body].plan->web) continue;
     const sw_vec v = sw_sub(sw_mean_of(v1, 0, &t->spot), wall);
     if (sw_dot(v, t->press.normal) > SW_SLOWEST_IMPACT) return c->plastic = 1;
   }
