@@ -141,22 +141,16 @@ sw_vec sw_mesh_tangent_at(const sw_mesh *m, double s) { return tangent_between(m
 
 /* --- frames ------------------------------------------------------------------- */
 
-static sw_vec edge_of(const double *nodes, size_t e) {
-  return sw_unit_or(sw_sub(sw_vec_at(nodes, e + 1), sw_vec_at(nodes, e)), sw_v(1, 0, 0));
-}
-
 static sw_vec turned_about(sw_vec n, sw_vec t, double angle) {
   return sw_add(sw_scale(n, cos(angle)), sw_scale(sw_cross(t, n), sin(angle)));
 }
 
-static double middle(const sw_mesh *m, size_t e) { return 0.5 * (m->s[e] + m->s[e + 1]); }
-
 /* Makes frames without twist along the nodes; normal: at the first edge. */
 static void frames_along(const double *nodes, size_t n, sw_vec normal, double *out) {
-  sw_vec before = edge_of(nodes, 0);
+  sw_vec before = sw_edge_direction(nodes, 0);
   sw_vec m = sw_unit_or(sw_madd(normal, before, -sw_dot(normal, before)), sw_perpendicular(before));
   for (size_t e = 0; e + 1 < n; e++) {
-    const sw_vec t = edge_of(nodes, e);
+    const sw_vec t = sw_edge_direction(nodes, e);
     m = sw_carry_unit(m, before, t);
     sw_store(out + 3 * e, m);
     before = t;
@@ -165,14 +159,15 @@ static void frames_along(const double *nodes, size_t n, sw_vec normal, double *o
 
 sw_status sw_mesh_add_frames(sw_mesh *m, sw_vec normal, int straight, double rest_twist) {
   SW_TRY(make_room(m, m->capacity, ARRAYS));
-  const sw_vec along = edge_of(m->x, 0);
+  const sw_vec along = sw_edge_direction(m->x, 0);
   for (size_t i = 0; i < m->n; i++)
     sw_store(m->rest + 3 * i, straight ? sw_scale(along, m->s[i]) : sw_vec_at(m->x, i));
   frames_along(m->x, m->n, normal, m->normal);
   frames_along(m->rest, m->n, normal, m->rest_normal);
   for (size_t e = 0; rest_twist != 0 && e + 1 < m->n; e++)
-    sw_store(m->rest_normal + 3 * e, turned_about(sw_vec_at(m->rest_normal, e), edge_of(m->rest, e),
-                                                  rest_twist * middle(m, e)));
+    sw_store(m->rest_normal + 3 * e,
+             turned_about(sw_vec_at(m->rest_normal, e), sw_edge_direction(m->rest, e),
+                          rest_twist * sw_mesh_middle(m, e)));
   return SW_OK;
 }
 
@@ -182,13 +177,14 @@ static sw_vec normal_at(const sw_mesh *m, const double *nodes, const double *nor
                         sw_vec tangent) {
   const size_t i = sw_mesh_node(m, s), last = m->n - 2;
   size_t e = i > 0 ? i - 1 : 0;
-  if (e > 0 && s < middle(m, e)) e--;
+  if (e > 0 && s < sw_mesh_middle(m, e)) e--;
   if (e == last && e > 0) e--;
-  const sw_edge_frame a = {edge_of(nodes, e), sw_vec_at(normals, e)};
+  const sw_edge_frame a = {sw_edge_direction(nodes, e), sw_vec_at(normals, e)};
   const sw_vec n = sw_carry_unit(a.m1, a.t, tangent);
   if (last == 0) return n;
-  const sw_edge_frame b = {edge_of(nodes, e + 1), sw_vec_at(normals, e + 1)};
-  const double share = (s - middle(m, e)) / (middle(m, e + 1) - middle(m, e));
+  const sw_edge_frame b = {sw_edge_direction(nodes, e + 1), sw_vec_at(normals, e + 1)};
+  const double share =
+      (s - sw_mesh_middle(m, e)) / (sw_mesh_middle(m, e + 1) - sw_mesh_middle(m, e));
   return turned_about(n, tangent, share * sw_hinge_twist(&a, &b, 0.0));
 }
 
@@ -211,7 +207,7 @@ static double chord(const sw_mesh *m, size_t edge, double l) {
  * NULL) follow the edges. */
 static void bend_node(double *nodes, double *normals, size_t i, double la, double lc) {
   const sw_vec a = sw_vec_at(nodes, i - 1), b = sw_vec_at(nodes, i), c = sw_vec_at(nodes, i + 1);
-  const sw_vec before[2] = {edge_of(nodes, i - 1), edge_of(nodes, i)};
+  const sw_vec before[2] = {sw_edge_direction(nodes, i - 1), sw_edge_direction(nodes, i)};
   const sw_vec ac = sw_sub(c, a);
   const double d = sw_norm(ac);
   const sw_vec t = sw_unit_or(ac, sw_v(1, 0, 0));
@@ -222,7 +218,8 @@ static void bend_node(double *nodes, double *normals, size_t i, double la, doubl
   sw_store(nodes + 3 * i, sw_madd(sw_madd(a, t, along), across, height));
   for (size_t k = 0; normals && k < 2; k++) {
     double *normal = normals + 3 * (i - 1 + k);
-    sw_store(normal, sw_carry_unit(sw_load(normal), before[k], edge_of(nodes, i - 1 + k)));
+    sw_store(normal,
+             sw_carry_unit(sw_load(normal), before[k], sw_edge_direction(nodes, i - 1 + k)));
   }
 }
 

@@ -37,6 +37,15 @@ typedef struct sw_mesh_frame {
   sw_vec rest_tangent, rest_normal; /* of the unloaded wire [-] */
 } sw_mesh_frame;
 
+/* Unit direction of an edge between nodes (n x 3) [-]; middle of a mesh's edge in arc length [m].
+ */
+static inline sw_vec sw_edge_direction(const double *nodes, size_t e) {
+  return sw_unit_or(sw_sub(sw_vec_at(nodes, e + 1), sw_vec_at(nodes, e)), sw_v(1, 0, 0));
+}
+static inline double sw_mesh_middle(const sw_mesh *m, size_t e) {
+  return 0.5 * (m->s[e] + m->s[e + 1]);
+}
+
 /* Makes even nodes along the polyline through points (count x 3): segments + 1 nodes, at rest and
  * unstressed: the arc length of each edge is its chord. SW_ENOMEM. */
 sw_status sw_mesh_along(sw_mesh *mesh, const double *points, size_t count, size_t segments);

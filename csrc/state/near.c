@@ -15,10 +15,6 @@ static const double STRAIGHT = 1e-9; /* rounding: change of an edge's direction 
 /* A node beside may move by this share of an edge; a mesh where more were needed stays [-]. */
 static const double FARTHEST = 0.25;
 
-static sw_vec direction(const double *x, size_t e) {
-  return sw_unit_or(sw_sub(sw_vec_at(x, e + 1), sw_vec_at(x, e)), sw_v(1, 0, 0));
-}
-
 /* Finds the stretch around nodes first to last that may move: lo and hi stay. */
 static void find_reach(const sw_mesh *m, size_t first, size_t last, const double *keep,
                        size_t count, size_t *lo, size_t *hi) {
@@ -34,7 +30,7 @@ static void find_reach(const sw_mesh *m, size_t first, size_t last, const double
 
 static int turns(const double *nodes, size_t lo, size_t hi) {
   for (size_t e = lo + 1; e < hi; e++)
-    if (sw_dist(direction(nodes, e - 1), direction(nodes, e)) > STRAIGHT) return 1;
+    if (sw_dist(sw_edge_direction(nodes, e - 1), sw_edge_direction(nodes, e)) > STRAIGHT) return 1;
   return 0;
 }
 
@@ -145,13 +141,11 @@ sw_status sw_mesh_halve(sw_mesh *m, double low, double high, const double *keep,
   return status;
 }
 
-static double middle(const sw_mesh *m, size_t e) { return 0.5 * (m->s[e] + m->s[e + 1]); }
-
 /* Returns the curvature of a curve through nodes between the middles of edges a and b, a vector
  * [1/m]. */
 static sw_vec curvature_between(const sw_mesh *m, const double *nodes, size_t a, size_t b) {
-  const sw_vec turn = sw_sub(direction(nodes, b), direction(nodes, a));
-  return sw_scale(turn, 1.0 / (middle(m, b) - middle(m, a)));
+  const sw_vec turn = sw_sub(sw_edge_direction(nodes, b), sw_edge_direction(nodes, a));
+  return sw_scale(turn, 1.0 / (sw_mesh_middle(m, b) - sw_mesh_middle(m, a)));
 }
 
 /* Returns the same at node i, as a mean over the edges beside it, in which hinges beside a clamp
@@ -164,8 +158,9 @@ static sw_vec curvature_at(const sw_mesh *m, const double *nodes, size_t i) {
   const size_t end = i ? last : 0, two = i ? last - 2 : 2, four = i ? last - 4 : 4;
   const sw_vec near = curvature_between(m, nodes, i ? two : end, i ? end : two);
   const sw_vec far = curvature_between(m, nodes, i ? four : two, i ? two : four);
-  const double at = 0.5 * (middle(m, end) + middle(m, two));
-  const double way = fabs((at - m->s[i]) / (0.5 * (middle(m, two) + middle(m, four)) - at));
+  const double at = 0.5 * (sw_mesh_middle(m, end) + sw_mesh_middle(m, two));
+  const double way =
+      fabs((at - m->s[i]) / (0.5 * (sw_mesh_middle(m, two) + sw_mesh_middle(m, four)) - at));
   return sw_madd(near, sw_sub(near, far), way);
 }
 
@@ -176,8 +171,8 @@ static sw_vec flexure_at(const sw_mesh *m, size_t i) {
   const size_t e = i + 1 < m->n ? i : i - 1;
   const sw_vec k = curvature_at(m, m->rest, i), a = sw_vec_at(m->rest_normal, e);
   const sw_vec n = sw_vec_at(m->normal, e);
-  const double one = sw_dot(k, a), two = sw_dot(k, sw_cross(direction(m->rest, e), a));
-  return sw_sub(now, sw_madd(sw_scale(n, one), sw_cross(direction(m->x, e), n), two));
+  const double one = sw_dot(k, a), two = sw_dot(k, sw_cross(sw_edge_direction(m->rest, e), a));
+  return sw_sub(now, sw_madd(sw_scale(n, one), sw_cross(sw_edge_direction(m->x, e), n), two));
 }
 
 /* Adds to *sum how far a clamp at node i must lie inside the curve through the nodes on this side,
@@ -202,7 +197,7 @@ static void shift(const sw_mesh *m, sw_mesh *to, size_t first, size_t last, sw_v
   for (size_t k = 0; k < 2 && m->rest; k++) {
     const size_t e = k ? last : first - 1; /* first = 0: there is none */
     if (e + 1 >= m->n) continue;
-    const sw_vec was = direction(m->x, e), now = direction(to->x, e);
+    const sw_vec was = sw_edge_direction(m->x, e), now = sw_edge_direction(to->x, e);
     sw_store(to->normal + 3 * e, sw_carry_unit(sw_vec_at(m->normal, e), was, now));
   }
 }

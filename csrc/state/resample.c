@@ -86,8 +86,6 @@ static sw_vec curve_at(const resample *p, const double *values, double s) {
   return sw_add(ends, sw_scale(sw_sub(sw_scale(da, w), sw_scale(db, u)), l * u * w));
 }
 
-static double middle(const sw_mesh *m, size_t e) { return 0.5 * (m->s[e] + m->s[e + 1]); }
-
 /* Returns an edge quantity at arc length s: linear between the middles of old edges, extrapolated
  * beside ends and breaks. */
 static double edge_value_at(const resample *p, const double *values, double s) {
@@ -96,8 +94,9 @@ static double edge_value_at(const resample *p, const double *values, double s) {
   const int before = e > 0 && !is_break(p, m->s[e]);
   const int after = e + 2 < m->n && !is_break(p, m->s[e + 1]);
   if (!before && !after) return values[e];
-  const size_t other = (s < middle(m, e) ? before : !after) ? e - 1 : e + 1;
-  const double share = (s - middle(m, e)) / (middle(m, other) - middle(m, e));
+  const size_t other = (s < sw_mesh_middle(m, e) ? before : !after) ? e - 1 : e + 1;
+  const double share =
+      (s - sw_mesh_middle(m, e)) / (sw_mesh_middle(m, other) - sw_mesh_middle(m, e));
   return values[e] + share * (values[other] - values[e]);
 }
 
@@ -105,10 +104,6 @@ static double edge_value_at(const resample *p, const double *values, double s) {
 
 static sw_vec edge_vector(const double *x, size_t e) {
   return sw_sub(sw_vec_at(x, e + 1), sw_vec_at(x, e));
-}
-
-static sw_vec direction(const double *x, size_t e) {
-  return sw_unit_or(edge_vector(x, e), sw_v(1, 0, 0));
 }
 
 /* Solves for the edges' multipliers, into rhs. */
@@ -138,14 +133,15 @@ static void shift(resample *p, const double *x, double *values) {
     const double after = weight(p, e + 1);
     const int fixed = w + after == 0;
     p->diagonal[e] = fixed ? 1.0 : w + after + STIFFENING;
-    p->next[e] = e + 2 < m->n ? -after * sw_dot(direction(x, e), direction(x, e + 1)) : 0.0;
+    p->next[e] =
+        e + 2 < m->n ? -after * sw_dot(sw_edge_direction(x, e), sw_edge_direction(x, e + 1)) : 0.0;
     if (fixed) p->rhs[e] = 0;
     w = after;
   }
   solve_tridiagonal(p);
   sw_vec pull = sw_v(0, 0, 0);
   for (size_t i = 0; i < m->n; i++) { /* node i moves after both its edges were read */
-    const sw_vec own = i + 1 < m->n ? sw_scale(direction(x, i), p->rhs[i]) : sw_v(0, 0, 0);
+    const sw_vec own = i + 1 < m->n ? sw_scale(sw_edge_direction(x, i), p->rhs[i]) : sw_v(0, 0, 0);
     sw_accumulate(values + 3 * i, sw_scale(sw_sub(own, pull), weight(p, i)));
     pull = own;
   }
@@ -171,14 +167,14 @@ static void give_strains(resample *p, double *x, const double *strain) {
 /* Computes the rate at which each edge gets longer, over its length [1/s]. */
 static void old_rates(const sw_mesh *m, double *rate) {
   for (size_t e = 0; e + 1 < m->n; e++)
-    rate[e] = sw_dot(direction(m->x, e), edge_vector(m->v, e)) / (m->s[e + 1] - m->s[e]);
+    rate[e] = sw_dot(sw_edge_direction(m->x, e), edge_vector(m->v, e)) / (m->s[e + 1] - m->s[e]);
 }
 
 static void give_rates(resample *p) {
   sw_mesh *m = p->out;
   for (int k = 0; k < 3; k++) {
     for (size_t e = 0; e + 1 < m->n; e++)
-      p->rhs[e] = sw_dot(direction(m->x, e), edge_vector(m->v, e)) - p->want[e];
+      p->rhs[e] = sw_dot(sw_edge_direction(m->x, e), edge_vector(m->v, e)) - p->want[e];
     shift(p, m->x, m->v);
   }
 }
@@ -186,7 +182,7 @@ static void give_rates(resample *p) {
 /* --- frames ---------------------------------------------------------------------- */
 
 static sw_edge_frame frame_of(const double *x, const double *normals, size_t e) {
-  return (sw_edge_frame){direction(x, e), sw_vec_at(normals, e)};
+  return (sw_edge_frame){sw_edge_direction(x, e), sw_vec_at(normals, e)};
 }
 
 /* Computes the normals of the new edges: each is carried from the old edge before it and turned by
@@ -195,16 +191,16 @@ static void carry_normals(const resample *p, const double *old_x, const double *
                           const double *x, double *normals) {
   const sw_mesh *m = p->old, *out = p->out;
   for (size_t e = 0; e + 1 < out->n; e++) {
-    const double s = middle(out, e);
+    const double s = sw_mesh_middle(out, e);
     size_t k = edge_at(m, s);
-    if (k > 0 && s < middle(m, k)) k--;
-    const sw_vec t = direction(x, e);
+    if (k > 0 && s < sw_mesh_middle(m, k)) k--;
+    const sw_vec t = sw_edge_direction(x, e);
     const sw_edge_frame f = frame_of(old_x, old_normals, k);
     const sw_vec n = sw_carry_unit(f.m1, f.t, t);
     double turn = 0;
-    if (k + 2 < m->n && s > middle(m, k))
-      turn = (p->turned[k + 1] - p->turned[k]) * (s - middle(m, k)) /
-             (middle(m, k + 1) - middle(m, k));
+    if (k + 2 < m->n && s > sw_mesh_middle(m, k))
+      turn = (p->turned[k + 1] - p->turned[k]) * (s - sw_mesh_middle(m, k)) /
+             (sw_mesh_middle(m, k + 1) - sw_mesh_middle(m, k));
     sw_store(normals + 3 * e, sw_rotate(sw_quat_exp(sw_scale(t, turn)), n));
   }
 }
@@ -226,7 +222,8 @@ static void give_rest(resample *p) {
   sw_mesh *out = p->out;
   for (size_t e = 0; e + 1 < m->n; e++)
     p->known[e] = sw_norm(edge_vector(m->rest, e)) / (m->s[e + 1] - m->s[e]) - 1.0;
-  for (size_t e = 0; e + 1 < out->n; e++) p->strain[e] = edge_value_at(p, p->known, middle(out, e));
+  for (size_t e = 0; e + 1 < out->n; e++)
+    p->strain[e] = edge_value_at(p, p->known, sw_mesh_middle(out, e));
   for (size_t i = 0; i < out->n; i++) sw_store(out->rest + 3 * i, curve_at(p, m->rest, out->s[i]));
   give_strains(p, out->rest, p->strain);
 }
@@ -240,12 +237,12 @@ static void give_frames(resample *p) {
   add_up_twist(p, m->x, m->normal, m->twist);
   carry_normals(p, m->x, m->normal, out->x, out->normal);
   for (size_t e = 0; e + 1 < out->n; e++) {
-    out->turn[e] = edge_value_at(p, m->turn, middle(out, e));
-    out->spin[e] = edge_value_at(p, m->spin, middle(out, e));
+    out->turn[e] = edge_value_at(p, m->turn, sw_mesh_middle(out, e));
+    out->spin[e] = edge_value_at(p, m->spin, sw_mesh_middle(out, e));
   }
   for (size_t i = 1; i + 1 < out->n; i++)
-    out->twist[i] = edge_value_at(p, p->turned, middle(out, i)) -
-                    edge_value_at(p, p->turned, middle(out, i - 1));
+    out->twist[i] = edge_value_at(p, p->turned, sw_mesh_middle(out, i)) -
+                    edge_value_at(p, p->turned, sw_mesh_middle(out, i - 1));
   for (size_t i = 0; i < out->n; i++) { /* at clamps, for both their sides */
     const size_t k = sw_mesh_node(m, out->s[i]);
     const int same = k < m->n && m->s[k] == out->s[i];
@@ -273,9 +270,9 @@ sw_status sw_mesh_resample(const sw_mesh *from, const double *s, size_t count, c
     sw_store(out->v + 3 * i, curve_at(&p, from->v, s[i]));
   }
   for (size_t e = 0; e + 1 < count; e++) {
-    out->tension[e] = edge_value_at(&p, from->tension, middle(out, e));
-    out->rate[e] = edge_value_at(&p, from->rate, middle(out, e));
-    p.want[e] = (s[e + 1] - s[e]) * edge_value_at(&p, rate, middle(out, e));
+    out->tension[e] = edge_value_at(&p, from->tension, sw_mesh_middle(out, e));
+    out->rate[e] = edge_value_at(&p, from->rate, sw_mesh_middle(out, e));
+    p.want[e] = (s[e + 1] - s[e]) * edge_value_at(&p, rate, sw_mesh_middle(out, e));
   }
   for (size_t e = 0; e + 1 < count; e++) p.strain[e] = out->tension[e] / out->EA;
   give_strains(&p, out->x, p.strain);

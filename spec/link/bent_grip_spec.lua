@@ -22,6 +22,11 @@ local function arch(cable, segments, turn)
   return scene, wire, (wire:min_bend_radius()), { start, far }
 end
 
+-- A grip, or a clamp where the hold has no width.
+local function held_by(scene, wire, hold)
+  return hold.width and scene:grip(wire, hold) or scene:clamp(wire, { s = hold.s })
+end
+
 describe("a bent wire at rest that is gripped", function()
   for k, cable in ipairs{ "FLRY-B 0.5", "GXL 1.5", "H07V-K 4" } do
     it("keeps its bend radius: " .. cable, function()
@@ -29,7 +34,7 @@ describe("a bent wire at rest that is gripped", function()
         for _, hold in ipairs{ { s = 0.2, width = 0.01 }, { s = 0.2027, width = 0.01 },
           { s = 0.205, width = 0.02 }, { s = 0.197 } } do
           local scene, wire, before = arch(cable, segments, 0.4 * k + n)
-          if hold.width then scene:grip(wire, hold) else scene:clamp(wire, hold) end
+          held_by(scene, wire, hold)
           t.fine(scene:run{ duration = 0.1 })
           -- Edges of 7 to 10 mm on a bend of 30 mm: h^2/R^2 is 0.05 to 0.1. The shape near the hold is right
           -- to a third of this.
@@ -44,7 +49,7 @@ describe("a bent wire at rest that is gripped", function()
     for n, segments in ipairs{ 40, 47, 55 } do
       for _, hold in ipairs{ { s = 0.2, width = 0.01 }, { s = 0.2 }, { s = 0.2027 } } do
         local scene, wire, before = arch("GXL 1.5", segments, 0.7 * n)
-        local held = hold.width and scene:grip(wire, hold) or scene:clamp(wire, hold)
+        local held = held_by(scene, wire, hold)
         t.fine(scene:run{ duration = 0.5 })
         held:release()
         if n == 2 then scene:clamp(wire, { s = hold.s }) end
