@@ -225,6 +225,12 @@ int sw_contact_push_at(const sw_contact *c, const sw_system *s, size_t k, sw_con
   return p->normal_force > 0;
 }
 
+double sw_contact_largest_push(const sw_contact *c, size_t first, size_t end) {
+  double most = 0;
+  for (size_t k = first; k < end; k++) most = fmax(most, touch_at(c, k)->press.normal_force);
+  return most;
+}
+
 /* --- for the energy ledger ------------------------------------------------------ */
 
 int sw_contact_poses(const sw_contact *c, int id, sw_pose *from, sw_pose *to) {

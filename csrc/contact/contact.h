@@ -183,12 +183,12 @@ typedef struct sw_contact_push {
 } sw_contact_push;
 /* Touches, with or without a force. sw_contact_push_at reads touch k; 0: it has no force. */
 size_t sw_contact_touches(const sw_contact *contact);
-/* Touches from *first up to *end (exclusive) are those of nodes from node up to end_node
- * (exclusive). */
+/* Touches from *first up to before *end are those of nodes from node up to before end_node. */
 void sw_contact_touches_of(const sw_contact *contact, size_t node, size_t end_node, size_t *first,
                            size_t *end);
 int sw_contact_push_at(const sw_contact *contact, const sw_system *system, size_t k,
                        sw_contact_push *out);
+double sw_contact_largest_push(const sw_contact *contact, size_t first, size_t end); /* [N] */
 /* Largest radius of round obstacles that press on a wire within an edge of a node; 0: none [m]. */
 double sw_contact_round_beside(const sw_contact *contact, const sw_system *system, size_t node);
 

@@ -54,6 +54,7 @@ void sw_scene_watch_squeezed(sw_scene *s, size_t wire) {
   if (!contact || b->plan->web) return;
   const double usual = usual_force(b->plan);
   sw_contact_touches_of(contact, b->first_node, b->first_node + b->plan->nodes, &first, &end);
+  if (!(sw_contact_largest_push(contact, first, end) > usual)) return;
   for (size_t i = first; i < end; i++) {
     if (!sw_contact_push_at(contact, system, i, &one) || !(one.normal_force > usual) ||
         is_pad(s, one.obstacle))
