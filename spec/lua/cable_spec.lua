@@ -370,7 +370,8 @@ describe("scene:wire{ cable = }", function()
     assert.is_false(judged.ok)
     assert.truthy(tostring(judged):find "NOT kept")
     local label = run:document().summary[1].label
-    assert.are.equal("loop: smallest bend radius (limit 22.50 mm, reeling, EXCEEDED)", label)
+    assert.are.equal("loop: smallest bend radius of the centre line (limit 22.50 mm, reeling, EXCEEDED)",
+      label)
     refuses(function() wire:bend_limit { us = 1 } end, "no parameter 'us'")
     refuses(function() wire:bend_limit { use = "x" } end, "there is no use 'x'")
     local bare = scene:wire { E = 1e8, density = 1000, radius = 0.001, from = { 0, 0, 1 }, to = { 1, 0, 1 } }

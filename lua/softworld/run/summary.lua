@@ -42,7 +42,7 @@ end
 local function sum_up_wires(self, data, add)
   for _, w in ipairs(data.wires) do
     local radius, s, t = w.object:min_bend_radius()
-    local label = w.name .. ": smallest bend radius"
+    local label = w.name .. ": smallest bend radius of the centre line"
     if w.object:cable() then
       local allowed = w.object:bend_limit()
       label = ("%s (limit %s, %s%s)"):format(label, number.text(allowed.limit, "m"), allowed.use,

@@ -211,8 +211,8 @@ local Limit = { __name = "bend limit" }
 Limit.__index = checks.fields("bend limit", "name ok radius s t limit inside use")
 
 function Limit.__tostring(l)
-  return ("%s: smallest bend radius %.4g m, limit %.4g m (%s): %s"):format(l.name, l.radius, l.limit,
-    l.use, l.ok and "kept" or "NOT kept")
+  local text = "%s: smallest bend radius of the centre line %.4g m, limit %.4g m (%s): %s"
+  return text:format(l.name, l.radius, l.limit, l.use, l.ok and "kept" or "NOT kept")
 end
 
 --- Checks whether the wire is bent more tightly than its cable allows.
