@@ -58,7 +58,7 @@ rules.ROOMS = {
 -- Headers that other rooms may include: <room>/<room>.h, unless listed here (true = all headers).
 -- state and solve have no single header, because their parts have different users.
 rules.OPEN = { base = true, bind = true,
-  contact = { "contact.h", "crowd.h", "jolt.h", "mutual.h", "tally.h" },
+  contact = { "contact.h", "crowd.h", "halt.h", "jolt.h", "mutual.h", "tally.h" },
   film = { "film.h", "pack.h", "skin.h" }, view = { "server.h" },
   read = { "frames.h" },
   force = { "force.h", "solid.h" }, link = { "hold.h", "joint.h", "spool.h" }, shape = { "tree.h" },

@@ -54,6 +54,11 @@ static void destroy(void *body) {
 
 const sw_motion_law sw_motion_law_callback = {"callback", NULL, NULL, eval, destroy};
 
+double sw_motion_step(const sw_motion *motion) {
+  const sw_motion *law = motion->inner ? motion->inner : motion;
+  return law->law == &sw_motion_law_callback ? ((const sw_motion_callback *)law->body)->step : 0.0;
+}
+
 sw_status sw_motion_create_callback(const sw_motion_callback *callback, sw_motion **out,
                                     sw_error *err) {
   *out = NULL;

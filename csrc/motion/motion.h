@@ -117,6 +117,7 @@ int sw_motion_is_relative(const sw_motion *motion); /* 1: sw_motion_relative mus
 const char *sw_motion_law_at(size_t i);
 
 int sw_motion_is_function(const sw_motion *motion); /* a user's function: cannot go on a tape */
+double sw_motion_step(const sw_motion *motion);     /* of a function's differences; else 0 [s] */
 /* Writes or reads a motion or NULL. Reading plans it anew, which gives the same bits. */
 void sw_tape_motion(sw_tape *tape, sw_motion **motion);
 

@@ -4,6 +4,7 @@
 
 #include "body/hold.h"
 #include "body/touching.h"
+#include "contact/halt.h"
 #include "scene/course.h"
 #include "scene/parts.h"
 #include "step/believe.h"
@@ -31,6 +32,10 @@ void sw_ladder_accept(sw_ladder *p, double h, double t) {
   sw_system *system = sw_scene_system(s);
   sw_stepper_accept(&c->stepper, system, h);
   system->judged = c->stepper.trial_x;
+  if (p->halts) {
+    sw_contact_halt(sw_scene_contact(s), system);
+    c->stepper.restart = 1;
+  }
   sw_scene_commit_contact(s);
   if (sw_scene_contact(s) && !sw_course_lumps(c) && !is_followed(p)) sw_scene_stop_wires(s);
   sw_restart_taken(s);

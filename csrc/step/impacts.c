@@ -46,14 +46,15 @@ sw_status sw_rung_strike(sw_ladder *p, const sw_rung *below, double h, sw_error 
   sw_contact *contact = sw_scene_contact(s);
   sw_course *c = sw_scene_course(s);
   sw_system *system = sw_scene_system(s);
-  p->soonest = 0;
+  p->soonest = 0, p->halts = 0;
   sw_restart_try(p);
   if (!sw_scene_has_contact(s)) return sw_rung_go(p, below, h, err);
   memcpy(p->v_start, system->v, system->freedoms * sizeof(double));
-  const int stops = c->method->flags & SW_INTEGRATOR_IMPLICIT && sw_restart_stops(s, h);
-  sw_status status = sw_scene_begin_contact(
-      s, c->method->flags & SW_INTEGRATOR_IMPLICIT ? SW_CONTACT_IMPLICIT : SW_CONTACT_EXPLICIT,
-      sw_scene_time(s), h, sw_blow_part(s, p->args->dt), err);
+  const int implicit = c->method->flags & SW_INTEGRATOR_IMPLICIT;
+  p->halts = implicit && sw_restart_halts(s, h);
+  const int stops = implicit && !p->halts && sw_restart_stops(s, h);
+  sw_status status = sw_scene_begin_contact(s, implicit ? SW_CONTACT_IMPLICIT : SW_CONTACT_EXPLICIT,
+                                            sw_scene_time(s), h, sw_blow_part(s, p->args->dt), err);
   if (contact) sw_contact_cut(contact, shortest_cut(p));
   if (contact && p->asked > 0) sw_contact_ask(contact, p->asked);
   if (stops) c->stepper.plastic = 1;

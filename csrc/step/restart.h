@@ -24,6 +24,10 @@ void sw_restart_taken(sw_scene *scene);
  * a step is tried with implicit Euler: a method of second order lets nodes swing back by its error,
  * and friction, which needs nanometres to change its direction, stays reversed. */
 int sw_restart_stops(const sw_scene *scene, double h);
+/* Part of a step of size h that ends where the first drive comes to rest with a deceleration while
+ * wires slide; h: none does [s]. sw_restart_halts: 1 if one does between now and h. */
+double sw_restart_until_halt(const sw_scene *scene, double h);
+int sw_restart_halts(const sw_scene *scene, double h);
 /* Call when the part was refused. cut: only because it has to end sooner. */
 void sw_restart_refused(sw_ladder *p, int cut);
 

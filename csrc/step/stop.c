@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Steps in which a drive comes to rest softly while wires slide. */
+#include <math.h>
+
 #include "contact/contact.h"
 #include "link/hold.h"
 #include "scene/drive.h"
@@ -20,21 +22,34 @@ static const double SOFTLY = 0.75;
  * tr-bdf2 turns the velocity of what it pushes to the other side below 0.07 [-]. */
 static const double NEARLY = 0.15;
 
+/* Evaluates a motion just after t. The velocity of a function is a difference over the time before
+ * and after. */
 static int eval(const sw_motion *m, double t, sw_motion_state *out) {
   sw_error ignored;
-  return sw_motion_eval(m, t, out, &ignored) == SW_OK;
+  if (sw_motion_eval(m, t, out, &ignored) != SW_OK) return 0;
+  const double half = 0.5 * sw_motion_step(m);
+  out->v = sw_madd(out->v, out->a, half), out->omega = sw_madd(out->omega, out->alpha, half);
+  return 1;
 }
 
 static double speed(const sw_motion_state *m) { return sw_norm(m->v) + sw_norm(m->omega); }
+
+/* An even deceleration is this share of its mean over a step, or more, at the step's end; that of
+ * minimum jerk is at most 0.56 where the drive stops nearly [-]. */
+static const double EVENLY = 0.75;
+
+static int is_even(const sw_motion_state *now, const sw_motion_state *end, double h) {
+  return (sw_norm(end->a) + sw_norm(end->alpha)) * h > EVENLY * (speed(now) - speed(end));
+}
 
 /* 1 if the motion comes softly to rest, or nearly, between t and t + h, or did in the step before.
  */
 static int stops(const sw_motion *m, double t, double h) {
   sw_motion_state end, now, before;
-  if (!m || sw_motion_is_function(m)) return 0;
   if (!eval(m, t + h, &end) || !eval(m, t, &now)) return 0;
   const int rested = speed(&now) < STILL;
-  if (speed(&end) >= STILL) return !rested && speed(&end) < NEARLY * speed(&now);
+  if (speed(&end) >= STILL)
+    return !rested && speed(&end) < NEARLY * speed(&now) && !is_even(&now, &end, h);
   if (rested && (!eval(m, t - h, &before) || speed(&before) < STILL)) return 0;
   if (!rested) before = now;
   const sw_quat turn = sw_quat_mul(end.pose.q, sw_quat_conj(before.pose.q));
@@ -42,17 +57,68 @@ static int stops(const sw_motion *m, double t, double h) {
          sw_norm(sw_quat_log(turn)) <= SOFTLY * h * sw_norm(before.omega) + ROUNDING;
 }
 
-static int any_stops(const sw_scene *s, double t, double h) {
+/* A drive stops with a deceleration if it has this share of its mean deceleration at the end [-].
+ */
+static const double DECELERATES = 0.1;
+/* A stop this near to the start or end of a step counts as there; share of the step. Of a function
+ * also one this near to its start; share of the step of its differences. A shorter part would
+ * divide their error by its length [-]. */
+static const double NEAR = 1e-3, NEAR_OF_FUNCTION = 0.2;
+/* A stop this near to the end of a step is there; share of the step. Further away, a step that goes
+ * on would turn the velocity round [-]. */
+static const double END = 2e-6;
+enum { HALVINGS = 60 }; /* of the time in which a drive comes to rest */
+
+/* Returns the time after t at which a motion comes to rest with a deceleration; 0: at t; h: at t +
+ * h; HUGE_VAL: not between these [s]. */
+static double halt_of(const sw_motion *m, double t, double h) {
+  const double near = fmax(NEAR * h, NEAR_OF_FUNCTION * sw_motion_step(m));
+  sw_motion_state now, end;
+  if (!eval(m, t + h + near, &end) || !(speed(&end) < STILL)) return HUGE_VAL;
+  if (!eval(m, t, &now) || speed(&now) < STILL) return HUGE_VAL;
+  double moves = 0, rests = h + near;
+  for (int k = 0; k < HALVINGS && rests - moves > ROUNDING * h; k++) {
+    const double middle = 0.5 * (moves + rests);
+    if (!eval(m, t + middle, &end)) return HUGE_VAL;
+    *(speed(&end) < STILL ? &rests : &moves) = middle;
+  }
+  if (!eval(m, t + moves, &end)) return HUGE_VAL;
+  const double deceleration = sw_norm(end.a) + sw_norm(end.alpha);
+  if (!(deceleration * rests > DECELERATES * speed(&now))) return HUGE_VAL;
+  return rests < near ? 0.0 : rests > h * (1 - END) ? h : rests;
+}
+
+/* The same for a stop, soft or not: 0 [s]. */
+static double stop_of(const sw_motion *m, double t, double h) {
+  return stops(m, t, h) ? 0.0 : HUGE_VAL;
+}
+
+typedef double (*moment_of)(const sw_motion *m, double t, double h);
+
+/* Which drives are asked: functions of a script are slow, and only asked while wires slide. */
+typedef enum asked { LAWS, FUNCTIONS } asked;
+
+static double moment(const sw_motion *m, double start, const sw_scene *s, double h, asked which,
+                     moment_of of) {
+  if (!m || sw_motion_is_function(m) != (which == FUNCTIONS)) return HUGE_VAL;
+  return of(m, sw_scene_time(s) - start, h);
+}
+
+/* The first moment of all drives. */
+static double first(const sw_scene *s, double h, asked which, moment_of of) {
+  double t = HUGE_VAL;
   SW_EACH(hold, hold, s) {
     if (!hold->alive) continue;
-    if (!hold->drive.tool && stops(hold->drive.motion, t - hold->drive.start, h)) return 1;
-    if (stops(hold->feed.motion, t - hold->feed.start, h)) return 1;
+    const sw_drive *d = &hold->drive;
+    if (!d->tool) t = fmin(t, moment(d->motion, d->start, s, h, which, of));
+    t = fmin(t, moment(hold->feed.motion, hold->feed.start, s, h, which, of));
   }
   SW_EACH(tool, tool, s)
-    if (stops(tool->drive.motion, t - tool->drive.start, h)) return 1;
+    t = fmin(t, moment(tool->drive.motion, tool->drive.start, s, h, which, of));
   SW_EACH(obstacle, o, s)
-    if (o->alive && !o->drive.tool && stops(o->drive.motion, t - o->drive.start, h)) return 1;
-  return 0;
+    if (o->alive && !o->drive.tool)
+      t = fmin(t, moment(o->drive.motion, o->drive.start, s, h, which, of));
+  return t;
 }
 
 static int any_slides(const sw_scene *s) {
@@ -66,6 +132,25 @@ static int any_slides(const sw_scene *s) {
   return 0;
 }
 
-int sw_restart_stops(const sw_scene *s, double h) {
-  return any_stops(s, sw_scene_time(s), h) && any_slides(s);
+/* For the question whether there is any such drive. */
+static double at_once(const sw_motion *m, double t, double h) {
+  (void)m, (void)t, (void)h;
+  return 0;
 }
+
+/* The first moment of all drives while wires slide. */
+static double while_sliding(const sw_scene *s, double h, moment_of of) {
+  const double t = first(s, h, LAWS, of);
+  if (!(t <= h) && first(s, h, FUNCTIONS, at_once) > 0) return HUGE_VAL;
+  return any_slides(s) ? fmin(t, first(s, h, FUNCTIONS, of)) : HUGE_VAL;
+}
+
+double sw_restart_until_halt(const sw_scene *s, double h) {
+  if (!sw_scene_contact(s)) return h;
+  const double t = while_sliding(s, h, halt_of);
+  return t > 0 && t < h ? t : h;
+}
+
+int sw_restart_halts(const sw_scene *s, double h) { return while_sliding(s, h, halt_of) <= h; }
+
+int sw_restart_stops(const sw_scene *s, double h) { return while_sliding(s, h, stop_of) <= h; }

@@ -29,6 +29,16 @@ local makers = {
     hold:follow{ relative = true, points = { { 0, 0, 0 }, way(along, 1) }, duration = TIME }
     return hold
   end,
+  ["function"] = function(scene, wire, _, along)
+    local hold = scene:clamp(wire, { s = wire.length })
+    local start = hold:pose()
+    hold:follow(function(time)
+      local u = math.min(1, time / TIME)
+      local x = way(along, u ^ 3 * (10 - 15 * u + 6 * u ^ 2))
+      return { start[1] + x[1], start[2] + x[2], start[3] }
+    end)
+    return hold
+  end,
   gripper = function(scene, wire, _, along)
     local hand = scene:gripper{ pads = { width = 0.01 } }
     scene:process(function()

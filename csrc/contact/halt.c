@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A wire that slides and is slowed down at a m/s2 until it rests: friction was mu N, the wire's
+ * inertia m a helped its drive, and the wire has the strain of mu N - m a. At rest friction holds
+ * just that strain. Friction's spring, however, is still stretched by mu N/k. It would draw the
+ * wire until the wire has the strain of mu N: micrometres suffice, and an axially stiff cable
+ * yields less than the spring. So the spring is set to the force at rest. Where a wire rolls, only
+ * friction along the wire is set: what rolls across has the inertia of its spin too. */
+#include "contact/halt.h"
+
+#include <math.h>
+
+#include "contact/touch.h"
+
+/* A place rests if its speed is below what it loses in this share of the step [-], or in LATE [s].
+ * Velocities of a drive that is a function are differences over the time before and after, and end
+ * late. */
+static const double RESTS = 0.01, LATE = 1e-4;
+
+/* Part of v along the surface, and not in a direction in which the wire rolls. */
+static sw_vec sliding_part(sw_vec v, sw_vec normal, const sw_levers *l) {
+  v = sw_madd(v, normal, -sw_dot(v, normal));
+  if (!l->count) return v;
+  const sw_vec rolls = sw_unit_or(l->arm[0], sw_v(0, 0, 0));
+  return sw_madd(v, rolls, -sw_dot(v, rolls));
+}
+
+static void halt(const sw_contact *c, sw_system *s, sw_touch *t) {
+  sw_press *p = &t->press;
+  if (t->held || !(t->friction > 0) || !(p->normal_force > 0)) return;
+  const sw_levers l = sw_touch_levers(s, t);
+  const sw_vec o = sw_obstacle_velocity(&c->now[t->obstacle], t->point);
+  const sw_vec v = sliding_part(sw_sub(sw_mean_of(s->v, 0, &t->spot), o), p->normal, &l);
+  const sw_vec a = sliding_part(sw_mean_of(s->a, 0, &t->spot), p->normal, &l);
+  if (sw_norm(v) > fmax(RESTS * c->h, LATE) * sw_norm(a)) return;
+  const sw_vec rest = sw_madd(p->tangential, a, -c->candidates[t->candidate].mass);
+  const double most = t->friction * p->normal_force;
+  p->tangential = sw_scale(rest, fmin(1.0, most / fmax(sw_norm(rest), 1e-300)));
+  p->next_sliding = 0;
+  if (t->spot.count == 1) sw_store(s->v + 3 * t->node, sw_sub(sw_load(s->v + 3 * t->node), v));
+}
+
+void sw_contact_halt(sw_contact *c, sw_system *s) {
+  for (size_t i = 0; i < c->touch_count; i++) halt(c, s, &c->touches[i]);
+}

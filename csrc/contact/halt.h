@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Friction of wires that come to rest together with what drives them. */
+#ifndef SW_CONTACT_HALT_H
+#define SW_CONTACT_HALT_H
+
+#include "contact/contact.h"
+
+/* Call when a trial at whose end a drive comes to rest is the state of the system, before
+ * sw_contact_commit. Sets friction at places that come to rest to the force that keeps them there,
+ * and stops them. */
+void sw_contact_halt(sw_contact *contact, sw_system *system);
+
+#endif
