@@ -32,19 +32,32 @@ double sw_contact_depth_before(const sw_contact *c, const sw_system *s, const sw
   return t->forgiven - t->press.gap + sw_dot(t->press.normal, way);
 }
 
+/* A line that moves over a bent surface gets inside by its motion. It may come out by this share of
+ * its way, which is enough where the surface turns by a fifth of a radian in a step [-]. */
+static const double TURNS = 0.1;
+
+/* Returns the way that a touch may come out by up to this stage [m]. At SW_PART cables on pegs were
+ * thrown in short steps, where a chord of 10 mm came to touch a second time
+ * (spec/contact/let_out_spec). */
+static double let_out(const sw_contact *c, const sw_system *s, const sw_touch *t) {
+  const sw_web *web = s->bodies[t->body].plan->web;
+  const sw_vec of = sw_obstacle_velocity(&c->start[t->obstacle], t->point);
+  const double moves = sw_norm(sw_sub(sw_mean_of(s->v, 0, &t->spot), of));
+  const int slowly = (web && web->per_ring) || c->fresh;
+  const double speed = SW_LET_OUT + (slowly ? 0.0 : TURNS * moves);
+  return fmin(speed, SW_PART) * (c->stage_time - c->time);
+}
+
 void sw_contact_forgive(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                         const sw_kept *last, const double *y, sw_touch *t) {
-  const sw_web *web = s->bodies[k->body].plan->web;
-  const int slowly = (web && web->per_ring) || c->fresh;
   if (c->regime == SW_CONTACT_EXPLICIT || t->press.gap >= 0) return; /* force follows depth */
   const double always = sw_contact_imposed(c, s, k, t, y);
   const double depth = sw_contact_depth_before(c, s, t) - always;
   t->forgiven = always;
   if (c->regime != SW_CONTACT_IMPLICIT) return;
-  const double h = slowly ? c->stage_time - c->time : c->h;
   sw_kept kept = last ? *last : (sw_kept){0};
   if (!t->squeezed) kept.left = 0;
-  const sw_left left = sw_press_leave(depth, last ? &kept : NULL, h, slowly);
+  const sw_left left = sw_press_leave(depth, last ? &kept : NULL, let_out(c, s, t));
   t->forgiven += left.forgiven, t->left = left.left;
   t->let_out = left.let_out;
 }

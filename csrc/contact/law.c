@@ -31,11 +31,6 @@ static const double SURELY_SLIDING = 20.0;
  * by more than that stretch each time, so it sticks [-]. */
 enum { REVERSALS = 3 };
 
-/* Wires that are deeper inside than their force explains are let out at RECOVERY_SPEED. Meshes,
- * whose sections may stand off the line that they come from, are let out at SLOW_RECOVERY, so that
- * they are not thrown [m/s]. */
-static const double RECOVERY_SPEED = 0.2, SLOW_RECOVERY = 0.005;
-
 static const double MOST_BOOST = 1e5;    /* largest stiffening, of a new touch's stiffness [-] */
 static const double LARGEST_STEP = 10.0; /* largest stiffening at once [-] */
 /* Shares of the allowed depth: */
@@ -306,11 +301,10 @@ int sw_press_lies(const sw_press *p) { return p->gap_after <= PLACED; }
 
 int sw_press_was_put(double depth, int first) { return depth > (first ? PLACED : SW_DEEPEST); }
 
-sw_left sw_press_leave(double depth, const sw_kept *kept, double h, int slowly) {
-  const double speed = slowly ? SLOW_RECOVERY : RECOVERY_SPEED;
+sw_left sw_press_leave(double depth, const sw_kept *kept, double way) {
   const double explained = kept ? kept->depth : 0.0;
   const double left = kept ? fmin(kept->left, fmax(0.0, depth - explained)) : 0.0;
-  const double forgiven = left + fmax(0.0, depth - explained - left - speed * h - PLACED);
+  const double forgiven = left + fmax(0.0, depth - explained - left - way - PLACED);
   const double out = depth - explained - forgiven;
   return (sw_left){forgiven, out > PLACED ? out : 0.0, left};
 }

@@ -165,16 +165,24 @@ int sw_press_lies(const sw_press *press);
  * deep by itself within a step. first: 1 if nothing touched anywhere. */
 int sw_press_was_put(double depth, int first);
 
-/* Splits a depth at the step's start. kept: memory of the touch, or NULL. Wires that were placed in
+/* Speeds at which wires are let out that are deeper inside than their force explains. SW_LET_OUT:
+ * lines at rest, meshes, whose sections may stand off the line that they come from, and wires that
+ * were placed in each other. It throws nothing. SW_PART: the highest, and that of wires whose touch
+ * with each other is found within a run [m/s]. */
+#define SW_LET_OUT 0.005
+#define SW_PART 0.2
+
+/* Splits a depth at the step's start. kept: memory of the touch, or NULL. way: what the touch may
+ * come out by beyond the depth that its force explains [m]. Wires that were placed in
  * each other, or that leave a barrier, come out slowly: within one step the depth would turn into
- * speed. slowly: 1 for the lower speed, which throws no mesh. */
+ * speed. */
 typedef struct sw_left {
   double forgiven; /* the step leaves this alone [m] */
   double let_out; /* unexplained depth that the step removes; 0 if it is only rounding, as of a wire
                      laid on a table [m] */
   double left;    /* part of forgiven that the touch keeps (sw_kept.left) [m] */
 } sw_left;
-sw_left sw_press_leave(double depth, const sw_kept *kept, double h, int slowly);
+sw_left sw_press_leave(double depth, const sw_kept *kept, double way);
 
 /* Sets the forces after an update that shifted the touch; 1 = they agree with the solve's
  * assumptions. force_scale: force scale of the scene; much smaller forces do not matter [N]. */

@@ -68,7 +68,8 @@ static void forgive(const sw_mutual *m, const sw_system *s, const sw_met *met, s
   sw_kept kept = met ? met->kept : (sw_kept){0};
   t->squeezed = is_squeezed(m, s, met, t);
   if (!t->squeezed) kept.left = 0;
-  const sw_left left = sw_press_leave(depth, met ? &kept : NULL, m->h, t->emerges);
+  const sw_left left =
+      sw_press_leave(depth, met ? &kept : NULL, (t->emerges ? SW_LET_OUT : SW_PART) * m->h);
   t->forgiven += left.forgiven, t->left = left.left;
   if (t->emerges) t->let_out = left.let_out;
 }
