@@ -40,10 +40,13 @@ static bounds work_of(const sw_worker *from, const sw_pose *to, sw_vec force, sw
 }
 
 /* Replaces the mean by that of the impulses in a step of size h. The bound stays that of the ends:
- * in a blow the impulse is far above the end forces, but its work is not along the way. */
+ * in a blow the impulse is far above the end forces, but its work is not along the way. After a
+ * change the force at the start is not known, and a drive that starts abruptly does all its work
+ * between the ends. */
 static bounds by_impulse(bounds b, const sw_worker *from, const sw_pose *to, sw_vec force,
-                         sw_vec moment, double h) {
+                         sw_vec moment, double h, int changed) {
   b.mean = work_of(from, to, sw_scale(force, 1.0 / h), sw_scale(moment, 1.0 / h), 1).mean;
+  if (changed) b.most = fmax(b.most, b.mean);
   return b;
 }
 
@@ -135,7 +138,7 @@ static bounds work_of_hold(sw_scene *s, size_t k, double h, int changed) {
   sw_vec gained = sums->moment[sums->last];
   if (sw_scene_held_by(s, k)->cls->hold->rail) /* booked about the wire's place */
     gained = sw_add(gained, sw_cross(sw_sub(held_place(s, k), to->p), sums->force[sums->last]));
-  return by_impulse(b, from, to, sums->force[sums->last], gained, h);
+  return by_impulse(b, from, to, sums->force[sums->last], gained, h, changed);
 }
 
 static double work_of_holds(sw_scene *s, double t1, int changed) {
@@ -166,7 +169,7 @@ static bounds work_of_obstacle(sw_scene *s, size_t k, const sw_worker *from, con
   const bounds b = work_of(from, to, sw_neg(force), sw_neg(moment), changed);
   if (!(h > 0)) return b;
   sw_contact_gained(contact, (int)k, &force, &moment);
-  return by_impulse(b, from, to, sw_neg(force), sw_neg(moment), h);
+  return by_impulse(b, from, to, sw_neg(force), sw_neg(moment), h, changed);
 }
 
 static double work_of_obstacles(sw_scene *s, double h, int changed) {
