@@ -16,6 +16,9 @@
  * late. */
 static const double RESTS = 0.01, LATE = 1e-4;
 
+/* A slower place does not slide [m/s]. */
+static const double SLOW = 1e-6;
+
 /* Part of v along the surface, and not in a direction in which the wire rolls. */
 static sw_vec sliding_part(sw_vec v, sw_vec normal, const sw_levers *l) {
   v = sw_madd(v, normal, -sw_dot(v, normal));
@@ -37,6 +40,25 @@ static void halt(const sw_contact *c, sw_system *s, sw_touch *t) {
   p->tangential = sw_scale(rest, fmin(1.0, most / fmax(sw_norm(rest), 1e-300)));
   p->next_sliding = 0;
   if (t->spot.count == 1) sw_store(s->v + 3 * t->node, sw_sub(sw_load(s->v + 3 * t->node), v));
+}
+
+/* Friction keeps this share of its limit against the slide at the start, or has turned [-]. */
+static const double KEPT = 0.5;
+
+int sw_contact_turned(const sw_contact *c, const sw_system *s) {
+  double against = 0, most = 0;
+  for (size_t i = 0; i < c->touch_count; i++) {
+    const sw_touch *t = &c->touches[i];
+    const sw_press *p = &t->press;
+    if (t->held || !(t->friction > 0) || !(p->normal_force > 0)) continue;
+    const sw_levers l = sw_touch_levers(s, t);
+    const sw_vec o = sw_obstacle_velocity(&c->start[t->obstacle], t->point);
+    const sw_vec v = sliding_part(sw_sub(sw_mean_of(s->v, 0, &t->spot), o), p->normal, &l);
+    if (sw_norm(v) < SLOW) continue;
+    against -= sw_dot(p->tangential, sw_scale(v, 1.0 / sw_norm(v)));
+    most += t->friction * p->normal_force;
+  }
+  return against < KEPT * most;
 }
 
 void sw_contact_halt(sw_contact *c, sw_system *s) {

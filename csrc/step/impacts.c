@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "body/touching.h"
+#include "contact/halt.h"
 #include "force/force.h"
 #include "scene/course.h"
 #include "scene/parts.h"
@@ -65,8 +66,14 @@ sw_status sw_rung_strike(sw_ladder *p, const sw_rung *below, double h, sw_error 
     const sw_contact_verdict verdict =
         sw_scene_review_contact(s, c->stepper.trial_x, c->stepper.trial_v, h);
     const int mistaken = expected && was_mistaken(s, verdict);
-    if (verdict == SW_CONTACT_ACCEPT && !mistaken) return SW_OK;
+    const int turned =
+        verdict == SW_CONTACT_ACCEPT && p->halts && sw_contact_turned(contact, system);
+    if (verdict == SW_CONTACT_ACCEPT && !mistaken && !turned) return SW_OK;
     sw_stepper_reject(&c->stepper, system);
+    if (turned) {
+      c->stepper.plastic = 1, p->halts = 0;
+      continue;
+    }
     if (mistaken) {
       c->stepper.plastic = expected = 0;
       continue;

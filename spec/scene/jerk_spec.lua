@@ -47,8 +47,9 @@ describe("a hold that starts at once", function()
     end
   end)
 
-  -- The first step of a run does not know the forces at its start. All the work of the drive is done between
-  -- its ends: with the forces of the ends alone 0.25 of the energy in play came from nowhere, and the run ended.
+  -- The first step of a run does not know the forces at its start. All work of the drive is done between
+  -- its ends: by the forces of the ends alone a quarter of the energy in play came from nowhere, and the run
+  -- ended.
   for _, case in ipairs{ { "GXL 1.5", 0.3, 1e-3 }, { "FLRY-B 0.5", 0.1, 0 }, { "H07V-K 4", 0.3, 0 } } do
     local cable, mu, lag = table.unpack(case)
     it(("may do so in the first step, with a cable on a table: %s, mu = %g"):format(cable, mu), function()
