@@ -7,6 +7,7 @@
 #include "base/alloc.h"
 #include "body/hold.h"
 #include "link/hold.h"
+#include "scene/course.h"
 #include "scene/drive.h"
 #include "scene/obstacle.h"
 #include "scene/parts.h"
@@ -39,14 +40,14 @@ static bounds work_of(const sw_worker *from, const sw_pose *to, sw_vec force, sw
                       sw_dot(force, way) + sw_dot(moment, turn), changed);
 }
 
-/* Replaces the mean by that of the impulses in a step of size h. The bound stays that of the ends:
- * in a blow the impulse is far above the end forces, but its work is not along the way. After a
- * change the force at the start is not known, and a drive that starts abruptly does all its work
- * between the ends. */
+/* Replaces the mean by that of the impulses in a step of size h. In a calm step it is also the
+ * least bound: axial forces swing from step to step, and those at the ends are not those of the
+ * step. Where something strikes, the bound stays that of the ends: the impulse is far above their
+ * forces, but its work is not along the way. */
 static bounds by_impulse(bounds b, const sw_worker *from, const sw_pose *to, sw_vec force,
-                         sw_vec moment, double h, int changed) {
+                         sw_vec moment, double h, int calm) {
   b.mean = work_of(from, to, sw_scale(force, 1.0 / h), sw_scale(moment, 1.0 / h), 1).mean;
-  if (changed) b.most = fmax(b.most, b.mean);
+  if (calm) b.most = fmax(b.most, b.mean);
   return b;
 }
 
@@ -125,6 +126,17 @@ static sw_vec held_place(sw_scene *s, size_t k) {
   return sw_vec_at(system->x, system->bodies[h->wire].first_node + h->node);
 }
 
+/* Impacts that take a smaller share of the kinetic energy are no blow, such as that of an edge that
+ * slides onto a peg [-]. */
+static const double NO_BLOW = 1e-3;
+
+/* 1 if nothing strikes in the step, or the force at its start is not known (changed). */
+static int calm(sw_scene *s, int changed) {
+  const sw_books *b = sw_scene_books(s);
+  return changed ||
+         (!sw_scene_course(s)->stepper.plastic && fabs(b->step.impact) <= NO_BLOW * b->now.kinetic);
+}
+
 static bounds work_of_hold(sw_scene *s, size_t k, double h, int changed) {
   sw_system *system = sw_scene_system(s);
   const sw_pose *to = &system->hold_states[k].pose;
@@ -138,7 +150,7 @@ static bounds work_of_hold(sw_scene *s, size_t k, double h, int changed) {
   sw_vec gained = sums->moment[sums->last];
   if (sw_scene_held_by(s, k)->cls->hold->rail) /* booked about the wire's place */
     gained = sw_add(gained, sw_cross(sw_sub(held_place(s, k), to->p), sums->force[sums->last]));
-  return by_impulse(b, from, to, sums->force[sums->last], gained, h, changed);
+  return by_impulse(b, from, to, sums->force[sums->last], gained, h, calm(s, changed));
 }
 
 static double work_of_holds(sw_scene *s, double t1, int changed) {
@@ -169,7 +181,7 @@ static bounds work_of_obstacle(sw_scene *s, size_t k, const sw_worker *from, con
   const bounds b = work_of(from, to, sw_neg(force), sw_neg(moment), changed);
   if (!(h > 0)) return b;
   sw_contact_gained(contact, (int)k, &force, &moment);
-  return by_impulse(b, from, to, sw_neg(force), sw_neg(moment), h, changed);
+  return by_impulse(b, from, to, sw_neg(force), sw_neg(moment), h, calm(s, changed));
 }
 
 static double work_of_obstacles(sw_scene *s, double h, int changed) {
