@@ -12,6 +12,7 @@
 #include "scene/parts.h"
 #include "scene/wire.h"
 #include "step/energy.h"
+#include "step/restart.h"
 #include "system/join.h"
 #include "system/system.h"
 
@@ -91,7 +92,8 @@ static void judge_touches(sw_scene *s, double h, sw_step_energy *step) {
 }
 
 /* Returns the most energy that moving drives may give to wires in a step after a change of the
- * scene: they may have started abruptly, and forces within the step are unknown [J]. */
+ * scene, or at whose end a drive jumps: they may start abruptly, and forces within the step are not
+ * known, nor is the impulse at its end [J]. */
 static double jolt(const sw_scene *s, const sw_step_energy *step) {
   sw_books *b = sw_scene_books(s);
   sw_system *system = sw_scene_system(s);
@@ -149,7 +151,7 @@ sw_status sw_ledger_judge(sw_scene *s, double t1, double h, int changed, sw_erro
   judge_outer_forces(b, h, &most);
   step->work = sw_ledger_effort(step);
   const double before = b->now.kinetic + sw_ledger_potential(&b->now, b->contact);
-  if (changed) step->let_out += jolt(s, step);
+  if (changed || sw_restart_jerks(s, t1)) step->let_out += jolt(s, step);
   if (has_pads(s)) step->let_out += fmax(0.0, step->contact - b->contact);
   most += step->let_out;
   const double after = step->to.kinetic + sw_ledger_potential(&step->to, step->contact);

@@ -22,30 +22,30 @@ static int jumps(sw_vec before, sw_vec after, sw_vec rate1, sw_vec rate2) {
   return sw_dist(before, after) > most;
 }
 
-/* 1 if the drive has a jerk now. Functions of a script are not asked: they are called for times of
- * steps only. */
-static int drive_jerks(sw_scene *s, const sw_drive *d) {
+/* 1 if the drive has a jerk at this time. Functions of a script are not asked: they are called for
+ * times of steps only. */
+static int drive_jerks(const sw_drive *d, double time) {
   sw_motion_state one, two;
   sw_error ignored;
   if (!d->motion || sw_motion_is_function(d->motion)) return 0;
-  const double t = sw_scene_time(s) - d->start;
+  const double t = time - d->start;
   if (sw_motion_eval(d->motion, t - BESIDE, &one, &ignored) != SW_OK ||
       sw_motion_eval(d->motion, t + BESIDE, &two, &ignored) != SW_OK)
     return 0;
   return jumps(one.v, two.v, one.a, two.a) || jumps(one.omega, two.omega, one.alpha, two.alpha);
 }
 
-static int jerks(sw_scene *s) {
+int sw_restart_jerks(const sw_scene *s, double time) {
   SW_EACH(hold, h, s)
-    if (h->alive && !h->drive.tool && drive_jerks(s, &h->drive)) return 1;
+    if (h->alive && !h->drive.tool && drive_jerks(&h->drive, time)) return 1;
   SW_EACH(tool, t, s)
-    if (drive_jerks(s, &t->drive)) return 1;
+    if (drive_jerks(&t->drive, time)) return 1;
   return 0;
 }
 
 void sw_restart_at_jerk(sw_scene *s) {
   sw_course *c = sw_scene_course(s);
-  c->jerks = jerks(s);
+  c->jerks = sw_restart_jerks(s, sw_scene_time(s));
   if (c->jerks) c->stepper.restart = 1;
 }
 

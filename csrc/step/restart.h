@@ -10,8 +10,9 @@
 
 /* 1 if the scene was changed or its state jumped; energy is not judged across that. */
 int sw_restart_changed(const sw_scene *scene);
-/* Call when a part begins: starts anew if a drive of a hold or tool starts, stops or turns a corner
- * abruptly now. */
+/* 1 if a drive of a hold or tool starts, stops or turns a corner abruptly at this time [s]. */
+int sw_restart_jerks(const sw_scene *scene, double time);
+/* Call when a part begins: starts anew if a drive does so now. */
 void sw_restart_at_jerk(sw_scene *scene);
 /* Call before a try: starts anew if the scene was changed or the referee asks for it. */
 void sw_restart_try(sw_ladder *p);
@@ -24,9 +25,10 @@ void sw_restart_taken(sw_scene *scene);
  * a step is tried with implicit Euler: a method of second order lets nodes swing back by its error,
  * and friction, which needs nanometres to change its direction, stays reversed. */
 int sw_restart_stops(const sw_scene *scene, double h);
-/* Part of a step of size h that ends where the first drive comes to rest with a deceleration while
- * wires slide; h: none does [s]. sw_restart_halts: 1 if one does between now and h. */
-double sw_restart_until_halt(const sw_scene *scene, double h);
+/* Part of a step of size h that ends where the velocity of a drive jumps, or where a drive comes to
+ * rest with a deceleration while wires slide; h: neither happens [s]. sw_restart_halts: 1 if a
+ * drive so comes to rest between now and h. */
+double sw_restart_until_break(const sw_scene *scene, double h);
 int sw_restart_halts(const sw_scene *scene, double h);
 /* Call when the part was refused. cut: only because it has to end sooner. */
 void sw_restart_refused(sw_ladder *p, int cut);

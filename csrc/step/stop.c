@@ -88,6 +88,38 @@ static double halt_of(const sw_motion *m, double t, double h) {
   return rests < near ? 0.0 : rests > h * (1 - END) ? h : rests;
 }
 
+/* Smaller changes of velocity are no jump [m/s], [rad/s]. */
+static const double NO_JUMP = 1e-6;
+/* A jump is found to this, and one this near to a step's start is there [s]. */
+static const double FOUND = 1e-9;
+
+/* 1 if the velocity changes more between two times than accelerations explain. */
+static int jumps(const sw_motion_state *a, const sw_motion_state *b, double h) {
+  const double explained =
+      2.0 * h * (sw_norm(a->a) + sw_norm(b->a) + sw_norm(a->alpha) + sw_norm(b->alpha));
+  return sw_dist(a->v, b->v) + sw_dist(a->omega, b->omega) > NO_JUMP + explained;
+}
+
+/* Returns the time after t just before a velocity jumps, up to h; HUGE_VAL: it does not [s]. A
+ * function's velocity, a difference, does not jump. */
+static double jump_of(const sw_motion *m, double t, double h) {
+  sw_motion_state before, after, middle;
+  double from = FOUND, to = h;
+  if (!(h > FOUND) || !eval(m, t + from, &before) || !eval(m, t + to, &after)) return HUGE_VAL;
+  if (!jumps(&before, &after, to - from)) return HUGE_VAL;
+  while (to - from > FOUND) {
+    const double half = 0.5 * (from + to);
+    if (!eval(m, t + half, &middle)) return HUGE_VAL;
+    if (jumps(&before, &middle, half - from))
+      after = middle, to = half;
+    else if (jumps(&middle, &after, to - half))
+      before = middle, from = half;
+    else
+      return HUGE_VAL;
+  }
+  return from;
+}
+
 /* The same for a stop, soft or not: 0 [s]. */
 static double stop_of(const sw_motion *m, double t, double h) {
   return stops(m, t, h) ? 0.0 : HUGE_VAL;
@@ -145,10 +177,11 @@ static double while_sliding(const sw_scene *s, double h, moment_of of) {
   return any_slides(s) ? fmin(t, first(s, h, FUNCTIONS, of)) : HUGE_VAL;
 }
 
-double sw_restart_until_halt(const sw_scene *s, double h) {
-  if (!sw_scene_contact(s)) return h;
-  const double t = while_sliding(s, h, halt_of);
-  return t > 0 && t < h ? t : h;
+double sw_restart_until_break(const sw_scene *s, double h) {
+  const double jump = first(s, h, LAWS, jump_of);
+  const double halt = sw_scene_contact(s) ? while_sliding(s, h, halt_of) : HUGE_VAL;
+  const double t = fmin(jump < h * (1 - NEAR) ? jump : HUGE_VAL, halt);
+  return t > 0 && t < h * (1 - END) ? t : h;
 }
 
 int sw_restart_halts(const sw_scene *s, double h) { return while_sliding(s, h, halt_of) <= h; }
