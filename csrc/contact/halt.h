@@ -5,13 +5,12 @@
 
 #include "contact/contact.h"
 
-/* Call after such a trial, while the system is still at the step's start: 1 if friction turned
- * round in it, because the method's error carried wires past their place of rest. */
+/* For a trial at whose end a drive comes to rest. While the system is still at the step's start: 1
+ * if friction turned round in it, because the method's error carried wires past their place of
+ * rest. */
 int sw_contact_turned(const sw_contact *contact, const sw_system *system);
-
-/* Call when a trial at whose end a drive comes to rest is the state of the system, before
- * sw_contact_commit. Sets friction at places that come to rest to the force that keeps them there,
- * and stops them. */
+/* When it is the state of the system, before sw_contact_commit: sets friction at places that come
+ * to rest to the force that keeps them there, and stops them. */
 void sw_contact_halt(sw_contact *contact, sw_system *system);
 
 #endif

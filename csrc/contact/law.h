@@ -173,9 +173,8 @@ int sw_press_was_put(double depth, int first);
 #define SW_PART 0.2
 
 /* Splits a depth at the step's start. kept: memory of the touch, or NULL. way: what the touch may
- * come out by beyond the depth that its force explains [m]. Wires that were placed in
- * each other, or that leave a barrier, come out slowly: within one step the depth would turn into
- * speed. */
+ * come out by beyond the depth that its force explains [m]. Wires that were placed in each other,
+ * or that leave a barrier, come out slowly: within one step the depth would turn into speed. */
 typedef struct sw_left {
   double forgiven; /* the step leaves this alone [m] */
   double let_out; /* unexplained depth that the step removes; 0 if it is only rounding, as of a wire

@@ -22,8 +22,8 @@ static int jumps(sw_vec before, sw_vec after, sw_vec rate1, sw_vec rate2) {
   return sw_dist(before, after) > most;
 }
 
-/* 1 if the drive has a jerk at this time. Functions of a script are not asked: they are called for
- * times of steps only. */
+/* 1 if the drive has a jerk at this time. Functions of a script are not asked: their velocities are
+ * differences and do not jump. */
 static int drive_jerks(const sw_drive *d, double time) {
   sw_motion_state one, two;
   sw_error ignored;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Steps in which a drive comes to rest softly while wires slide. */
+/* Steps in which a drive comes to rest while wires slide, and steps that end early because the
+ * velocity of a drive jumps or a drive so comes to rest. */
 #include <math.h>
 
 #include "contact/contact.h"
@@ -33,17 +34,17 @@ static int eval(const sw_motion *m, double t, sw_motion_state *out) {
 }
 
 static double speed(const sw_motion_state *m) { return sw_norm(m->v) + sw_norm(m->omega); }
+static double rate(const sw_motion_state *m) { return sw_norm(m->a) + sw_norm(m->alpha); }
 
 /* An even deceleration is this share of its mean over a step, or more, at the step's end; that of
  * minimum jerk is at most 0.56 where the drive stops nearly [-]. */
 static const double EVENLY = 0.75;
 
 static int is_even(const sw_motion_state *now, const sw_motion_state *end, double h) {
-  return (sw_norm(end->a) + sw_norm(end->alpha)) * h > EVENLY * (speed(now) - speed(end));
+  return rate(end) * h > EVENLY * (speed(now) - speed(end));
 }
 
-/* 1 if the motion comes softly to rest, or nearly, between t and t + h, or did in the step before.
- */
+/* 1 if the motion comes softly to rest, or nearly, from t to t + h, or did in the step before. */
 static int stops(const sw_motion *m, double t, double h) {
   sw_motion_state end, now, before;
   if (!eval(m, t + h, &end) || !eval(m, t, &now)) return 0;
@@ -57,8 +58,7 @@ static int stops(const sw_motion *m, double t, double h) {
          sw_norm(sw_quat_log(turn)) <= SOFTLY * h * sw_norm(before.omega) + ROUNDING;
 }
 
-/* A drive stops with a deceleration if it has this share of its mean deceleration at the end [-].
- */
+/* A drive stops with a deceleration if that at the end is this share of the mean one [-]. */
 static const double DECELERATES = 0.1;
 /* A stop this near to the start or end of a step counts as there; share of the step. Of a function
  * also one this near to its start; share of the step of its differences. A shorter part would
@@ -83,8 +83,7 @@ static double halt_of(const sw_motion *m, double t, double h) {
     *(speed(&end) < STILL ? &rests : &moves) = middle;
   }
   if (!eval(m, t + moves, &end)) return HUGE_VAL;
-  const double deceleration = sw_norm(end.a) + sw_norm(end.alpha);
-  if (!(deceleration * rests > DECELERATES * speed(&now))) return HUGE_VAL;
+  if (!(rate(&end) * rests > DECELERATES * speed(&now))) return HUGE_VAL;
   return rests < near ? 0.0 : rests > h * (1 - END) ? h : rests;
 }
 
@@ -95,8 +94,7 @@ static const double FOUND = 1e-9;
 
 /* 1 if the velocity changes more between two times than accelerations explain. */
 static int jumps(const sw_motion_state *a, const sw_motion_state *b, double h) {
-  const double explained =
-      2.0 * h * (sw_norm(a->a) + sw_norm(b->a) + sw_norm(a->alpha) + sw_norm(b->alpha));
+  const double explained = 2.0 * h * (rate(a) + rate(b));
   return sw_dist(a->v, b->v) + sw_dist(a->omega, b->omega) > NO_JUMP + explained;
 }
 
@@ -125,31 +123,30 @@ static double stop_of(const sw_motion *m, double t, double h) {
   return stops(m, t, h) ? 0.0 : HUGE_VAL;
 }
 
-typedef double (*moment_of)(const sw_motion *m, double t, double h);
+typedef double (*when)(const sw_motion *m, double t, double h);
 
 /* Which drives are asked: functions of a script are slow, and only asked while wires slide. */
 typedef enum asked { LAWS, FUNCTIONS } asked;
 
-static double moment(const sw_motion *m, double start, const sw_scene *s, double h, asked which,
-                     moment_of of) {
+static double ask(const sw_motion *m, double start, const sw_scene *s, double h, asked which,
+                  when of) {
   if (!m || sw_motion_is_function(m) != (which == FUNCTIONS)) return HUGE_VAL;
   return of(m, sw_scene_time(s) - start, h);
 }
 
-/* The first moment of all drives. */
-static double first(const sw_scene *s, double h, asked which, moment_of of) {
+/* The first time of all drives. */
+static double first(const sw_scene *s, double h, asked which, when of) {
   double t = HUGE_VAL;
   SW_EACH(hold, hold, s) {
     if (!hold->alive) continue;
     const sw_drive *d = &hold->drive;
-    if (!d->tool) t = fmin(t, moment(d->motion, d->start, s, h, which, of));
-    t = fmin(t, moment(hold->feed.motion, hold->feed.start, s, h, which, of));
+    if (!d->tool) t = fmin(t, ask(d->motion, d->start, s, h, which, of));
+    t = fmin(t, ask(hold->feed.motion, hold->feed.start, s, h, which, of));
   }
-  SW_EACH(tool, tool, s)
-    t = fmin(t, moment(tool->drive.motion, tool->drive.start, s, h, which, of));
+  SW_EACH(tool, tool, s) t = fmin(t, ask(tool->drive.motion, tool->drive.start, s, h, which, of));
   SW_EACH(obstacle, o, s)
     if (o->alive && !o->drive.tool)
-      t = fmin(t, moment(o->drive.motion, o->drive.start, s, h, which, of));
+      t = fmin(t, ask(o->drive.motion, o->drive.start, s, h, which, of));
   return t;
 }
 
@@ -170,8 +167,8 @@ static double at_once(const sw_motion *m, double t, double h) {
   return 0;
 }
 
-/* The first moment of all drives while wires slide. */
-static double while_sliding(const sw_scene *s, double h, moment_of of) {
+/* The same while wires slide. */
+static double while_sliding(const sw_scene *s, double h, when of) {
   const double t = first(s, h, LAWS, of);
   if (!(t <= h) && first(s, h, FUNCTIONS, at_once) > 0) return HUGE_VAL;
   return any_slides(s) ? fmin(t, first(s, h, FUNCTIONS, of)) : HUGE_VAL;
