@@ -55,7 +55,7 @@ sw_status sw_step_adaptive(sw_ladder *p, double left, double t1, sw_error *err) 
   const double most = fmin(p->args->dt, left);
   double h = course->next_dt > 0 ? fmin(course->next_dt, most) : 0.1 * most;
   h = sw_blow_part(s, h);
-  h = sw_restart_until_break(s, h);
+  SW_TRY(sw_restart_until_break(s, &h, err));
   SW_TRY(sw_ladder_make_room(p, &h, err));
   sw_restart_at_jerk(s);
   p->changed = sw_restart_changed(s);

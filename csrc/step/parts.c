@@ -49,7 +49,7 @@ static sw_status begin(sw_ladder *p, parts *k, sw_error *err) {
   k->part = k->whole = sw_blow_part(p->s, k->part);
   k->least = fmin(k->least, sw_blow_smallest(p->s));
   if (k->part > left * (1 - ROUNDING)) k->part = left;
-  k->part = sw_restart_until_break(p->s, k->part);
+  SW_TRY(sw_restart_until_break(p->s, &k->part, err));
   /* there may be many parts */
   if (k->done > 0 && p->interrupted && p->interrupted()) return SW_EINTR;
   SW_TRY(sw_ladder_make_room(p, &k->part, err));

@@ -21,15 +21,15 @@ void sw_restart_try(sw_ladder *p);
 void sw_restart_struck(sw_scene *scene, int dull);
 /* Call when the trial is taken: the next step starts anew if a shock ended in it. */
 void sw_restart_taken(sw_scene *scene);
-/* 1 if a drive comes to rest softly in the step, or did in the step before, while wires slide. Such
- * a step is tried with implicit Euler: a method of second order lets nodes swing back by its error,
- * and friction, which needs nanometres to change its direction, stays reversed. */
-int sw_restart_stops(const sw_scene *scene, double h);
-/* Part of a step of size h that ends where the velocity of a drive jumps, or where a drive comes to
- * rest with a deceleration while wires slide; h: neither happens [s]. sw_restart_halts: 1 if a
- * drive so comes to rest between now and h. */
-double sw_restart_until_break(const sw_scene *scene, double h);
-int sw_restart_halts(const sw_scene *scene, double h);
+/* *stops: 1 if a drive comes to rest softly in the step, or did in the step before, while wires
+ * slide. Such a step is tried with implicit Euler: a method of second order lets nodes swing back
+ * by its error, and friction, which needs nanometres to change its direction, stays reversed. */
+sw_status sw_restart_stops(const sw_scene *scene, double h, int *stops, sw_error *err);
+/* Shortens *h so that it ends where the velocity of a drive jumps, or where a drive comes to rest
+ * with a deceleration while wires slide [s]. sw_restart_halts: 1 if a drive so comes to rest
+ * between now and h. Both, and sw_restart_stops, fail only where a function of a script does. */
+sw_status sw_restart_until_break(const sw_scene *scene, double *h, sw_error *err);
+sw_status sw_restart_halts(const sw_scene *scene, double h, int *halts, sw_error *err);
 /* Call when the part was refused. cut: only because it has to end sooner. */
 void sw_restart_refused(sw_ladder *p, int cut);
 

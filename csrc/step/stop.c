@@ -25,12 +25,11 @@ static const double NEARLY = 0.15;
 
 /* Evaluates a motion just after t. The velocity of a function is a difference over the time before
  * and after. */
-static int eval(const sw_motion *m, double t, sw_motion_state *out) {
-  sw_error ignored;
-  if (sw_motion_eval(m, t, out, &ignored) != SW_OK) return 0;
+static sw_status eval(const sw_motion *m, double t, sw_motion_state *out, sw_error *err) {
+  SW_TRY(sw_motion_eval(m, t, out, err));
   const double half = 0.5 * sw_motion_step(m);
   out->v = sw_madd(out->v, out->a, half), out->omega = sw_madd(out->omega, out->alpha, half);
-  return 1;
+  return SW_OK;
 }
 
 static double speed(const sw_motion_state *m) { return sw_norm(m->v) + sw_norm(m->omega); }
@@ -44,18 +43,30 @@ static int is_even(const sw_motion_state *now, const sw_motion_state *end, doubl
   return rate(end) * h > EVENLY * (speed(now) - speed(end));
 }
 
-/* 1 if the motion comes softly to rest, or nearly, from t to t + h, or did in the step before. */
-static int stops(const sw_motion *m, double t, double h) {
+static int goes_softly(const sw_motion_state *before, const sw_motion_state *end, double h) {
+  const sw_quat turn = sw_quat_mul(end->pose.q, sw_quat_conj(before->pose.q));
+  return sw_dist(before->pose.p, end->pose.p) <= SOFTLY * h * sw_norm(before->v) + ROUNDING &&
+         sw_norm(sw_quat_log(turn)) <= SOFTLY * h * sw_norm(before->omega) + ROUNDING;
+}
+
+/* *at: 0 if the motion comes softly to rest, or nearly, from t to t + h, or did in the step before
+ * [s]. */
+static sw_status stop_of(const sw_motion *m, double t, double h, double *at, sw_error *err) {
   sw_motion_state end, now, before;
-  if (!eval(m, t + h, &end) || !eval(m, t, &now)) return 0;
+  SW_TRY(eval(m, t + h, &end, err));
+  SW_TRY(eval(m, t, &now, err));
   const int rested = speed(&now) < STILL;
-  if (speed(&end) >= STILL)
-    return !rested && speed(&end) < NEARLY * speed(&now) && !is_even(&now, &end, h);
-  if (rested && (!eval(m, t - h, &before) || speed(&before) < STILL)) return 0;
-  if (!rested) before = now;
-  const sw_quat turn = sw_quat_mul(end.pose.q, sw_quat_conj(before.pose.q));
-  return sw_dist(before.pose.p, end.pose.p) <= SOFTLY * h * sw_norm(before.v) + ROUNDING &&
-         sw_norm(sw_quat_log(turn)) <= SOFTLY * h * sw_norm(before.omega) + ROUNDING;
+  int stops;
+  if (speed(&end) >= STILL) {
+    stops = !rested && speed(&end) < NEARLY * speed(&now) && !is_even(&now, &end, h);
+  } else if (rested) {
+    SW_TRY(eval(m, t - h, &before, err));
+    stops = speed(&before) >= STILL && goes_softly(&before, &end, h);
+  } else {
+    stops = goes_softly(&now, &end, h);
+  }
+  if (stops) *at = 0;
+  return SW_OK;
 }
 
 /* A drive stops with a deceleration if that at the end is this share of the mean one [-]. */
@@ -69,22 +80,25 @@ static const double NEAR = 1e-3, NEAR_OF_FUNCTION = 0.2;
 static const double END = 2e-6;
 enum { HALVINGS = 60 }; /* of the time in which a drive comes to rest */
 
-/* Returns the time after t at which a motion comes to rest with a deceleration; 0: at t; h: at t +
- * h; HUGE_VAL: not between these [s]. */
-static double halt_of(const sw_motion *m, double t, double h) {
+/* *at: time after t at which a motion comes to rest with a deceleration; 0: at t; h: at t + h [s].
+ */
+static sw_status halt_of(const sw_motion *m, double t, double h, double *at, sw_error *err) {
   const double near = fmax(NEAR * h, NEAR_OF_FUNCTION * sw_motion_step(m));
   sw_motion_state now, end;
-  if (!eval(m, t + h + near, &end) || !(speed(&end) < STILL)) return HUGE_VAL;
-  if (!eval(m, t, &now) || speed(&now) < STILL) return HUGE_VAL;
+  SW_TRY(eval(m, t + h + near, &end, err));
+  if (!(speed(&end) < STILL)) return SW_OK;
+  SW_TRY(eval(m, t, &now, err));
+  if (speed(&now) < STILL) return SW_OK;
   double moves = 0, rests = h + near;
   for (int k = 0; k < HALVINGS && rests - moves > ROUNDING * h; k++) {
     const double middle = 0.5 * (moves + rests);
-    if (!eval(m, t + middle, &end)) return HUGE_VAL;
+    SW_TRY(eval(m, t + middle, &end, err));
     *(speed(&end) < STILL ? &rests : &moves) = middle;
   }
-  if (!eval(m, t + moves, &end)) return HUGE_VAL;
-  if (!(rate(&end) * rests > DECELERATES * speed(&now))) return HUGE_VAL;
-  return rests < near ? 0.0 : rests > h * (1 - END) ? h : rests;
+  SW_TRY(eval(m, t + moves, &end, err));
+  if (rate(&end) * rests > DECELERATES * speed(&now))
+    *at = rests < near ? 0.0 : rests > h * (1 - END) ? h : rests;
+  return SW_OK;
 }
 
 /* Smaller changes of velocity are no jump [m/s], [rad/s]. */
@@ -98,56 +112,62 @@ static int jumps(const sw_motion_state *a, const sw_motion_state *b, double h) {
   return sw_dist(a->v, b->v) + sw_dist(a->omega, b->omega) > NO_JUMP + explained;
 }
 
-/* Returns the time after t just before a velocity jumps, up to h; HUGE_VAL: it does not [s]. A
- * function's velocity, a difference, does not jump. */
-static double jump_of(const sw_motion *m, double t, double h) {
+/* *at: time after t just before a velocity jumps [s]. A function's velocity, a difference, does not
+ * jump. */
+static sw_status jump_of(const sw_motion *m, double t, double h, double *at, sw_error *err) {
   sw_motion_state before, after, middle;
   double from = FOUND, to = h;
-  if (!(h > FOUND) || !eval(m, t + from, &before) || !eval(m, t + to, &after)) return HUGE_VAL;
-  if (!jumps(&before, &after, to - from)) return HUGE_VAL;
+  if (!(h > FOUND)) return SW_OK;
+  SW_TRY(eval(m, t + from, &before, err));
+  SW_TRY(eval(m, t + to, &after, err));
+  if (!jumps(&before, &after, to - from)) return SW_OK;
   while (to - from > FOUND) {
     const double half = 0.5 * (from + to);
-    if (!eval(m, t + half, &middle)) return HUGE_VAL;
+    SW_TRY(eval(m, t + half, &middle, err));
     if (jumps(&before, &middle, half - from))
       after = middle, to = half;
     else if (jumps(&middle, &after, to - half))
       before = middle, from = half;
     else
-      return HUGE_VAL;
+      return SW_OK;
   }
-  return from;
+  *at = from;
+  return SW_OK;
 }
 
-/* The same for a stop, soft or not: 0 [s]. */
-static double stop_of(const sw_motion *m, double t, double h) {
-  return stops(m, t, h) ? 0.0 : HUGE_VAL;
-}
-
-typedef double (*when)(const sw_motion *m, double t, double h);
+/* Sets *at to a time after t, up to h, if there is one. */
+typedef sw_status (*when)(const sw_motion *m, double t, double h, double *at, sw_error *err);
 
 /* Which drives are asked: functions of a script are slow, and only asked while wires slide. */
 typedef enum asked { LAWS, FUNCTIONS } asked;
 
-static double ask(const sw_motion *m, double start, const sw_scene *s, double h, asked which,
-                  when of) {
-  if (!m || sw_motion_is_function(m) != (which == FUNCTIONS)) return HUGE_VAL;
-  return of(m, sw_scene_time(s) - start, h);
+/* Sets *at to the motion's time, if that is sooner. */
+static sw_status ask(const sw_motion *m, double t, double h, asked which, when of, double *at,
+                     sw_error *err) {
+  double own = HUGE_VAL;
+  if (!m || sw_motion_is_function(m) != (which == FUNCTIONS)) return SW_OK;
+  SW_TRY(of(m, t, h, &own, err));
+  *at = fmin(*at, own);
+  return SW_OK;
 }
 
-/* The first time of all drives. */
-static double first(const sw_scene *s, double h, asked which, when of) {
-  double t = HUGE_VAL;
+/* Sets *at to the first time of all drives; HUGE_VAL: there is none [s]. */
+static sw_status first(const sw_scene *s, double h, asked which, when of, double *at,
+                       sw_error *err) {
+  const double t = sw_scene_time(s);
+  *at = HUGE_VAL;
   SW_EACH(hold, hold, s) {
     if (!hold->alive) continue;
     const sw_drive *d = &hold->drive;
-    if (!d->tool) t = fmin(t, ask(d->motion, d->start, s, h, which, of));
-    t = fmin(t, ask(hold->feed.motion, hold->feed.start, s, h, which, of));
+    if (!d->tool) SW_TRY(ask(d->motion, t - d->start, h, which, of, at, err));
+    SW_TRY(ask(hold->feed.motion, t - hold->feed.start, h, which, of, at, err));
   }
-  SW_EACH(tool, tool, s) t = fmin(t, ask(tool->drive.motion, tool->drive.start, s, h, which, of));
+  SW_EACH(tool, tool, s)
+    SW_TRY(ask(tool->drive.motion, t - tool->drive.start, h, which, of, at, err));
   SW_EACH(obstacle, o, s)
     if (o->alive && !o->drive.tool)
-      t = fmin(t, ask(o->drive.motion, o->drive.start, s, h, which, of));
-  return t;
+      SW_TRY(ask(o->drive.motion, t - o->drive.start, h, which, of, at, err));
+  return SW_OK;
 }
 
 static int any_slides(const sw_scene *s) {
@@ -162,25 +182,45 @@ static int any_slides(const sw_scene *s) {
 }
 
 /* For the question whether there is any such drive. */
-static double at_once(const sw_motion *m, double t, double h) {
-  (void)m, (void)t, (void)h;
-  return 0;
+static sw_status at_once(const sw_motion *m, double t, double h, double *at, sw_error *err) {
+  (void)m, (void)t, (void)h, (void)err;
+  *at = 0;
+  return SW_OK;
 }
 
 /* The same while wires slide. */
-static double while_sliding(const sw_scene *s, double h, when of) {
-  const double t = first(s, h, LAWS, of);
-  if (!(t <= h) && first(s, h, FUNCTIONS, at_once) > 0) return HUGE_VAL;
-  return any_slides(s) ? fmin(t, first(s, h, FUNCTIONS, of)) : HUGE_VAL;
+static sw_status while_sliding(const sw_scene *s, double h, when of, double *at, sw_error *err) {
+  double any, later;
+  SW_TRY(first(s, h, LAWS, of, at, err));
+  SW_TRY(first(s, h, FUNCTIONS, at_once, &any, err));
+  if ((!(*at <= h) && any > 0) || !any_slides(s)) {
+    *at = HUGE_VAL;
+    return SW_OK;
+  }
+  SW_TRY(first(s, h, FUNCTIONS, of, &later, err));
+  *at = fmin(*at, later);
+  return SW_OK;
 }
 
-double sw_restart_until_break(const sw_scene *s, double h) {
-  const double jump = first(s, h, LAWS, jump_of);
-  const double halt = sw_scene_contact(s) ? while_sliding(s, h, halt_of) : HUGE_VAL;
-  const double t = fmin(jump < h * (1 - NEAR) ? jump : HUGE_VAL, halt);
-  return t > 0 && t < h * (1 - END) ? t : h;
+sw_status sw_restart_until_break(const sw_scene *s, double *h, sw_error *err) {
+  double jump, halt = HUGE_VAL;
+  SW_TRY(first(s, *h, LAWS, jump_of, &jump, err));
+  if (sw_scene_contact(s)) SW_TRY(while_sliding(s, *h, halt_of, &halt, err));
+  const double t = fmin(jump < *h * (1 - NEAR) ? jump : HUGE_VAL, halt);
+  if (t > 0 && t < *h * (1 - END)) *h = t;
+  return SW_OK;
 }
 
-int sw_restart_halts(const sw_scene *s, double h) { return while_sliding(s, h, halt_of) <= h; }
+sw_status sw_restart_halts(const sw_scene *s, double h, int *halts, sw_error *err) {
+  double at;
+  SW_TRY(while_sliding(s, h, halt_of, &at, err));
+  *halts = at <= h;
+  return SW_OK;
+}
 
-int sw_restart_stops(const sw_scene *s, double h) { return while_sliding(s, h, stop_of) <= h; }
+sw_status sw_restart_stops(const sw_scene *s, double h, int *stops, sw_error *err) {
+  double at;
+  SW_TRY(while_sliding(s, h, stop_of, &at, err));
+  *stops = at <= h;
+  return SW_OK;
+}
