@@ -41,6 +41,17 @@ end end
 local data = table.concat(t)
 ]]
 
+-- A wire that a hold draws along a table by a slow function, which steps also ask whether it stops.
+local DRAWN = [[
+s:obstacle{ shape = "plane", at = { 0, 0, -0.005 }, friction = 0.3 }
+local w = s:wire{ EA = 6000, EI = 0.02, mass_per_length = 0.1, radius = 0.005, segments = 20,
+  from = { 0, 0, 0 }, to = { -1, 0, 0 } }
+s:clamp(w, { s = 0 }):follow(function(t)
+  for i = 1, 20000 do math.sin(i) end
+  return { 0.1 * t, 0.02 * math.sin(t), 0 }
+end)
+]]
+
 -- What is made first, what is interrupted, and after which processor times of it [s].
 local CASES = {
   ["a settling of 2e5 nodes"] = { wire(200000), "s:settle{}", 0.1, 1 },
@@ -58,6 +69,7 @@ local CASES = {
   ["the hull of 2e5 points"] = { SPHERE, "s:obstacle{ shape = 'hull', points = p }", 0.1, 0.8 },
   ["a mesh's tree and edges"] = { SHEET,
     "for _ = 1, 50 do s:obstacle{ shape = 'mesh', data = data, format = 'off' } end", 0.7, 1.3 },
+  ["a hold's function"] = { DRAWN, "s:run{ duration = 1e4, dt = 0.01 }", 0.2, 0.25, 0.3, 0.35, 0.4, 0.45 },
   ["a calibration"] = { "", "s:wire{ model = 'cubic', across = 8, E = 1e7, nu = 0.3, density = 1000, "
     .. "radius = 0.005, from = { 0, 0, 0 }, to = { 1, 0, 0 } }\n s:run{ duration = 10, dt = 1e-4 }", 0.3 },
 }
