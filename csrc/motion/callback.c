@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A motion given by a function of time. Velocity and acceleration are those of the parabola through
  * three poses, one step apart. Their errors are step^2/6 times the third and step^2/12 times the
- * fourth derivative. */
+ * fourth derivative. Where the velocity jumps, all three are on one side of the jump. */
+#include <math.h>
+
 #include "base/alloc.h"
 #include "motion/law.h"
 
@@ -26,24 +28,37 @@ static sw_vec turned(sw_quat q, sw_quat middle) {
   return sw_quat_log(sw_quat_mul(alike(q, middle), sw_quat_conj(middle)));
 }
 
+/* Asks for the poses one step before and after a time and, unless it is t, at it. */
+static sw_status ask_three(const sw_motion_callback *c, double centre, double t, sw_pose *three,
+                           sw_error *err) {
+  if (centre != t) SW_TRY(ask(c, centre, three + 1, err));
+  SW_TRY(ask(c, centre - c->step, three, err));
+  return ask(c, centre + c->step, three + 2, err);
+}
+
 static sw_status eval(const sw_motion *motion, double t, sw_motion_state *out, sw_error *err) {
   const sw_motion_callback *c = motion->body;
-  sw_pose before, middle, after;
-  double centre = t < c->step ? c->step : t;
-  if (centre > motion->duration - c->step) centre = motion->duration - c->step;
+  const double h = c->step;
+  sw_pose at[3];
+  double centre = fmin(fmax(t, h), motion->duration - h);
   SW_TRY(ask(c, t, &out->pose, err));
-  middle = out->pose;
-  if (centre != t) SW_TRY(ask(c, centre, &middle, err));
-  SW_TRY(ask(c, centre - c->step, &before, err));
-  SW_TRY(ask(c, centre + c->step, &after, err));
-  const double h = c->step, off = t - centre;
-  const sw_vec plus = sw_sub(after.p, middle.p), minus = sw_sub(before.p, middle.p);
+  at[1] = out->pose;
+  SW_TRY(ask_three(c, centre, t, at, err));
+  const double middle = centre;
+  SW_TRY(sw_callback_beside(motion, t, h, at, &centre, err));
+  if (centre != middle) SW_TRY(ask_three(c, centre, t, at, err));
+  const sw_vec plus = sw_sub(at[2].p, at[1].p), minus = sw_sub(at[0].p, at[1].p);
   out->a = sw_scale(sw_add(plus, minus), 1 / (h * h));
-  out->v = sw_madd(sw_scale(sw_sub(plus, minus), 0.5 / h), out->a, off);
-  const sw_vec wp = turned(after.q, middle.q), wm = turned(before.q, middle.q);
+  out->v = sw_madd(sw_scale(sw_sub(plus, minus), 0.5 / h), out->a, t - centre);
+  const sw_vec wp = turned(at[2].q, at[1].q), wm = turned(at[0].q, at[1].q);
   out->alpha = sw_scale(sw_add(wp, wm), 1 / (h * h));
-  out->omega = sw_madd(sw_scale(sw_sub(wp, wm), 0.5 / h), out->alpha, off);
+  out->omega = sw_madd(sw_scale(sw_sub(wp, wm), 0.5 / h), out->alpha, t - centre);
   return SW_OK;
+}
+
+sw_status sw_callback_pose(const sw_motion *m, double t, sw_pose *out, sw_error *err) {
+  const sw_motion *law = m->inner ? m->inner : m;
+  return ask(law->body, fmin(fmax(t - m->start, 0.0), law->duration), out, err);
 }
 
 static void destroy(void *body) {

@@ -100,6 +100,14 @@ sw_status sw_path_plan(const sw_motion_law *law, const sw_motion_plan *plan, sw_
 sw_status sw_path_eval(const sw_motion *motion, double t, sw_motion_state *out, sw_error *err);
 void sw_path_destroy(void *body);
 
+/* Pose of a user's function at time t, at rest before and after its time [s]. Of a view that of the
+ * motion behind it. */
+sw_status sw_callback_pose(const sw_motion *motion, double t, sw_pose *out, sw_error *err);
+/* Moves the centre of three poses, a step apart, to the side of t if the velocity jumps between
+ * them [s]. A jump at t counts as after it. */
+sw_status sw_callback_beside(const sw_motion *motion, double t, double step, const sw_pose *three,
+                             double *centre, sw_error *err);
+
 #define X(name) extern const sw_motion_law sw_motion_law_##name;
 #include "motion/list.def"
 #undef X

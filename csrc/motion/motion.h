@@ -117,7 +117,14 @@ int sw_motion_is_relative(const sw_motion *motion); /* 1: sw_motion_relative mus
 const char *sw_motion_law_at(size_t i);
 
 int sw_motion_is_function(const sw_motion *motion); /* a user's function: cannot go on a tape */
-double sw_motion_step(const sw_motion *motion);     /* of a function's differences; else 0 [s] */
+/* Of a user's function, whose velocities are differences and do not jump. sw_motion_jump sets *at
+ * to the first time after t, up to t + h, at which the velocity jumps (shortly before the jump);
+ * HUGE_VAL: none [s]. sw_motion_jumps: 1 if it jumps at t, or nearer to it than h/128, where
+ * sw_motion_jump leaves jumps out. */
+sw_status sw_motion_smooth(const sw_motion *motion, double t, double h, int *smooth, sw_error *err);
+sw_status sw_motion_jump(const sw_motion *motion, double t, double h, double *at, sw_error *err);
+sw_status sw_motion_jumps(const sw_motion *motion, double t, double h, int *jumps, sw_error *err);
+double sw_motion_step(const sw_motion *motion); /* of a function's differences; else 0 [s] */
 /* Writes or reads a motion or NULL. Reading plans it anew, which gives the same bits. */
 void sw_tape_motion(sw_tape *tape, sw_motion **motion);
 

@@ -17,7 +17,7 @@ static void blank_scene(sw_scene *s) {
   s->serial = 0, s->snapshots = NULL, s->restoring = NULL;
   s->contact_steps = (sw_log){0};
   s->course.parts = 0, s->course.covered = 0, s->part = 0;
-  s->course.jerks = 0;
+  s->course.jerks = s->course.smooth = 0;
   memset(&s->system, 0, sizeof s->system);
   memset(&s->course.stepper, 0, sizeof s->course.stepper);
   s->builds = 0;

@@ -17,6 +17,7 @@ typedef struct sw_course {
   int has_stepper; /* 1: the stepper exists */
   int jerks;       /* 1: a drive starts or stops abruptly at the present step's start, see
                       step/restart.h */
+  int smooth;      /* 1: no velocity of a script's function jumps within the present step */
   const sw_integrator *method; /* of the stepper */
   sw_stepper stepper;
   double window; /* of the present or last run, see sw_run_args [s] */

@@ -57,7 +57,7 @@ sw_status sw_step_adaptive(sw_ladder *p, double left, double t1, sw_error *err) 
   h = sw_blow_part(s, h);
   SW_TRY(sw_restart_until_break(s, &h, err));
   SW_TRY(sw_ladder_make_room(p, &h, err));
-  sw_restart_at_jerk(s);
+  SW_TRY(sw_restart_at_jerk(s, h, err));
   p->changed = sw_restart_changed(s);
   p->asked = fmax(SHORTEST_ASKED, fmax(h, 0.5 * p->asked));
   for (double uncut = 0;;) { /* uncut: size of the step that was cut at a rebound [s] */

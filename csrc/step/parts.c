@@ -53,7 +53,7 @@ static sw_status begin(sw_ladder *p, parts *k, sw_error *err) {
   /* there may be many parts */
   if (k->done > 0 && p->interrupted && p->interrupted()) return SW_EINTR;
   SW_TRY(sw_ladder_make_room(p, &k->part, err));
-  sw_restart_at_jerk(p->s);
+  SW_TRY(sw_restart_at_jerk(p->s, k->part, err));
   if (k->part >= SW_SMALLEST_SHARE * SW_SMALLEST_SHARE * k->h) return SW_OK;
   return sw_feed_too_fast(p->s, k->failed.text, err);
 }

@@ -135,6 +135,7 @@ sw_status sw_ledger_judge(sw_scene *s, double t1, double h, int changed, sw_erro
   sw_step_energy *step = &b->step;
   sw_glance glance;
   sw_status status = SW_OK;
+  int jerks = 0;
   *step = (sw_step_energy){.steady = 1, .changed = changed};
   if (sw_course_lumps(sw_scene_course(s))) SW_TRY(look_at_end(s, t1, err));
   if (sw_scene_has_contact(s)) judge_touches(s, h, step);
@@ -151,7 +152,8 @@ sw_status sw_ledger_judge(sw_scene *s, double t1, double h, int changed, sw_erro
   judge_outer_forces(b, h, &most);
   step->work = sw_ledger_effort(step);
   const double before = b->now.kinetic + sw_ledger_potential(&b->now, b->contact);
-  if (changed || sw_restart_jerks(s, t1)) step->let_out += jolt(s, step);
+  if (status == SW_OK && !changed) status = sw_restart_jerks(s, t1, h, &jerks, err);
+  if (changed || jerks) step->let_out += jolt(s, step);
   if (has_pads(s)) step->let_out += fmax(0.0, step->contact - b->contact);
   most += step->let_out;
   const double after = step->to.kinetic + sw_ledger_potential(&step->to, step->contact);

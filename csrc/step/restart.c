@@ -22,31 +22,40 @@ static int jumps(sw_vec before, sw_vec after, sw_vec rate1, sw_vec rate2) {
   return sw_dist(before, after) > most;
 }
 
-/* 1 if the drive has a jerk at this time. Functions of a script are not asked: their velocities are
- * differences and do not jump. */
-static int drive_jerks(const sw_drive *d, double time) {
+/* *jerks: 1 if the drive has a jerk at this time. */
+static sw_status drive_jerks(const sw_drive *d, double time, double h, int smooth, int *jerks,
+                             sw_error *err) {
   sw_motion_state one, two;
-  sw_error ignored;
-  if (!d->motion || sw_motion_is_function(d->motion)) return 0;
+  if (!d->motion) return SW_OK;
   const double t = time - d->start;
-  if (sw_motion_eval(d->motion, t - BESIDE, &one, &ignored) != SW_OK ||
-      sw_motion_eval(d->motion, t + BESIDE, &two, &ignored) != SW_OK)
-    return 0;
-  return jumps(one.v, two.v, one.a, two.a) || jumps(one.omega, two.omega, one.alpha, two.alpha);
+  if (sw_motion_is_function(d->motion))
+    return smooth ? SW_OK : sw_motion_jumps(d->motion, t, h, jerks, err);
+  SW_TRY(sw_motion_eval(d->motion, t - BESIDE, &one, err));
+  SW_TRY(sw_motion_eval(d->motion, t + BESIDE, &two, err));
+  *jerks = jumps(one.v, two.v, one.a, two.a) || jumps(one.omega, two.omega, one.alpha, two.alpha);
+  return SW_OK;
 }
 
-int sw_restart_jerks(const sw_scene *s, double time) {
-  SW_EACH(hold, h, s)
-    if (h->alive && !h->drive.tool && drive_jerks(&h->drive, time)) return 1;
-  SW_EACH(tool, t, s)
-    if (drive_jerks(&t->drive, time)) return 1;
-  return 0;
+sw_status sw_restart_jerks(const sw_scene *s, double time, double h, int *jerks, sw_error *err) {
+  const int smooth = sw_scene_course(s)->smooth;
+  *jerks = 0;
+  SW_EACH(hold, hold, s) {
+    if (hold->alive && !hold->drive.tool)
+      SW_TRY(drive_jerks(&hold->drive, time, h, smooth, jerks, err));
+    if (*jerks) return SW_OK;
+  }
+  SW_EACH(tool, t, s) {
+    SW_TRY(drive_jerks(&t->drive, time, h, smooth, jerks, err));
+    if (*jerks) return SW_OK;
+  }
+  return SW_OK;
 }
 
-void sw_restart_at_jerk(sw_scene *s) {
+sw_status sw_restart_at_jerk(sw_scene *s, double h, sw_error *err) {
   sw_course *c = sw_scene_course(s);
-  c->jerks = sw_restart_jerks(s, sw_scene_time(s));
+  SW_TRY(sw_restart_jerks(s, sw_scene_time(s), h, &c->jerks, err));
   if (c->jerks) c->stepper.restart = 1;
+  return SW_OK;
 }
 
 /* --- tries ------------------------------------------------------------------------ */

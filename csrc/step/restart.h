@@ -10,10 +10,11 @@
 
 /* 1 if the scene was changed or its state jumped; energy is not judged across that. */
 int sw_restart_changed(const sw_scene *scene);
-/* 1 if a drive of a hold or tool starts, stops or turns a corner abruptly at this time [s]. */
-int sw_restart_jerks(const sw_scene *scene, double time);
-/* Call when a part begins: starts anew if a drive does so now. */
-void sw_restart_at_jerk(sw_scene *scene);
+/* *jerks: 1 if a drive of a hold or tool starts, stops or turns a corner abruptly at this time, at
+ * the start or end of a part of h [s]. Fails only where a function of a script does. */
+sw_status sw_restart_jerks(const sw_scene *scene, double time, double h, int *jerks, sw_error *err);
+/* Call when a part of h begins: starts anew if a drive does so now [s]. */
+sw_status sw_restart_at_jerk(sw_scene *scene, double h, sw_error *err);
 /* Call before a try: starts anew if the scene was changed or the referee asks for it. */
 void sw_restart_try(sw_ladder *p);
 /* Call when the trial struck something; the velocities at the step's start have changed. dull:
@@ -28,7 +29,7 @@ sw_status sw_restart_stops(const sw_scene *scene, double h, int *stops, sw_error
 /* Shortens *h so that it ends where the velocity of a drive jumps, or where a drive comes to rest
  * with a deceleration while wires slide [s]. sw_restart_halts: 1 if a drive so comes to rest
  * between now and h. Both, and sw_restart_stops, fail only where a function of a script does. */
-sw_status sw_restart_until_break(const sw_scene *scene, double *h, sw_error *err);
+sw_status sw_restart_until_break(sw_scene *scene, double *h, sw_error *err);
 sw_status sw_restart_halts(const sw_scene *scene, double h, int *halts, sw_error *err);
 /* Call when the part was refused. cut: only because it has to end sooner. */
 void sw_restart_refused(sw_ladder *p, int cut);

@@ -5,6 +5,7 @@
 
 #include "contact/contact.h"
 #include "link/hold.h"
+#include "scene/course.h"
 #include "scene/drive.h"
 #include "scene/gripper.h"
 #include "scene/obstacle.h"
@@ -80,11 +81,31 @@ static const double NEAR = 1e-3, NEAR_OF_FUNCTION = 0.2;
 static const double END = 2e-6;
 enum { HALVINGS = 60 }; /* of the time in which a drive comes to rest */
 
+/* Of a function, whose rates are differences, its speed near the stop is asked for: at the last of
+ * the time it is 0.1 of that at the start if the deceleration is even, 0.01 with minimum jerk, and
+ * nearly that at the stop itself if the velocity jumps to 0 there [-]. */
+static const double LAST = 0.1, SLOWED = 0.03, AT_ONCE = 0.5;
+/* For that the stop must be this many steps of the differences away [-]. */
+static const double STEPS = 20;
+
+/* *yes: 1 if a motion that rests from t + rests on decelerates until then. */
+static sw_status decelerates(const sw_motion *m, double t, double moves, double rests, double from,
+                             int *yes, sw_error *err) {
+  sw_motion_state end, late;
+  SW_TRY(eval(m, t + moves, &end, err));
+  *yes = rate(&end) * rests > DECELERATES * from;
+  if (!sw_motion_is_function(m) || rests < STEPS * sw_motion_step(m)) return SW_OK;
+  SW_TRY(eval(m, t + (1 - LAST) * rests, &late, err));
+  *yes = speed(&late) > SLOWED * from && speed(&end) < AT_ONCE * speed(&late);
+  return SW_OK;
+}
+
 /* *at: time after t at which a motion comes to rest with a deceleration; 0: at t; h: at t + h [s].
  */
 static sw_status halt_of(const sw_motion *m, double t, double h, double *at, sw_error *err) {
   const double near = fmax(NEAR * h, NEAR_OF_FUNCTION * sw_motion_step(m));
   sw_motion_state now, end;
+  int yes;
   SW_TRY(eval(m, t + h + near, &end, err));
   if (!(speed(&end) < STILL)) return SW_OK;
   SW_TRY(eval(m, t, &now, err));
@@ -95,9 +116,8 @@ static sw_status halt_of(const sw_motion *m, double t, double h, double *at, sw_
     SW_TRY(eval(m, t + middle, &end, err));
     *(speed(&end) < STILL ? &rests : &moves) = middle;
   }
-  SW_TRY(eval(m, t + moves, &end, err));
-  if (rate(&end) * rests > DECELERATES * speed(&now))
-    *at = rests < near ? 0.0 : rests > h * (1 - END) ? h : rests;
+  SW_TRY(decelerates(m, t, moves, rests, speed(&now), &yes, err));
+  if (yes) *at = rests < near ? 0.0 : rests > h * (1 - END) ? h : rests;
   return SW_OK;
 }
 
@@ -112,12 +132,12 @@ static int jumps(const sw_motion_state *a, const sw_motion_state *b, double h) {
   return sw_dist(a->v, b->v) + sw_dist(a->omega, b->omega) > NO_JUMP + explained;
 }
 
-/* *at: time after t just before a velocity jumps [s]. A function's velocity, a difference, does not
- * jump. */
+/* *at: time after t just before a velocity jumps [s]. */
 static sw_status jump_of(const sw_motion *m, double t, double h, double *at, sw_error *err) {
   sw_motion_state before, after, middle;
   double from = FOUND, to = h;
   if (!(h > FOUND)) return SW_OK;
+  if (sw_motion_is_function(m)) return sw_motion_jump(m, t, h, at, err);
   SW_TRY(eval(m, t + from, &before, err));
   SW_TRY(eval(m, t + to, &after, err));
   if (!jumps(&before, &after, to - from)) return SW_OK;
@@ -138,14 +158,16 @@ static sw_status jump_of(const sw_motion *m, double t, double h, double *at, sw_
 /* Sets *at to a time after t, up to h, if there is one. */
 typedef sw_status (*when)(const sw_motion *m, double t, double h, double *at, sw_error *err);
 
-/* Which drives are asked: functions of a script are slow, and only asked while wires slide. */
-typedef enum asked { LAWS, FUNCTIONS } asked;
+/* Which drives are asked: functions of a script are slow, and only asked for stops while wires
+ * slide.
+ */
+typedef enum asked { LAWS, FUNCTIONS, ALL } asked;
 
 /* Sets *at to the motion's time, if that is sooner. */
 static sw_status ask(const sw_motion *m, double t, double h, asked which, when of, double *at,
                      sw_error *err) {
   double own = HUGE_VAL;
-  if (!m || sw_motion_is_function(m) != (which == FUNCTIONS)) return SW_OK;
+  if (!m || (which != ALL && sw_motion_is_function(m) != (which == FUNCTIONS))) return SW_OK;
   SW_TRY(of(m, t, h, &own, err));
   *at = fmin(*at, own);
   return SW_OK;
@@ -181,6 +203,14 @@ static int any_slides(const sw_scene *s) {
   return 0;
 }
 
+/* *at: 0 if the velocity of a function may jump. */
+static sw_status rough_of(const sw_motion *m, double t, double h, double *at, sw_error *err) {
+  int smooth;
+  SW_TRY(sw_motion_smooth(m, t, h, &smooth, err));
+  if (!smooth) *at = 0;
+  return SW_OK;
+}
+
 /* For the question whether there is any such drive. */
 static sw_status at_once(const sw_motion *m, double t, double h, double *at, sw_error *err) {
   (void)m, (void)t, (void)h, (void)err;
@@ -202,9 +232,11 @@ static sw_status while_sliding(const sw_scene *s, double h, when of, double *at,
   return SW_OK;
 }
 
-sw_status sw_restart_until_break(const sw_scene *s, double *h, sw_error *err) {
-  double jump, halt = HUGE_VAL;
-  SW_TRY(first(s, *h, LAWS, jump_of, &jump, err));
+sw_status sw_restart_until_break(sw_scene *s, double *h, sw_error *err) {
+  double rough, jump, halt = HUGE_VAL;
+  SW_TRY(first(s, *h, FUNCTIONS, rough_of, &rough, err));
+  const int smooth = sw_scene_course(s)->smooth = rough > 0;
+  SW_TRY(first(s, *h, smooth ? LAWS : ALL, jump_of, &jump, err));
   if (sw_scene_contact(s)) SW_TRY(while_sliding(s, *h, halt_of, &halt, err));
   const double t = fmin(jump < *h * (1 - NEAR) ? jump : HUGE_VAL, halt);
   if (t > 0 && t < *h * (1 - END)) *h = t;

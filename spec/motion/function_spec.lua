@@ -22,6 +22,26 @@ describe("a function of time", function()
     assert.are.equal("callback", m:law())
   end)
 
+  -- Differences across a jump of the velocity would be its mean, and an acceleration of the jump over the
+  -- step, 1e-4 s.
+  it("has the velocity of one side beside a jump, that before it at the jump", function()
+    for _, at in ipairs{ 0.3, 0.29997, 0.30005003, 1 / 3 } do
+      local m = core.trajectory(function(t) -- 2 m/s, then back with 1 m/s and 3 m/s2; turns the same way
+        local u = t - at
+        local x = u < 0 and 2 * u or -u + 1.5 * u * u
+        return { 0, x, 0 }, { axis = { 1, 0, 0 }, angle = x }
+      end)
+      for _, off in ipairs{ -2e-4, -9.9e-5, -1e-5, -1e-8, 0, 1e-8, 1e-5, 9.9e-5, 2e-4 } do
+        local expected = off <= 0 and 2 or -1 + 3 * off
+        local v, w = m:velocity(at + off)[2], m:angular_velocity(at + off)[1]
+        -- rounding of 1e-16 m over 1e-4 s
+        assert.is_true(math.abs(v - expected) < 1e-8, ("%g m/s at %g"):format(v, off))
+        assert.is_true(math.abs(w - expected) < 1e-8, ("%g rad/s at %g"):format(w, off))
+        assert.is_true(math.abs(m:acceleration(at + off)[2] - (off <= 0 and 0 or 3)) < 1e-3)
+      end
+    end
+  end)
+
   it("is called with times from 0 to its duration only", function()
     local least, most = 1, 0
     local m = core.trajectory { duration = 2, start = 5, func = function(t)
