@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/alloc.h"
 #include "body/join.h"
 #include "body/live.h"
 #include "body/touching.h"
@@ -14,6 +15,8 @@
 #include "state/mesh.h"
 #include "step/passing.h"
 #include "step/statics.h"
+#include "system/coupling.h"
+#include "system/rail.h"
 
 enum { SLIDES = 8, MOST_REDOS = 20 };
 static const double FIRST_PSEUDO_STEP = 0.02; /* of sqrt(length/g) [-] */
@@ -288,20 +291,48 @@ sw_status sw_rest_relax(sw_statics *p, sw_error *err) {
   return SW_OK;
 }
 
+/* Nodes of holds and rails have the forces of the last solve, which are not part of the live state.
+ * They are put aside and taken back. */
+typedef struct loads {
+  sw_held_node *held; /* (held_count) */
+  sw_rail *rails;     /* (rail_count) */
+} loads;
+
+static sw_status keep_loads(const sw_system *s, loads *out) {
+  *out = (loads){sw_alloc(s->held_count, sizeof *out->held),
+                 sw_alloc(s->rail_count, sizeof *out->rails)};
+  if (!out->held || !out->rails) return SW_ENOMEM;
+  if (s->held_count) memcpy(out->held, s->held, s->held_count * sizeof *s->held);
+  if (s->rail_count) memcpy(out->rails, s->rails, s->rail_count * sizeof *s->rails);
+  return SW_OK;
+}
+
+static void take_loads_back(sw_system *s, const loads *kept) {
+  if (s->held_count) memcpy(s->held, kept->held, s->held_count * sizeof *s->held);
+  if (s->rail_count) memcpy(s->rails, kept->rails, s->rail_count * sizeof *s->rails);
+}
+
 /* Runs Newton's iteration from where continuation came to rest. If that fails, the equilibrium is
  * not isolated, or (unstable: 1) not stable; the place of continuation is then restored, with its
- * touches and its count of unstable directions, because a failed iteration ends anywhere. */
+ * touches, its forces and its count of unstable directions, because a failed iteration ends
+ * anywhere. */
 static sw_status polish(sw_statics *p, int *unstable, sw_error *err) {
   const size_t negative = p->report->negative;
   sw_error why = {"out of memory"};
   sw_tape rest = {0};
-  sw_status status = sw_live_take(p->s, &rest);
+  loads kept;
+  sw_status status = keep_loads(sw_scene_system(p->s), &kept);
+  if (status == SW_OK) status = sw_live_take(p->s, &rest);
   if (status == SW_OK) status = sw_rest_newton(p, SW_REST_ITERATIONS, &why);
   if (sw_rest_stops(status)) sw_fail(err, status, "%s", why.text);
   *unstable = status == SW_OK && p->report->negative > 0;
   if (status != SW_OK) p->report->negative = negative;
-  if (status == SW_OK ? *unstable : !sw_rest_stops(status)) status = sw_live_back(p->s, &rest, err);
+  if (status == SW_OK ? *unstable : !sw_rest_stops(status)) {
+    status = sw_live_back(p->s, &rest, err);
+    take_loads_back(sw_scene_system(p->s), &kept);
+  }
   sw_tape_free(&rest);
+  sw_free(kept.held), sw_free(kept.rails);
   return status;
 }
 
