@@ -11,7 +11,8 @@
  *
  * Friction acts along the axis: each node has a spring with limit mu |grad U|, which slips at a
  * stretch of W/200. |grad U| is the node's push in the last accepted state. Friction is therefore a
- * potential within a step, with a symmetric stiffness, and lags one step behind a changing push.
+ * potential within a step, with a symmetric stiffness, and lags one step behind a changing push. At
+ * rest the search is repeated until it no longer lags (catch_up).
  *
  * Floor and walls have a strength. A wire pressed through them, from inside or outside, has broken
  * the clip, which does not act on the wire any more. The model does not cover a wire that crosses
@@ -88,7 +89,7 @@ static double friction_energy(double stretch, double most, double slip) {
 
 static void add_friction(const sw_clip *c, sw_field *f) {
   const double slip = SLIP * c->width;
-  if (f->history && !(f->history[SW_CLIP_BEGUN] > 0) && !f->statics) return; /* see begin_history */
+  if (f->history && f->history[SW_CLIP_RUBS] == SW_CLIP_GUESS && !f->statics) return;
   for (size_t i = 0; f->history && f->history[SW_CLIP_RUBS] > 0 && i < sw_axis_points(f->plan);
        i++) {
     const double *h = f->history + SW_CLIP_HEAD + SW_CLIP_EACH * i;
@@ -173,8 +174,36 @@ static void begin_history(const void *args, const sw_field *f, double *history) 
     if (fabs(sum.u) > sum.share * (c.law.out + c.law.in)) continue;
     for (size_t end = 0; end < 2; end++)
       each[SW_CLIP_EACH * ((size_t)e + end) + SW_CLIP_MOST] += c.friction * half * c.strongest;
-    history[SW_CLIP_RUBS] = 1;
+    history[SW_CLIP_RUBS] = SW_CLIP_GUESS;
   }
+}
+
+/* Returns the friction on the wire along the axis [N]; *most: the largest that there can be [N]. */
+static double friction_of(const sw_clip *c, const sw_field *f, const double *history,
+                          double *most) {
+  double sum = 0;
+  *most = 0;
+  for (size_t i = 0; i < sw_axis_points(f->plan); i++) {
+    const double *h = history + SW_CLIP_HEAD + SW_CLIP_EACH * i;
+    if (!(h[SW_CLIP_MOST] > 0)) continue;
+    const double e = stretch_of(c, f, h, i) / (SLIP * c->width);
+    sum -= h[SW_CLIP_MOST] * fmax(-1.0, fmin(1.0, e));
+    *most += h[SW_CLIP_MOST];
+  }
+  return sum;
+}
+
+/* Gives friction the limits of the present push. A guess did not act in continuation. */
+static double catch_up(const void *args, const sw_field *f, int guesses, double *history) {
+  const sw_clip c = clip_of(args, f, history);
+  const int guessed = history[SW_CLIP_RUBS] == SW_CLIP_GUESS;
+  double most, now;
+  if (sw_clip_is_broken(history) || !(c.friction > 0) || (guesses && !guessed)) return 0;
+  const double before = friction_of(&c, f, history, &most);
+  commit_friction(&c, f, history);
+  const double change = fabs(friction_of(&c, f, history, &now) - before);
+  if (!(fmax(now, most) > 0)) return 0;
+  return guessed ? HUGE_VAL : change / fmax(now, most);
 }
 
 /* 1 if some of the wire is near enough for a step to bring it in. */
@@ -304,12 +333,8 @@ static void read(const void *args, const sw_field *f, const double *history, dou
   const sw_clip c = clip_of(args, f, history);
   sw_clip_middle m = sw_clip_middle_of(&c, f);
   if (sw_clip_is_broken(history)) m.force = sw_v(0, 0, 0), m.share = 0;
-  for (size_t i = 0; i < sw_axis_points(f->plan); i++) {
-    const double *h = history + SW_CLIP_HEAD + SW_CLIP_EACH * i;
-    const double e = stretch_of(&c, f, h, i) / (SLIP * c.width);
-    if (h[SW_CLIP_MOST] > 0)
-      m.force = sw_madd(m.force, c.axis, -h[SW_CLIP_MOST] * fmax(-1.0, fmin(1.0, e)));
-  }
+  double most;
+  m.force = sw_madd(m.force, c.axis, friction_of(&c, f, history, &most));
   const double values[] = {m.share,
                            m.u,
                            m.v,
@@ -365,6 +390,7 @@ const sw_force_class sw_force_clip = {
     .commit = commit,
     .idle = idle,
     .inherit = inherit,
+    .catch_up = catch_up,
     .begin = begin_history,
     .begin_run = sw_clip_begin_run,
     .news = sw_clip_news,

@@ -14,7 +14,7 @@ enum {
   SW_CLIP_DISSIPATED,
   SW_CLIP_BEGUN,
   SW_CLIP_NEAR, /* 1: some of the wire is within the clip's width and not far above or beside */
-  SW_CLIP_RUBS, /* 1: there is friction at some node */
+  SW_CLIP_RUBS, /* number of nodes with friction; SW_CLIP_GUESS: its limits are a first guess */
   SW_CLIP_STATE,
   SW_CLIP_PEAK,
   SW_CLIP_LAST,
@@ -39,6 +39,7 @@ enum {
   SW_CLIP_RUN_PEAK, /* as SW_CLIP_PEAK of a seated wire, in this run only; below 0: none yet [N] */
   SW_CLIP_HEAD
 };
+static const double SW_CLIP_GUESS = 0.5;
 enum { SW_CLIP_STRETCH, SW_CLIP_PLACE, SW_CLIP_MOST, SW_CLIP_EACH };
 enum { SW_CLIP_EMPTY, SW_CLIP_INSERTING, SW_CLIP_SEATED, SW_CLIP_ABOVE };
 enum {

@@ -93,6 +93,10 @@ typedef struct sw_force_class {
   void (*commit)(const void *args, const sw_field *field, double *history);
   void (*inherit)(const sw_plan *old, const double *from, const sw_field *field, double *history);
 
+  /* Between two searches for the same equilibrium: brings what lags a step behind the state up to
+   * it; guesses = 1: only where it is a first guess. Returns the change of the force on the wire,
+   * over the largest force that lags [-]. NULL = nothing lags. */
+  double (*catch_up)(const void *args, const sw_field *field, int guesses, double *history);
   /* A run begins: what the history records of a run starts anew. NULL = nothing does. */
   void (*begin_run)(double *history);
 

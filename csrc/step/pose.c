@@ -95,6 +95,22 @@ static sw_status book(sw_scene *s, double t1, int jumped, sw_run_report *report,
   return SW_OK;
 }
 
+enum { MOST_ROUNDS = 100 };
+
+/* Friction of clips is computed from the push of the pose before. Where there was none, the wires
+ * come to rest again until it belongs to their own push. */
+static sw_status rest_again(sw_scene *s, const sw_settle_args *args, int (*interrupted)(void),
+                            sw_settle_report *rest, sw_error *err) {
+  int more = sw_rest_catch_up(s, 1);
+  const int jumped = rest->jumped;
+  for (int round = 1; more; round++) {
+    SW_TRY(sw_scene_rest(s, sw_scene_time(s), NULL, args, interrupted, rest, err));
+    more = sw_rest_catch_up(s, 0) && round < MOST_ROUNDS;
+  }
+  rest->jumped |= jumped;
+  return SW_OK;
+}
+
 /* Moves holds and obstacles to t1 and the wires to their equilibrium there. Without friction the
  * size of the pose step does not matter; with friction halving it shows how much it does. */
 static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_args *how,
@@ -111,9 +127,9 @@ static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_ar
   args.stays = start->x && !shortest && halvings;
   if (squeezes && halvings) args.max_iterations = FEW_ITERATIONS;
   sw_scene_set_time(s, t1);
-  const sw_status status =
-      squeezes ? sw_scene_squeezed_rest(s, t0, tells, &args, interrupted, &rest, err)
-               : sw_scene_rest(s, t0, tells, &args, interrupted, &rest, err);
+  sw_status status = squeezes ? sw_scene_squeezed_rest(s, t0, tells, &args, interrupted, &rest, err)
+                              : sw_scene_rest(s, t0, tells, &args, interrupted, &rest, err);
+  if (status == SW_OK && !squeezes) status = rest_again(s, &args, interrupted, &rest, err);
   report->iterations += rest.iterations;
   if (status != SW_OK) {
     sw_scene_set_time(s, t0);

@@ -163,6 +163,9 @@ static sw_status follow_holds(sw_statics *p, sw_error *err) {
  * another. */
 static const double JUMP = 4.0;           /* largest shift over the drives' own [-] */
 static const double SMALLEST_JUMP = 0.01; /* of the longest wire [-] */
+/* Wires that move further than this beyond their drives have fallen into nothing. Where rounding is
+ * as large as their steps they seem to rest [of the longest wire]. */
+static const double FALLEN = 1e3;
 
 double sw_rest_shift_from(const sw_statics *p, const double *before) {
   const sw_system *s = sw_scene_system(p->s);
@@ -195,10 +198,12 @@ sw_status sw_scene_rest(sw_scene *s, double since, int *too_far, const sw_settle
   sw_rest_put_aside(s, p.begun);
   system->still = 1;
   if (args->relaxes && sw_rest_relax(&p, why) == SW_OK) sw_rest_put_aside(s, p.begun);
-  const sw_status status = follow_holds(&p, why);
+  sw_status status = follow_holds(&p, why);
   system->still = 0;
+  const double shift = sw_rest_shift_from(&p, p.begun);
+  if (status == SW_OK && shift > FALLEN * sw_rest_longest(s) + drive_shift(&p))
+    status = sw_fail(why, SW_ENOCONV, "a wire that nothing holds is carried away");
   if (status == SW_OK) {
-    const double shift = sw_rest_shift_from(&p, p.begun);
     report->jumped = report->transient && shift > SMALLEST_JUMP * sw_rest_longest(s) &&
                      shift > JUMP * drive_shift(&p);
   } else if (status != SW_EINTR) {
@@ -209,6 +214,22 @@ sw_status sw_scene_rest(sw_scene *s, double since, int *too_far, const sw_settle
   else
     sw_course_jump(sw_scene_course(s));
   return status;
+}
+
+/* Change of a force that lags, over its limit, that no longer counts [-]. */
+static const double CAUGHT_UP = 1e-5;
+
+int sw_rest_catch_up(sw_scene *s, int guesses) {
+  sw_system *system = sw_scene_system(s);
+  double most = 0;
+  sw_system_refresh(system);
+  SW_ITEMS(sw_body, b, system->bodies, system->body_count) {
+    SW_ITEMS(const sw_term, term, b->terms, b->term_count) {
+      if (term->cls->catch_up)
+        most = fmax(most, term->cls->catch_up(term->args, &b->field, guesses, term->history));
+    }
+  }
+  return most > CAUGHT_UP;
 }
 
 sw_status sw_scene_balance(sw_scene *s, double tolerance, long most, sw_error *err) {

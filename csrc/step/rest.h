@@ -26,6 +26,9 @@ sw_status sw_scene_yielded_rest(sw_scene *scene, const sw_settle_args *args,
 /* The same with feeds that are held, like clamps. */
 sw_status sw_scene_clamped_rest(sw_scene *scene, const sw_settle_args *args,
                                 int (*interrupted)(void), sw_settle_report *report, sw_error *err);
+/* Brings forces that lag a step behind (guesses = 1: first guesses of them only) up to the state at
+ * rest. 1: they changed, and the wires must come to rest once more. */
+int sw_rest_catch_up(sw_scene *scene, int guesses);
 /* Tells of all feeds whose observed force at rest is not the asked one. */
 void sw_yield_tell(sw_scene *scene);
 /* Makes t1 earlier (cut: 1) where wires between pads could not follow the pads to it. */

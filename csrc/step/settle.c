@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* scene:settle: the equilibrium where the scene is. */
-
 #include "body/build.h"
 #include "read/extremes.h"
 #include "save/life.h"
@@ -67,13 +66,34 @@ static sw_status settle_feeds(sw_scene *s, const sw_settle_args *args, int (*int
   return status;
 }
 
-static sw_status settle(sw_scene *s, const sw_settle_args *args, int (*interrupted)(void),
-                        sw_settle_report *report, sw_error *err) {
+static sw_status settle_once(sw_scene *s, const sw_settle_args *args, int (*interrupted)(void),
+                             sw_settle_report *report, sw_error *err) {
   if (sw_slip_any(s)) return settle_feeds(s, args, interrupted, report, err);
   sw_scene_enter(s, 1);
   const sw_status status = sw_scene_held_rest(s, args, interrupted, report, err);
   sw_scene_enter(s, -1);
   return status;
+}
+
+/* Friction of clips is computed from the push of the state before. The wires come to rest again
+ * until the friction belongs to their own push. */
+static sw_status settle(sw_scene *s, const sw_settle_args *args, int (*interrupted)(void),
+                        sw_settle_report *report, sw_error *err) {
+  sw_settle_report sum = {0};
+  for (int round = 1;; round++) {
+    sw_error why = {""};
+    *report = (sw_settle_report){0};
+    const sw_status status = settle_once(s, args, interrupted, report, &why);
+    report->iterations += sum.iterations;
+    report->transient |= sum.transient, report->jumped |= sum.jumped;
+    sum = *report;
+    if (status == SW_ENOCONV && round > 1)
+      return sw_fail(err, status, "friction of clips does not hold the wires: %.300s", why.text);
+    if (status != SW_OK) return sw_fail(err, status, "%s", why.text);
+    if (!sw_rest_catch_up(s, 0)) return SW_OK;
+    if (round == MOST_ROUNDS)
+      return sw_fail(err, SW_ENOCONV, "friction of clips changes with every search for rest");
+  }
 }
 
 sw_status sw_scene_settle(sw_scene *s, const sw_settle_args *args, int (*interrupted)(void),

@@ -120,22 +120,22 @@ function put.clip(scene, wire, h, see)
     insertion = h.insertion, retention = h.retention, friction = h.friction }
 end
 
---- The scene of a plan and a view, its wires and obstacles.
+--- The scene of a plan and a view, its wires, obstacles and holds (ties and clips too, no grippers).
 function random_scenes.scene(plan, view)
   view = view or {}
   local see = seer(view)
   local scene = sw.scene{ gravity = see.vector(plan.gravity) }
-  local wires, obstacles = {}, {}
+  local wires, obstacles, holds = {}, {}, {}
   for i, o in ipairs(plan.obstacles) do obstacles[i] = put_obstacle(scene, o, see, view) end
   for i, w in ipairs(plan.wires) do
     wires[i] = put_wire(scene, w, see, view)
-    for _, h in ipairs(w.holds) do put[h.kind](scene, wires[i], h, see) end
+    for _, h in ipairs(w.holds) do holds[#holds + 1] = put[h.kind](scene, wires[i], h, see) end
   end
   if plan.touching then scene:wire_contact(plan.touching) end
   if plan.damping then
     scene:force{ kind = "damping", mass = plan.damping.mass, stiffness = plan.damping.stiffness }
   end
-  return scene, wires, obstacles
+  return scene, wires, obstacles, holds
 end
 
 -- --- outcomes of runs ---------------------------------------------------------------------------
