@@ -9,6 +9,7 @@
 #include "body/join.h"
 #include "body/spin.h"
 #include "link/hold.h"
+#include "state/hinge.h"
 #include "state/mesh.h"
 
 static int is_on(const sw_hold *h, size_t wire) { return h->alive && h->wire == wire; }
@@ -163,26 +164,81 @@ static sw_status place_ends(sw_scene *s, sw_hold *h, const double ends[2], doubl
   return SW_OK;
 }
 
+/* The hold beside a new one, and the wire's bends from it to the new one. */
+typedef struct beside {
+  sw_hold *hold; /* NULL: none */
+  int side;      /* on which side of it the new one is: 1 or -1 */
+  sw_vec director;
+  sw_mesh_bends bends;
+} beside;
+
+/* Finds the nearest hold that is so near that edges between are halved. */
+static sw_status find_beside(sw_scene *s, const sw_hold *h, beside *b) {
+  const sw_mesh *m = &sw_scene_wire_in(s, h->wire)->mesh;
+  double least = HUGE_VAL, low, high, *keep SW_LOCAL = new_places(s, h->wire);
+  if (!keep) return SW_ENOMEM;
+  SW_EACH(hold, o, s) {
+    if (!leans(o) || !gap_between(h, o, &low, &high) || !is_short(m, low, high)) continue;
+    if (high - low < least) b->hold = o, least = high - low;
+  }
+  if (!b->hold) return SW_OK;
+  b->side = b->hold->s2 < h->s1 ? 1 : -1;
+  const size_t from = sw_mesh_node(m, b->side > 0 ? b->hold->s2 : b->hold->s1);
+  b->director = sw_scale(sw_rotate(b->hold->turn, b->hold->director[b->side > 0]), b->side);
+  if (!sw_mesh_read_bends(m, from, b->side, b->director, b->side > 0 ? h->s2 : h->s1, keep,
+                          kept_places(s, h->wire, keep), &b->bends))
+    b->hold = NULL;
+  return SW_OK;
+}
+
+/* Puts the hold where the wire comes from the hold beside it. *done: 0 if it could not. */
+static sw_status come_from(sw_scene *s, sw_hold *h, const beside *b, int *done) {
+  sw_mesh *m = &sw_scene_wire_in(s, h->wire)->mesh;
+  double *keep SW_LOCAL = new_places(s, h->wire);
+  if (!keep) return SW_ENOMEM;
+  const size_t first = sw_mesh_node(m, h->s1), last = sw_mesh_node(m, h->s2);
+  const size_t from = sw_mesh_node(m, b->side > 0 ? b->hold->s2 : b->hold->s1);
+  SW_TRY(sw_mesh_continue(m, from, b->side > 0 ? first : last, b->side > 0 ? last : first,
+                          b->director, &b->bends, keep, kept_places(s, h->wire, keep), h->director,
+                          done));
+  for (int side = 0; side < 2 && *done && m->rest; side++) {
+    sw_mesh_frame *f = &h->frame[side];
+    f->normal = sw_carry_unit(f->normal, f->tangent, h->director[side]);
+    f->tangent = h->director[side];
+  }
+  return SW_OK;
+}
+
+/* 1 if the user gives the direction that the hold holds. */
+static int is_given(const sw_hold_args *a) {
+  return isfinite(a->direction.x) && sw_norm(a->direction) > 0;
+}
+
 /* Holds near the new one leave the curve by another length where edges change: they go back to the
- * curve before, and leave it again. */
+ * curve before, and leave it again. The nearest one stays: the new hold is put where the wire comes
+ * from it. If each hold were put on the curve by itself, the little wire between both would not fit
+ * between their places and directions. */
 static sw_status place(sw_scene *s, sw_hold *h, const sw_hold_args *a, int fresh) {
   sw_mesh *m = &sw_scene_wire_in(s, h->wire)->mesh;
   const size_t holds = sw_scene_hold_slots(s);
-  int *again SW_LOCAL = sw_alloc(holds, sizeof *again);
+  int done = 0, *again SW_LOCAL = sw_alloc(holds, sizeof *again);
   double ends[2], low, high;
+  beside b = {NULL};
   if (!again) return SW_ENOMEM;
   sw_body_interval(m, a, &ends[0], &ends[1]);
   h->s1 = ends[0], h->s2 = ends[1];
+  if (fresh && leans(h) && !is_given(a)) SW_TRY(find_beside(s, h, &b));
   for (size_t k = 0; k < holds; k++) {
     sw_hold *o = sw_scene_hold_in(s, k);
-    again[k] = fresh && gap_between(h, o, &low, &high) && is_short(m, low, high);
+    again[k] = fresh && o != b.hold && gap_between(h, o, &low, &high) && is_short(m, low, high);
     if (again[k]) SW_TRY(lean(s, o, -1));
   }
   SW_TRY(place_ends(s, h, ends, a->width));
   SW_TRY(refine_gaps(s, h, m));
   for (size_t k = 0; k < holds; k++)
     if (again[k]) SW_TRY(lean(s, sw_scene_hold_in(s, k), 1));
-  return fresh ? lean(s, h, 1) : SW_OK;
+  if (b.hold) SW_TRY(come_from(s, h, &b, &done));
+  return fresh && !done ? lean(s, h, 1) : SW_OK;
 }
 
 /* Finds the held places in the hold's frame. Its origin is the point at s, its axes are the world's
