@@ -227,7 +227,8 @@ static sw_status place(sw_scene *s, sw_hold *h, const sw_hold_args *a, int fresh
   if (!again) return SW_ENOMEM;
   sw_body_interval(m, a, &ends[0], &ends[1]);
   h->s1 = ends[0], h->s2 = ends[1];
-  if (fresh && leans(h) && !is_given(a)) SW_TRY(find_beside(s, h, &b));
+  const int bends = sw_scene_wire_in(s, h->wire)->beam.EI > 0;
+  if (fresh && bends && leans(h) && !is_given(a)) SW_TRY(find_beside(s, h, &b));
   for (size_t k = 0; k < holds; k++) {
     sw_hold *o = sw_scene_hold_in(s, k);
     again[k] = fresh && o != b.hold && gap_between(h, o, &low, &high) && is_short(m, low, high);

@@ -9,6 +9,7 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "body/bends.h"
 #include "body/build.h"
 #include "body/join.h"
 #include "edit/edit.h"
@@ -179,6 +180,19 @@ static sw_status check_twist(const sw_scene_wire *w, const sw_line *l, sw_error 
                  w->name, most);
 }
 
+/* Replaces the wire. A rod that becomes a rod with other edges keeps its bends beside holds. */
+static sw_status exchange(sw_scene *s, size_t wire, sw_scene_wire *next, sw_error *err) {
+  const sw_scene_wire *w = sw_scene_wire_in(s, wire);
+  const int rods = !w->strand.web && !next->strand.web && w->beam.EI > 0;
+  sw_wire_bends bends = {0};
+  sw_status kept = rods ? sw_scene_keep_bends(s, wire, &bends) : SW_OK;
+  sw_status status = kept == SW_OK ? sw_scene_replace_wire(s, wire, next, err) : kept;
+  if (status == SW_OK && rods)
+    kept = sw_scene_give_bends(s, wire, &bends, &sw_scene_wire_in(s, wire)->mesh);
+  sw_free(bends.list);
+  return kept == SW_OK ? status : sw_fail(err, kept, "remodel: out of memory");
+}
+
 static sw_status change(sw_scene *s, sw_handle h, const sw_strand_plan *plan, const sw_line *l,
                         sw_scene_wire *next, sw_remodel_report *out, sw_error *err) {
   sw_vec about;
@@ -193,7 +207,7 @@ static sw_status change(sw_scene *s, sw_handle h, const sw_strand_plan *plan, co
     sw_free(next->twisted);
     return sw_fail(err, thawed, "remodel: out of memory");
   }
-  SW_TRY(sw_scene_replace_wire(s, h.slot, next, err));
+  SW_TRY(exchange(s, h.slot, next, err));
   SW_TRY(sw_scene_build(s, err));
   if (sw_momentum_match(s, h.slot, about, out->before) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "remodel: out of memory");

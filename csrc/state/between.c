@@ -97,6 +97,7 @@ typedef struct way {
   int side;               /* 1: numbers of nodes go up */
   size_t near, far, last; /* edges up to the new hold's ends, and up to the last node that moves */
   const sw_mesh_bends *bends;
+  double reach; /* least length beyond the new hold that moves [m] */
 } way;
 
 static size_t node_on(const way *w, size_t k) { return w->from + (size_t)w->side * k; }
@@ -104,6 +105,7 @@ static size_t node_on(const way *w, size_t k) { return w->from + (size_t)w->side
 /* Returns the length over which the wire bends at the k-th node, on the side of the first hold
  * (beyond 0) or beyond it: all of it where no hold holds its direction there [m]. */
 static double length_at(const sw_mesh *m, const way *w, size_t k, int beyond) {
+  if (w->far == 0 && !beyond) return 0; /* there is no new hold */
   if (k < w->near) return beyond ? hinge_at(m, w->from, w->side, k, w->near, 1) : 0;
   if (k == w->near && !beyond) return hinge_at(m, w->from, w->side, k, w->near, 1);
   if (k > w->far || (k == w->far && beyond))
@@ -182,7 +184,9 @@ enum { FOLLOWERS = 8 };
 static size_t last_of(const sw_mesh *m, const way *w, const double *keep, size_t count) {
   const size_t room = w->side > 0 ? m->n - 1 - w->from : w->from;
   size_t last = w->far;
-  while (last < room && last < w->far + FOLLOWERS) {
+  while (last < room) {
+    const double gone = fabs(m->s[node_on(w, last)] - m->s[node_on(w, w->far)]);
+    if (last >= w->far + FOLLOWERS && gone >= w->reach) break;
     last++;
     if (sw_mesh_is_kept(keep, count, m->s[node_on(w, last)])) break;
   }
@@ -221,6 +225,27 @@ sw_status sw_mesh_continue(sw_mesh *m, size_t from, size_t near, size_t far, sw_
     take_shape(&fresh, m);
     memcpy(directors, now, sizeof now);
   }
+  sw_mesh_free(&fresh);
+  return status;
+}
+
+sw_status sw_mesh_leave(sw_mesh *m, size_t from, int side, sw_vec director,
+                        const sw_mesh_bends *bends, double longest, const double *keep,
+                        size_t count) {
+  way w = {.from = from, .side = side, .bends = bends, .reach = FOLLOWERS * longest};
+  sw_mesh fresh = {0};
+  sw_vec unused[2];
+  int done = 1;
+  w.last = last_of(m, &w, keep, count);
+  while (w.last > 2 && side * (m->s[node_on(&w, w.last)] - bends->s[bends->count - 1]) > 0)
+    w.last--;
+  if (w.last < 3) return SW_OK;
+  SW_TRY(sw_mesh_copy(m, &fresh));
+  build(m, &fresh, &w, director, unused);
+  go_over(m, &fresh, &w);
+  fit_length(&fresh, &w);
+  const sw_status status = give_lengths(m, &fresh, &w, &done);
+  if (status == SW_OK && done) take_shape(&fresh, m);
   sw_mesh_free(&fresh);
   return status;
 }

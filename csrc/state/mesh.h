@@ -106,6 +106,13 @@ sw_status sw_mesh_continue(sw_mesh *mesh, size_t from, size_t near, size_t far, 
                            const sw_mesh_bends *bends, const double *keep, size_t count,
                            sw_vec directors[2], int *done);
 
+/* Puts the nodes on one side (1 or -1) of a hold that ends at node `from`, for which nothing moves,
+ * where the wire has these bends, read from other edges; longest: of these [m]. Nodes go over to
+ * where they are. keep: as above. SW_ENOMEM. */
+sw_status sw_mesh_leave(sw_mesh *mesh, size_t from, int side, sw_vec director,
+                        const sw_mesh_bends *bends, double longest, const double *keep,
+                        size_t count);
+
 /* Gives the wire frames without twist in its present shape. Their first axis at the wire's start is
  * the part of normal across it. straight: 1 if the unloaded wire is straight, else it has the
  * present shape; rest_twist: twist of the unloaded wire [rad/m]. SW_ENOMEM. */

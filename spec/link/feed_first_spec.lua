@@ -38,8 +38,8 @@ describe("a feed with a force", function()
             t.fine(run)
             local f = first_along(run, { x = d[1], y = d[2], z = d[3] })
             -- The search stops at 1e-7 of the weight. In a first step of 0.5 us a place of 0.3 m that is
-            -- rounded by 6e-17 m is a force of EA 1e-3 s 6e-17 m / (15 mm 0.5 us) = 3 uN of the dashpots, 2e-5
-            -- of the weight; a few of these add up.
+            -- rounded by 6e-17 m is a force of EA 1e-3 s 6e-17 m / (15 mm 0.5 us) = 3 uN of the dashpots,
+            -- 2e-5 of the weight; a few of these add up.
             t.near(math.abs(share) * weight, math.abs(f), 1e-3 * weight,
               ("%s, dt = %g s, %g of the weight [N]"):format(cable, dt, share))
           end
