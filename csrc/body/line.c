@@ -175,12 +175,15 @@ typedef struct beside {
 /* Finds the nearest hold that is so near that edges between are halved. */
 static sw_status find_beside(sw_scene *s, const sw_hold *h, beside *b) {
   const sw_mesh *m = &sw_scene_wire_in(s, h->wire)->mesh;
+  int sides = 0;
   double least = HUGE_VAL, low, high, *keep SW_LOCAL = new_places(s, h->wire);
   if (!keep) return SW_ENOMEM;
   SW_EACH(hold, o, s) {
     if (!leans(o) || !gap_between(h, o, &low, &high) || !is_short(m, low, high)) continue;
     if (high - low < least) b->hold = o, least = high - low;
+    sides |= o->s2 < h->s1 ? 1 : 2;
   }
+  if (sides == 3) b->hold = NULL; /* it cannot come from both */
   if (!b->hold) return SW_OK;
   b->side = b->hold->s2 < h->s1 ? 1 : -1;
   const size_t from = sw_mesh_node(m, b->side > 0 ? b->hold->s2 : b->hold->s1);
