@@ -15,7 +15,6 @@
 #include "state/mesh.h"
 #include "step/passing.h"
 #include "step/statics.h"
-#include "system/coupling.h"
 #include "system/rail.h"
 
 enum { SLIDES = 8, MOST_REDOS = 20 };
