@@ -53,11 +53,19 @@ static sw_status look(const sw_motion *m, double t, double w, window *out, sw_er
   return SW_OK;
 }
 
+/* A place that jumps, or poses with noise, bend the way as much over any time: bend/w grows by this
+ * factor within a few halvings, but not for a jump of velocity, unless it was halved PURE times
+ * before. Then the jump is real and found as well as noise allows [-]. */
+static const double NOISY = 4, PURE = 1.0 / 64;
+
 /* *at: time of a jump in the middle half of a window, shortly before it; unchanged if there is none
  * [s]. */
 static sw_status zoom(const sw_motion *m, window in, double *at, sw_error *err) {
+  const double w0 = in.w, first = bend(in.at) / in.w;
   while (may_jump(in.at, in.w)) {
-    if (in.w < FOUND) {
+    const int noisy = bend(in.at) > NOISY * first * in.w;
+    if (noisy && in.w > PURE * w0) return SW_OK;
+    if (noisy || in.w < FOUND) {
       *at = in.t;
       return SW_OK;
     }

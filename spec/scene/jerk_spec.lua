@@ -133,4 +133,22 @@ describe("a hold that starts at once", function()
     for _, dt in ipairs{ 0.01, 0.0073, 0.003 } do t.share(fine, peak{ dt = dt }, 0.03, dt) end
     t.share(fine, peak{ dt = 0.01, tolerance = 1e-3 }, 0.03, "by tolerance")
   end)
+
+  -- Measured poses have noise, or are rounded. Each of them jumps, and steps that end at each would have no
+  -- end.
+  it("is not looked for in noise and in places that jump", function()
+    local function noise(time) return math.sin(12345.678 * time) * 43758.5453 % 1 - 0.5 end
+    for name, off in pairs{ noise = function(time) return 1e-6 * noise(time) end,
+      ["rounded to 10 nm"] = function(time) return -(0.05 * time % 1e-8) end } do
+      local scene, r = sw.scene{}, sw.cable("GXL 1.5").outer_diameter.value / 2
+      scene:obstacle{ shape = "plane", friction = 0.3 }
+      local wire = scene:wire{ cable = "GXL 1.5", from = { 0, 0, r }, to = { -L, 0, r }, segments = 30 }
+      scene:force{ kind = "damping", mass = 0.5, stiffness = 2e-3 }
+      local hold = scene:clamp(wire, { s = 0 })
+      hold:follow(function(time) return { 0.05 * time + (time > 0 and off(time) or 0), 0, r } end)
+      local run = t.fine(scene:run{ dt = 0.01, duration = 0.3 })
+      -- 30 steps, and parts of the blow at the start
+      t.below(60, run.steps, name)
+    end
+  end)
 end)
