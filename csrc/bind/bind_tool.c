@@ -92,15 +92,15 @@ static int meth_watch(lua_State *L) {
 
 static const char *const statuses[] = {"rests", "moves", "holds", "stopped", "empty"};
 
-/* tool:state() -> { opening, jaws, squeeze, normal, most, margin, sliding, slip, slipped, place,
- * frozen }; lost_time if the grip was lost; crash_... after a crash; slip_time and slip_place if it
- * slipped. */
+/* tool:state() -> { opening, jaws, squeeze, normal, most, margin, sliding, slip, slipped,
+ * turned, place, frozen }; lost_time if the grip was lost; crash_... after a crash; slip_time and
+ * slip_place if it slipped. */
 static int meth_state(lua_State *L) {
   sw_tool_state now;
   const lsw_self t = check(L);
   LSW_DO(L, sw_scene_tool_state, t.scene, t.id, &now);
   lsw_quiet(L);
-  lua_createtable(L, 0, 12);
+  lua_createtable(L, 0, 13);
   lsw_set_text(L, "jaws", statuses[now.status]);
   lsw_set_number(L, "opening", now.opening);
   lsw_set_number(L, "squeeze", now.squeeze);
@@ -110,6 +110,7 @@ static int meth_state(lua_State *L) {
   lsw_set_number(L, "sliding", now.sliding);
   lsw_set_number(L, "slip", now.slip);
   lsw_set_vector(L, "slipped", now.slipped);
+  lsw_set_vector(L, "turned", now.turned);
   lsw_set_number(L, "place", now.place);
   lsw_set_flag(L, "frozen", now.frozen);
   lsw_set_known(L, "lost_time", now.lost_time);

@@ -153,20 +153,6 @@ static double place_of(const sw_system *s, const sw_touch *t) {
   return arc[a] + t->at * (arc[e] - arc[a]) - (p->web ? 0.0 : arc[0]);
 }
 
-void sw_contact_add_grip(const sw_contact *c, const sw_system *s, int id, sw_contact_grip *sum) {
-  for (size_t i = 0; i < sw_contact_touches(c); i++) {
-    const sw_touch *t = touch_at(c, i);
-    const double N = t->press.normal_force;
-    if (c->obstacles[t->obstacle].id != id || !(N > 0)) continue;
-    sum->normal += N;
-    sum->most += t->friction * N;
-    sum->tangent = sw_add(sum->tangent, t->press.tangential);
-    sum->slip = sw_madd(sum->slip, t->press.slip, N);
-    sum->sliding += t->press.next_sliding ? N : 0.0;
-    sum->place += N * place_of(s, t);
-  }
-}
-
 double sw_contact_penetration(const sw_contact *c, size_t *node) {
   double deepest = 0;
   for (size_t i = 0; i < sw_contact_touches(c); i++) {
@@ -217,6 +203,7 @@ int sw_contact_push_at(const sw_contact *c, const sw_system *s, size_t k, sw_con
                            .friction = t->friction,
                            .normal = p->normal,
                            .slip = p->slip,
+                           .slides = p->next_sliding != 0,
                            .point = t->point,
                            .acts = t->acts,
                            .place = place_of(s, t),

@@ -152,17 +152,6 @@ void sw_contact_commit(sw_contact *contact, sw_system *system);
 /* Total force on obstacle o (the owner's number) as last evaluated, its moment [N], [N m]. */
 void sw_contact_force(const sw_contact *contact, int o, sw_vec about, sw_vec *force,
                       sw_vec *moment);
-/* Sums over the touches of obstacle o (the owner's number) that hold wires. */
-typedef struct sw_contact_grip {
-  double normal;  /* normal forces [N] */
-  double most;    /* largest friction that these allow [N] */
-  sw_vec tangent; /* friction on the wires [N] */
-  sw_vec slip;    /* sum of normal force times the wire's sliding way in the last step [N m] */
-  double sliding; /* normal force of the touches that slide [N] */
-  double place;   /* sum of normal force times arc length in the wire's plan [N m] */
-} sw_contact_grip;
-void sw_contact_add_grip(const sw_contact *contact, const sw_system *system, int o,
-                         sw_contact_grip *sum);
 /* Deepest penetration of the accepted state, with the system's node nearest to it [m]. */
 double sw_contact_penetration(const sw_contact *contact, size_t *node);
 /* The lists of touches, for contact/tally.h: of wires that are solved, and of those that wait. */
@@ -177,6 +166,7 @@ typedef struct sw_contact_push {
   sw_vec force;                  /* on the wire, with friction [N] */
   sw_vec normal;                 /* the obstacle's, outward [-] */
   sw_vec slip;                   /* sliding way in the last step [m] */
+  int slides;                    /* 1: its friction is used up */
   sw_vec point, acts; /* on the obstacle; of the force, on the axis or a rolling surface [m] */
   double place;       /* arc length [m] */
   double slid;        /* sliding way since the touch began to press [m] */

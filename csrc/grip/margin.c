@@ -10,6 +10,10 @@
  *
  *     sum_i N_i (mu_i |tangential velocity| + |normal velocity|).
  *
+ * Pads that squeeze have the normal forces that they have. The load is then the touches' own
+ * friction, and they resist sum_i mu_i N_i |velocity|. So the margin is 1 at most, and it is 1 if
+ * all touches slide as a rigid wire does. Without a moment it is |sum of friction| / sum mu N.
+ *
  * For motions in the pads' plane this is the limit surface of Goyal, Ruina and Papadopoulos (Wear
  * 143, 1991, 307), which Howe and Cutkosky's ellipsoid (1996) approximates. The best motion is
  * found by iterated least squares: the weights come from the previous motion, and the value only
@@ -78,20 +82,20 @@ typedef struct patch {
   double size;                  /* [m] */
 } patch;
 
-static patch patch_of(const sw_frozen *f) {
+static patch patch_of(const sw_frozen_touch *touch, size_t touches) {
   patch out = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0};
   double sum = 0, second = 0;
-  for (size_t k = 0; k < f->touches; k++) {
-    out.middle = sw_madd(out.middle, f->touch[k].at, f->touch[k].force);
-    sum += f->touch[k].force;
+  for (size_t k = 0; k < touches; k++) {
+    out.middle = sw_madd(out.middle, touch[k].at, touch[k].force);
+    sum += touch[k].force;
   }
   out.middle = sw_scale(out.middle, 1.0 / sum);
-  for (size_t k = 0; k < f->touches; k++) {
-    const sw_vec arm = sw_sub(f->touch[k].at, out.middle);
-    const sw_vec push = sw_scale(f->touch[k].normal, f->touch[k].force);
+  for (size_t k = 0; k < touches; k++) {
+    const sw_vec arm = sw_sub(touch[k].at, out.middle);
+    const sw_vec push = sw_scale(touch[k].normal, touch[k].force);
     out.force = sw_add(out.force, push);
     out.moment = sw_add(out.moment, sw_cross(arm, push));
-    second += f->touch[k].force * sw_norm2(arm);
+    second += touch[k].force * sw_norm2(arm);
   }
   out.size = sqrt(second / sum);
   return out;
@@ -132,46 +136,88 @@ static void close_form(form *o) {
   }
 }
 
+/* Touches, in units of `size` from their middle. fixed: 1 = each keeps its normal force. */
+typedef struct hold {
+  const sw_frozen_touch *touch;
+  size_t touches;
+  sw_vec middle; /* [m] */
+  double size;   /* [m] */
+  int fixed;
+} hold;
+
 /* Returns the power that the touches resist in a motion [W]. A: its quadratic form, with that
  * motion's weights. */
-static double resistance(const sw_frozen *f, const patch *p, const double v[SIX],
-                         double A[SIX][SIX]) {
+static double resistance(const hold *h, const double v[SIX], double A[SIX][SIX]) {
   form o = {0};
   double sum = 0;
   const sw_vec way = sw_load(v), turn = sw_load(v + 3);
   const double still = STILL * (sw_norm(way) + sw_norm(turn));
-  SW_ITEMS(const sw_frozen_touch, t, f->touch, f->touches) {
-    const sw_vec arm = sw_scale(sw_sub(t->at, p->middle), 1.0 / p->size);
+  SW_ITEMS(const sw_frozen_touch, t, h->touch, h->touches) {
+    const sw_vec arm = sw_scale(sw_sub(t->at, h->middle), 1.0 / h->size);
     const sw_vec u = sw_add(way, sw_cross(turn, arm));
-    const double across = sw_dot(u, t->normal);
+    const double across = h->fixed ? 0.0 : sw_dot(u, t->normal);
     const double along = sw_norm(sw_madd(u, t->normal, -across));
     const double rub = t->friction * t->force / fmax(along, still);
     sum += t->force * (t->friction * along + fabs(across));
-    add(&o, arm, t->normal, rub, t->force / fmax(fabs(across), still) - rub);
+    add(&o, arm, t->normal, rub, h->fixed ? 0.0 : t->force / fmax(fabs(across), still) - rub);
   }
   close_form(&o);
   memcpy(A, o.A, sizeof o.A);
   return sum;
 }
 
-double sw_frozen_margin(const sw_frozen *f, sw_vec force, sw_vec moment) {
-  double A[SIX][SIX], load[SIX], v[SIX], margin = 0;
-  if (!f->touches) return 0;
-  const patch p = patch_of(f);
-  if (!(p.size > 0)) return 0;
-  const sw_vec about = sw_sub(moment, sw_cross(p.middle, force));
-  sw_store(load, sw_sub(force, p.force));
-  sw_store(load + 3, sw_scale(sw_sub(about, p.moment), 1.0 / p.size));
+/* Turns that move no touch, such as those of a line about itself, cost and yield nothing. This
+ * share of the others makes them solvable [-]. */
+static const double IDLE = 1e-9;
+
+static void stiffen(double A[SIX][SIX]) {
+  double trace = 0;
+  for (int i = 0; i < SIX; i++) trace += A[i][i];
+  for (int i = 0; i < SIX; i++) A[i][i] += IDLE * trace;
+}
+
+/* Returns the load over the largest one of its direction. load: force, and moment about the middle
+ * over the size [N]. */
+static double search(const hold *h, const double load[SIX]) {
+  double A[SIX][SIX], v[SIX], margin = 0;
   memcpy(v, load, sizeof v);
   for (int round = 0; round <= MOST_ROUNDS; round++) {
     double power = 0;
-    const double most = resistance(f, &p, v, A);
+    const double most = resistance(h, v, A);
     for (int i = 0; i < SIX; i++) power += load[i] * v[i];
     const double now = most > 0 ? power / most : 0.0;
     if (round && now <= margin * (1.0 + ENOUGH)) return fmax(now, margin);
     margin = fmax(margin, now);
     memcpy(v, load, sizeof v);
+    if (h->fixed) stiffen(A);
     if (!sw_cholesky_solve(&A[0][0], SIX, v)) return margin;
   }
   return margin;
+}
+
+double sw_frozen_margin(const sw_frozen *f, sw_vec force, sw_vec moment) {
+  double load[SIX];
+  if (!f->touches) return 0;
+  const patch p = patch_of(f->touch, f->touches);
+  if (!(p.size > 0)) return 0;
+  const hold h = {f->touch, f->touches, p.middle, p.size, 0};
+  const sw_vec about = sw_sub(moment, sw_cross(p.middle, force));
+  sw_store(load, sw_sub(force, p.force));
+  sw_store(load + 3, sw_scale(sw_sub(about, p.moment), 1.0 / p.size));
+  return search(&h, load);
+}
+
+double sw_touches_margin(const sw_frozen_touch *touch, size_t touches, sw_vec force,
+                         sw_vec moment) {
+  double load[SIX], most = 0;
+  for (size_t k = 0; k < touches; k++) most += touch[k].friction * touch[k].force;
+  if (!(most > 0)) return 0;
+  const double straight = sw_norm(force) / most; /* of pure sliding: exact, and no search */
+  const patch p = patch_of(touch, touches);
+  if (!(p.size > 0)) return straight;
+  const hold h = {touch, touches, p.middle, p.size, 1};
+  const sw_vec about = sw_sub(moment, sw_cross(p.middle, force));
+  sw_store(load, force);
+  sw_store(load + 3, sw_scale(about, 1.0 / p.size));
+  return fmax(straight, search(&h, load));
 }

@@ -27,15 +27,15 @@ void sw_tape_jaw(sw_tape *t, sw_jaw *x) {
 }
 
 static void tape_tool_state(sw_tape *t, sw_tool_state *x) {
-  SW_TAPE_STRUCT(t, sw_tool_state, 216); /* the names in a crash are filled in when asked for */
+  SW_TAPE_STRUCT(t, sw_tool_state, 240); /* the names in a crash are filled in when asked for */
   DOUBLE(opening), INT(status), DOUBLE(squeeze), DOUBLE(normal), DOUBLE(most), DOUBLE(margin);
-  DOUBLE(sliding), DOUBLE(slip), VEC(slipped), VEC(centre), QUAT(q), DOUBLE(place);
+  DOUBLE(sliding), DOUBLE(slip), VEC(slipped), VEC(turned), VEC(centre), QUAT(q), DOUBLE(place);
   DOUBLE(slip_time), DOUBLE(slip_place), INT(frozen), DOUBLE(lost_time);
   sw_tape_expect(t, x->status >= SW_JAW_RESTS && x->status <= SW_JAW_EMPTY, "jaws");
 }
 
 void sw_tape_tool(sw_tape *t, sw_scene *s, sw_tool *x) {
-  SW_TAPE_STRUCT(t, sw_tool, 888);
+  SW_TAPE_STRUCT(t, sw_tool, 912);
   UINT32(generation), INT(alive), NAME(name);
   sw_tape_drive(t, s, &x->drive);
   sw_tape_jaw(t, &x->jaw);

@@ -8,6 +8,7 @@
 #include "body/hold.h"
 #include "body/obstacle_log.h"
 #include "grip/frozen.h"
+#include "grip/held.h"
 #include "grip/jaws.h"
 #include "link/hold.h"
 #include "scene/course.h"
@@ -114,7 +115,7 @@ sw_status sw_scene_tool_watch(sw_scene *s, sw_handle tool, double tolerance, int
   SW_TRY(sw_scene_editable(s, err));
   SW_FIND(sw_tool, t, sw_scene_find_tool(s, tool, err));
   t->tolerance = tolerance, t->stops = stops;
-  t->now.slipped = sw_v(0, 0, 0);
+  t->now.slipped = t->now.turned = sw_v(0, 0, 0);
   t->now.slip = 0;
   t->now.slip_time = t->now.slip_place = NAN;
   return SW_OK;
@@ -215,41 +216,26 @@ static double hold_frozen(const sw_scene *s, sw_tool *t, sw_vec force, sw_vec mo
   return now->margin;
 }
 
-/* Returns one bit for each finger that presses; adds all their forces to sum. */
-static unsigned fingers_that_press(const sw_scene *s, const sw_tool *t, sw_contact_grip *sum) {
-  sw_contact *contact = sw_scene_contact(s);
-  unsigned press = 0;
-  for (size_t k = 0; contact && k < t->pads; k++) {
-    const double before = sum->normal;
-    if (t->pad[k].finger < 0) continue;
-    sw_contact_add_grip(contact, sw_scene_system(s), (int)t->pad[k].obstacle, sum);
-    if (sum->normal > before) press |= 1u << t->pad[k].finger;
-  }
-  return press;
-}
-
-/* Returns the margin. NAN: there is no wire, the wire only leans on one finger, or the jaws move.
+/* Sets the margin. NAN: there is no wire, the wire only leans on one finger, or the jaws move.
  * Friction is then always used up, under almost no force. */
-static double hold_now(const sw_scene *s, sw_tool *t) {
-  sw_contact_grip sum = {0};
+static sw_status hold_now(sw_scene *s, sw_tool *t, double *margin, sw_error *err) {
+  sw_held sum;
   sw_tool_state *now = &t->now;
   const int held = now->normal > 0;
-  const unsigned press = fingers_that_press(s, t, &sum);
-  const int between = (press & (press - 1)) != 0 || (press && t->fingers == 1);
+  *margin = NAN;
+  SW_TRY(sw_held_look(s, t, &sum, &now->slipped, &now->turned, &now->slip, err));
+  const int between = (sum.press & (sum.press - 1)) != 0 || (sum.press && t->fingers == 1);
   now->opening = t->jaw.opening, now->status = t->jaw.status, now->squeeze = t->jaw.now;
-  now->normal = sum.normal, now->most = sum.most;
-  now->margin = sum.most > 0 ? sw_norm(sum.tangent) / sum.most : 0;
+  now->normal = sum.normal, now->most = sum.most, now->margin = sum.margin;
   now->sliding = sum.normal > 0 ? sum.sliding / sum.normal : 0;
   if (held && !(sum.normal > 0)) now->lost_time = sw_scene_time(s);
-  if (!(sum.normal > 0)) return NAN;
+  if (!(sum.normal > 0)) return SW_OK;
   now->lost_time = NAN;
-  now->place = sum.place / sum.normal;
-  const sw_vec way = sw_unrotate(now->q, sw_scale(sum.slip, 1.0 / sum.normal));
-  now->slipped = sw_add(now->slipped, way);
-  now->slip = sw_norm(now->slipped);
+  now->place = sum.place;
   if (isnan(now->slip_time) && now->slip > t->tolerance)
     now->slip_time = sw_scene_time(s), now->slip_place = now->place;
-  return between && now->status != SW_JAW_MOVES ? now->margin : (double)NAN;
+  if (between && now->status != SW_JAW_MOVES) *margin = now->margin;
+  return SW_OK;
 }
 
 static int holds_any(const sw_scene *s, size_t slot) {
@@ -271,7 +257,11 @@ sw_status sw_tool_observe(sw_scene *s, sw_error *err) {
     pads_mean(s, t, at.pose.p, &force, &moment);
     int mean = 0;
     SW_TRY(holds_force(s, k, at.pose.p, &force, &moment, &mean, err));
-    const double margin = t->frozen ? hold_frozen(s, t, force, moment) : hold_now(s, t);
+    double margin;
+    if (t->frozen)
+      margin = hold_frozen(s, t, force, moment);
+    else
+      SW_TRY(hold_now(s, t, &margin, err));
     SW_TRY(sw_tool_look_out(s, k, err));
     row[SW_LOG_TIME] = sw_scene_time(s);
     sw_store(row + SW_LOG_FORCE, force);

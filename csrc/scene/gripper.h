@@ -30,12 +30,13 @@ typedef struct sw_tool_state {
   int status;          /* of the jaws */
   double squeeze;      /* force per finger against opening [N] */
   double normal, most; /* normal force of the pads, friction that it allows [N] */
-  double margin;       /* friction over allowed friction; 0 without any. Of a frozen grip: force and
-                          moment over what its touches could balance [-] */
+  double margin;       /* friction and its moment over what the touches can resist; of a frozen
+                          grip: force and moment over what its touches could balance [-] */
   double sliding;      /* share of the force at touches that slide [-] */
-  double slip;         /* length of `slipped` [m] */
+  double slip;         /* longest way of a touch by `slipped` and `turned` [m] */
   sw_vec slipped;      /* slip of the wires since the last order to the jaws, in the tool's axes
                           [m] */
+  sw_vec turned;       /* turn of the wires between the pads since then, in the same axes [rad] */
   sw_vec centre;       /* of the tool, in the world [m] */
   sw_quat q;           /* its orientation [-] */
   double place;        /* arc length of the wire between the pads [m] */

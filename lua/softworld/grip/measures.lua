@@ -217,11 +217,11 @@ local function needs_tool(self, verb)
 end
 
 --- Returns the state of the pads: a table with jaws ("rests", "moves", "holds", "stopped", "empty"),
--- opening [m], squeeze (force per finger [N]), normal (sum over pads [N]), margin (|friction| over what
--- the normal forces allow; for a frozen grip, force and moment over what its touches could balance
--- [-]), sliding (share of the normal force that slides [-]), slip [m] with its vector slipped in
--- the tool's axes, and, once it exceeds the gripper's slip_tolerance, slip_time [s] and slip_place
--- (arc length [m]).
+-- opening [m], squeeze (force per finger [N]), normal (sum over pads [N]), margin (friction and its moment
+-- over what the touches can resist, the largest of its wires; for a frozen grip, force and moment over what
+-- its touches could balance [-]), sliding (share of the normal force that slides [-]), slip (longest way of
+-- a touch [m]) by the vectors slipped [m] and turned [rad] in the tool's axes, and, once it exceeds the
+-- gripper's slip_tolerance, slip_time [s] and slip_place (arc length [m]).
 function Measures:state()
   local now = needs_tool(self, "state"):state()
   if self.frozen then
@@ -255,7 +255,7 @@ rows.calls{
   { "gripper:series", "", "every recorded step",
     "t [s], force, moment; of pads opening, squeeze, margin, slip" },
   { "gripper:state", "", "state of the pads", "jaws, opening [m], squeeze, normal [N], margin, sliding [-], "
-    .. "slip [m], slip_time [s], slip_place, place [m]" },
+    .. "slip, slipped [m], turned [rad], slip_time [s], slip_place, place [m]" },
   { "gripper:squeeze", "", "how flat the wire is squeezed", "height, width [m], share [-]" },
   { "gripper.peak_force", nil, "over all of its time, see gripper:over", "N" },
   { "gripper.mean_force", nil, "over all of its time", "N" },

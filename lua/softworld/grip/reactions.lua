@@ -5,6 +5,7 @@ local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local grasped = require "softworld.grip.grasped"
 local mixed = require "softworld.grip.mixed"
+local vec = require "softworld.vec"
 
 local reactions = {}
 
@@ -36,8 +37,8 @@ function reactions.watch(self)
 end
 
 local function slip_text(self, event)
-  return ("gripper '%s': the wire slips, %.3g mm by t = %.4g s at s = %.4g m"):format(self.name,
-    1e3 * event.distance, event.time, event.s)
+  return ("gripper '%s': the wire slips, %.3g mm by t = %.4g s at s = %.4g m; it turned by %.3g rad"):format(
+    self.name, 1e3 * event.distance, event.time, event.s, event.turned)
 end
 
 local function crash_text(self, event)
@@ -75,7 +76,8 @@ local function look_at(self)
       obstacle = now.crash_obstacle, depth = now.crash_depth }, self.on_crash, crash_text)
   end
   if self.held and now.slip_time and not self.slip_event then
-    self.slip_event = { kind = "slip", time = now.slip_time, s = now.slip_place, distance = now.slip }
+    self.slip_event = { kind = "slip", time = now.slip_time, s = now.slip_place, distance = now.slip,
+      turned = vec.norm(now.turned) }
     why = react(self, self.slip_event, self.on_slip, slip_text) or why
   end
   if self.unchecked and self.held and now.squeeze > 0 and now.jaws ~= "moves" then

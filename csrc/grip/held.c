@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "grip/held.h"
+
+#include <math.h>
+
+#include "base/alloc.h"
+#include "contact/contact.h"
+#include "grip/frozen.h"
+#include "scene/parts.h"
+#include "solve/dense.h"
+#include "system/system.h"
+
+/* Touches of all wires, in the order of wires; vectors in the tool's axes. */
+typedef struct list {
+  sw_frozen_touch *touch;
+  sw_vec *friction, *slip; /* on the wire [N]; in the last step [m] */
+  size_t *body;
+  size_t count;
+} list;
+
+static void list_free(list *l) { SW_FREE_ALL(l->touch, l->friction, l->slip, l->body); }
+
+/* Returns the finger of the pad; below 0: the obstacle is no pad. */
+static int finger_of(const sw_tool *t, int obstacle) {
+  for (size_t k = 0; k < t->pads; k++)
+    if (t->pad[k].obstacle == (size_t)obstacle) return t->pad[k].finger;
+  return -1;
+}
+
+static void add(list *l, const sw_tool *t, const sw_contact_push *p, size_t body) {
+  const sw_quat q = t->now.q;
+  const sw_vec friction = sw_madd(p->force, p->normal, -p->normal_force);
+  const size_t k = l->count++;
+  l->touch[k] = (sw_frozen_touch){.at = sw_unrotate(q, sw_sub(p->acts, t->now.centre)),
+                                  .normal = sw_unrotate(q, p->normal),
+                                  .force = p->normal_force,
+                                  .friction = p->friction};
+  l->friction[k] = sw_unrotate(q, friction);
+  l->slip[k] = sw_unrotate(q, p->slip);
+  l->body[k] = body;
+}
+
+static void collect(sw_scene *s, const sw_tool *t, list *l, sw_held *out) {
+  const sw_contact *contact = sw_scene_contact(s);
+  const sw_system *system = sw_scene_system(s);
+  for (size_t k = 0; k < sw_contact_touches(contact); k++) {
+    sw_contact_push p;
+    if (!sw_contact_push_at(contact, system, k, &p)) continue;
+    const int finger = finger_of(t, p.obstacle);
+    if (finger < 0) continue;
+    out->press |= 1u << finger;
+    out->normal += p.normal_force;
+    out->most += p.friction * p.normal_force;
+    out->sliding += p.slides ? p.normal_force : 0.0;
+    out->place += p.normal_force * p.place;
+    add(l, t, &p, sw_system_body_of(system, p.node));
+  }
+  if (out->normal > 0) out->place /= out->normal;
+}
+
+/* Sums that give the turn between the pads: the moment of slips about the middle of their wire, and
+ * the inertia of the touches, both weighted by normal forces. */
+typedef struct turning {
+  double moment[3], inertia[3][3]; /* [N m2] */
+} turning;
+
+static void add_turn(turning *w, double N, sw_vec arm, sw_vec slip) {
+  double r[3];
+  sw_store(r, arm);
+  sw_accumulate(w->moment, sw_scale(sw_cross(arm, slip), N));
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++)
+      w->inertia[i][j] += N * ((i == j ? sw_norm2(arm) : 0.0) - r[i] * r[j]);
+}
+
+/* Looks at the touches from first to end, of one wire: its margin, its slip and turn. */
+static void look_at_wire(const list *l, size_t first, size_t end, sw_held *out, turning *w) {
+  sw_vec force = sw_v(0, 0, 0), moment = force, middle = force;
+  double normal = 0;
+  for (size_t k = first; k < end; k++) {
+    const sw_frozen_touch *t = &l->touch[k];
+    force = sw_add(force, l->friction[k]);
+    moment = sw_add(moment, sw_cross(t->at, l->friction[k]));
+    middle = sw_madd(middle, t->at, t->force);
+    out->slip = sw_madd(out->slip, l->slip[k], t->force / out->normal);
+    normal += t->force;
+  }
+  middle = sw_scale(middle, 1.0 / normal);
+  for (size_t k = first; k < end; k++)
+    add_turn(w, l->touch[k].force, sw_sub(l->touch[k].at, middle), l->slip[k]);
+  out->margin = fmax(out->margin, sw_touches_margin(l->touch + first, end - first, force, moment));
+  for (size_t k = first; k < end; k++) l->touch[k].at = sw_sub(l->touch[k].at, middle);
+}
+
+/* Turns that move the touches by less than a tenth of what the widest ones do are left out: those
+ * of a nearly straight line of touches about itself. The slips do not tell them, and the arms of a
+ * line that bends change from step to step. This is the share of the largest inertia [-]. */
+static const double IDLE = 1e-2;
+
+sw_status sw_held_look(sw_scene *s, const sw_tool *t, sw_held *out, sw_vec *slipped, sw_vec *turned,
+                       double *furthest, sw_error *err) {
+  *out = (sw_held){0};
+  const size_t most = sw_scene_contact(s) ? sw_contact_touches(sw_scene_contact(s)) : 0;
+  list l = {0};
+  turning w = {{0}, {{0}}};
+  if (!most || !t->pads) return SW_OK;
+  if (SW_ALLOC_ALL(SW_ROOM(l.touch, most), SW_ROOM(l.friction, most), SW_ROOM(l.slip, most),
+                   SW_ROOM(l.body, most)) != SW_OK) {
+    list_free(&l);
+    return sw_fail(err, SW_ENOMEM, "gripper '%s': out of memory for its touches", t->name);
+  }
+  collect(s, t, &l, out);
+  for (size_t first = 0, end; first < l.count; first = end) {
+    for (end = first + 1; end < l.count && l.body[end] == l.body[first];) end++;
+    look_at_wire(&l, first, end, out, &w);
+  }
+  if (sw_dense_least(&w.inertia[0][0], 3, w.moment, IDLE)) out->turn = sw_load(w.moment);
+  *slipped = sw_add(*slipped, out->slip), *turned = sw_add(*turned, out->turn);
+  if (l.count) *furthest = 0;
+  for (size_t k = 0; k < l.count; k++)
+    *furthest = fmax(*furthest, sw_norm(sw_add(*slipped, sw_cross(*turned, l.touch[k].at))));
+  list_free(&l);
+  return SW_OK;
+}

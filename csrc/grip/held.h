@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the pads of a tool hold at present: the touches of each wire, their friction and its slip.
+ */
+#ifndef SW_GRIP_HELD_H
+#define SW_GRIP_HELD_H
+
+#include "scene/gripper.h"
+#include "scene/scene.h"
+
+typedef struct sw_held {
+  double normal, most; /* normal forces; largest friction that these allow [N] */
+  double sliding;      /* normal force of the touches that slide [N] */
+  double place;        /* mean of the touches' arc lengths, weighted by normal forces [m] */
+  unsigned press;      /* one bit for each finger that presses */
+  double margin;       /* largest one of a wire: friction and its moment over what the touches can
+                          resist, from 0 to 1 [-] */
+  sw_vec slip, turn;   /* way and turn of the wires between the pads in the last step, in the
+                          tool's axes [m], [rad] */
+} sw_held;
+
+/* Reads the touches of the tool's pads. slipped, turned: slip and turn before this step, in the
+ * tool's axes [m], [rad]; they grow by those of this step. *furthest: the longest way of a touch by
+ * both [m], as it was if nothing presses. SW_ENOMEM. */
+sw_status sw_held_look(sw_scene *scene, const sw_tool *tool, sw_held *out, sw_vec *slipped,
+                       sw_vec *turned, double *furthest, sw_error *err);
+
+#endif
