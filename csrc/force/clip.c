@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A snap-in clip: a potential U(u, v) across the wire (clip_law.h), spread over the clip's width W
  * by the window chi(a) = 2 cos^2(pi a / W), |a| < W/2, whose mean is 1:
- *   E = (1/W) integral of U chi ds over the wire's centre line,
- * with u along the clip's direction, v across, and a along its axis. The clip acts on whatever part
- * of the wire is inside, wherever its nodes are; a straight wire slides along the axis without any
- * force along it. The integral is a sum over evenly spaced places, at most W/16 apart, within each
- * edge; the window's sum is exact where edges are equal. In a mesh of particles the clip acts on
- * the centres of rings; coupling stiffness between neighbouring rings is lumped into each ring's
- * own.
+ *   E = (1/W) integral of U chi |da| over the wire's centre line,
+ * with u along the clip's direction, v across, and a along its axis. It acts on whatever part of
+ * the wire is inside, wherever its nodes are. Each slice da has the energy of whichever section
+ * lies in it: a move of the wire along itself takes no work, so the clip pushes across it only. (By
+ * ds, the wire would have the false tension U chi / W.) The integral is a sum over evenly spaced
+ * places, at most W/16 apart, within each edge; the window's sum is exact where edges are equal. In
+ * a mesh the clip acts on the centres of rings; coupling stiffness is lumped into each ring's own.
  *
  * Friction acts along the axis: each node has a spring with limit mu |grad U|, which slips at a
  * stretch of W/200. |grad U| is the node's push in the last accepted state. Friction is therefore a

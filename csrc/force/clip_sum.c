@@ -51,6 +51,9 @@ void sw_clip_window(const sw_clip *c, double a, double chi[3]) {
   chi[2] = -k * k * cos(k * a);
 }
 
+/* Items of a whole matrix in its upper half. */
+static const int WHOLE[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
+
 /* Second derivatives of w U chi with respect to u, v, a; upper half. */
 static void second(const sw_clip_point *p, const double chi[3], double w, double H[6]) {
   H[0] = w * chi[0] * p->uu, H[1] = w * chi[0] * p->uv, H[2] = w * chi[1] * p->u;
@@ -79,8 +82,25 @@ static void add_place(const sw_clip *c, const double x[3], double t, double w, d
   for (int k = 0; k < 6; k++) {
     out->own[0][k] += part[0] * part[0] * H[k];
     out->own[1][k] += part[1] * part[1] * H[k];
-    out->next[k] += part[0] * part[1] * H[k];
   }
+  for (int k = 0; k < 9; k++) out->next[k] += part[0] * part[1] * H[WHOLE[k]];
+}
+
+/* Adds what comes from the weight, which changes with the edge's way along the axis. */
+static void add_weight(const sw_clip_walk *w, int stiffness, sw_clip_sum *out) {
+  const double sum = out->energy / w->weight; /* of U chi over the places [J] */
+  double G[2][3];
+  for (int end = 0; end < 2; end++)
+    for (int k = 0; k < 3; k++) G[end][k] = w->slope / w->weight * out->g[end][k];
+  out->g[0][2] -= w->slope * sum, out->g[1][2] += w->slope * sum;
+  if (!stiffness) return;
+  for (int end = 0; end < 2; end++) {
+    const double way = end ? 1.0 : -1.0;
+    out->own[end][2] += way * G[end][0], out->own[end][4] += way * G[end][1];
+    out->own[end][5] += 2.0 * way * G[end][2] + w->curve * sum;
+  }
+  for (int k = 0; k < 3; k++) out->next[6 + k] -= G[1][k], out->next[3 * k + 2] += G[0][k];
+  out->next[8] -= w->curve * sum;
 }
 
 /* Finds the first and last of n evenly spaced places between a and b that may lie in the window; 0:
@@ -102,6 +122,20 @@ static int range(double a, double b, double half, long n, long *first, long *las
   return 1;
 }
 
+/* Cosine of the steepest crossing that the clip's model covers, 45 degrees [-]. */
+static const double STEEP = 0.70710678118654752;
+
+/* Fills the length of an edge as the clip sees it, and its derivatives by `way`, the edge's way
+ * along the axis: |way|, and a parabola that does not vanish for a wire that crosses more steeply.
+ */
+static void length_of(double way, double length, double out[3]) {
+  const double least = STEEP * length;
+  const int along = fabs(way) >= least;
+  out[0] = along ? fabs(way) : 0.5 * (way * way / least + least);
+  out[1] = along ? copysign(1.0, way) : way / least;
+  out[2] = along ? 0.0 : 1.0 / least;
+}
+
 long sw_clip_find(const sw_clip *c, const sw_field *f, long from) {
   const long points = (long)sw_axis_points(f->plan);
   const double half = 0.5 * c->width, zero = sw_dot(c->axis, c->at);
@@ -117,6 +151,7 @@ long sw_clip_find(const sw_clip *c, const sw_field *f, long from) {
 
 int sw_clip_begin(const sw_clip *c, const sw_field *f, size_t e, sw_clip_walk *w) {
   const double most = 1e6;
+  double seen[3];
   long first;
   local_of(c, sw_axis_at(f, e), w->a);
   local_of(c, sw_axis_at(f, e + 1), w->b);
@@ -126,7 +161,9 @@ int sw_clip_begin(const sw_clip *c, const sw_field *f, size_t e, sw_clip_walk *w
   w->count = (long)fmin(most, ceil(FINENESS * w->length / c->width));
   if (!range(w->a[2], w->b[2], w->half, w->count, &first, &w->last)) return 0;
   w->k = first;
-  w->weight = w->length / ((double)w->count * c->width);
+  length_of(w->b[2] - w->a[2], w->length, seen);
+  const double share = 1.0 / ((double)w->count * c->width);
+  w->weight = share * seen[0], w->slope = share * seen[1], w->curve = share * seen[2];
   return 1;
 }
 
@@ -155,40 +192,53 @@ int sw_clip_edge(const sw_clip *c, const sw_field *f, size_t e, int stiffness, s
   if (!sw_clip_begin(c, f, e, &w)) return 0;
   memset(out, 0, sizeof *out);
   while (sw_clip_next(&w, x, &t)) add_place(c, x, t, w.weight, w.s + t * w.length, stiffness, out);
+  add_weight(&w, stiffness, out);
   return 1;
 }
 
 /* --- on the wire --------------------------------------------------------------------- */
 
-/* Turns local second derivatives H into world axes: Q' H Q, all nine items. */
-static void turn(const sw_clip *c, const double H[6], double out[9]) {
-  static const int whole[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
+/* Turns local second derivatives H into world axes: Q' H Q. */
+static void turn(const sw_clip *c, const double H[9], double out[9]) {
   const double q[9] = {c->direction.x, c->direction.y, c->direction.z, c->across.x, c->across.y,
                        c->across.z,    c->axis.x,      c->axis.y,      c->axis.z};
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++) {
       double sum = 0;
       for (int k = 0; k < 3; k++)
-        for (int l = 0; l < 3; l++) sum += q[3 * k + i] * H[whole[3 * k + l]] * q[3 * l + j];
+        for (int l = 0; l < 3; l++) sum += q[3 * k + i] * H[3 * k + l] * q[3 * l + j];
       out[3 * i + j] = sum;
     }
 }
 
-void sw_clip_on_edge(const sw_clip *c, sw_field *f, size_t e, const sw_clip_sum *sum) {
-  const int stiffness = (f->want & SW_WANT_STIFFNESS) != 0;
-  double between[9], K[9];
-  if (stiffness) turn(c, sum->next, between);
-  for (size_t end = 0; end < 2; end++) {
-    if (stiffness) turn(c, sum->own[end], K);
-    for (int k = 0; stiffness && f->plan->web && k < 9; k++) K[k] += between[k];
-    sw_axis_put(f, e + end, sw_neg(sw_clip_world(c, sum->g[end])), stiffness ? K : NULL);
+/* The same of one end's own derivatives. lump: NULL; or of the coupling, whose symmetric part is
+ * added. */
+static void turn_own(const sw_clip *c, const double own[6], const double *lump, double out[9]) {
+  double H[9];
+  for (int k = 0; k < 9; k++) {
+    const int other = 3 * (k % 3) + k / 3;
+    H[k] = own[WHOLE[k]] + (lump ? 0.5 * (lump[k] + lump[other]) : 0.0);
   }
-  if (!stiffness || f->plan->web) return;
-  for (int k = 0; k < 9; k++) f->rows[ROW * e + NEXT + (size_t)k] += between[k];
+  turn(c, H, out);
 }
 
+void sw_clip_on_edge(const sw_clip *c, sw_field *f, size_t e, const sw_clip_sum *sum) {
+  const int stiffness = (f->want & SW_WANT_STIFFNESS) != 0, mesh = f->plan->web != NULL;
+  double K[9];
+  for (size_t end = 0; end < 2; end++) {
+    if (stiffness) turn_own(c, sum->own[end], mesh ? sum->next : NULL, K);
+    sw_axis_put(f, e + end, sw_neg(sw_clip_world(c, sum->g[end])), stiffness ? K : NULL);
+  }
+  if (!stiffness || mesh) return;
+  turn(c, sum->next, K);
+  for (int k = 0; k < 9; k++) f->rows[ROW * e + NEXT + (size_t)k] += K[k];
+}
+
+/* The weights' part: of a node's two edges, each couples a move along the axis with one across by
+ * the lips' force over the width, and moves along it by the window's. chi is at most 2. */
 double sw_clip_stiffness(const sw_clip *c, double slip) {
   const double turn_rate = 2.0 * M_PI / c->width;
-  return sw_clip_stiffest(&c->law) + turn_rate * turn_rate * c->law.top +
+  const double weights = 8.0 * (c->strongest + turn_rate * c->law.top) / c->width;
+  return sw_clip_stiffest(&c->law) + turn_rate * turn_rate * c->law.top + weights +
          c->friction * c->strongest / slip;
 }

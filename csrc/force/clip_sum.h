@@ -60,7 +60,7 @@ typedef struct sw_clip_sum {
   double energy;         /* [J] */
   double g[2][3];        /* derivatives with respect to the two ends [N] */
   double own[2][6];      /* second derivatives for each end, upper half [N/m] */
-  double next[6];        /* coupling of both ends, symmetric too [N/m] */
+  double next[9];        /* coupling of both ends, rows of the first one [N/m] */
   double push[2];        /* |grad U| across the axis, shared between the ends [N] */
   double share, u, v, s; /* share of the window between the walls; its u, v, arc length [-], [m] */
   double all[3];         /* share of the whole window; its u, v (weighted) [-], [m] */
@@ -72,6 +72,7 @@ typedef struct sw_clip_walk {
   double s, length;    /* arc length at the first end; length of the edge [m] */
   long count, k, last; /* number of places on the edge, next place, last place in the window */
   double half, weight; /* half the clip's width; weight of a place, without chi [m], [-] */
+  double slope, curve; /* its derivatives by the edge's way along the axis [1/m], [1/m2] */
 } sw_clip_walk;
 
 enum { SW_CLIP_NO_EDGE = -1 };
