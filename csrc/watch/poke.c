@@ -26,6 +26,16 @@ static const double SLIDES = 0.9995, WENT = 1e-8;
 /* A blow is hard from this push on, over EI/L^2: fifty times what buckles it. An end that strikes
  * hard again before L^2 sqrt(m/EI), about two swings of it, has rebounded [-]. */
 static const double HARD = 1000.0;
+/* A rod is free between its ends if this share of it is [-]. */
+static const double WHOLE = 1.0 - 1e-9;
+/* It is still straight if its ends are this share of its length apart: a wire that is bent by a
+ * fiftieth of its length bends on instead [-]. */
+static const double STRAIGHT = 1.0 - 1e-3;
+
+static int is_straight(const sw_scene *s, const sw_body *b) {
+  const double *x = sw_scene_system((sw_scene *)s)->x + 3 * b->first_node;
+  return sw_dist(sw_vec_at(x, 0), sw_vec_at(x, b->plan->nodes - 1)) > STRAIGHT * b->plan->length;
+}
 
 /* Finds the hardest push on an end, where it is pushed. last: 0 = its start. Fills the part of
  * friction that would hold the end if the wire's force came along its edge [-]. */
@@ -72,13 +82,12 @@ static double follow(sw_poke *p, double time, double share, int slides, double n
   return fmax(1.0, top);
 }
 
-/* Follows the blows of an end that is pushed with `push` over EI/L^2. Returns 1 if it strikes hard
- * again now. */
-static int rebounds(sw_poke *p, double time, double push, double swing) {
+/* Follows the blows of an end that is pushed with `push` over EI/L^2. Returns 1 if it begins to
+ * strike hard now. */
+static int strikes(sw_poke *p, double time, double push) {
   if (!(push > HARD) || p->hard) return 0;
-  const int again = p->struck > 0 && time - p->struck < swing;
   p->hard = 1, p->struck = time;
-  return again;
+  return 1;
 }
 
 static void tell_again(sw_scene *s, const sw_scene_wire *w, const sw_contact_push *p,
@@ -88,6 +97,16 @@ static void tell_again(sw_scene *s, const sw_scene_wire *w, const sw_contact_pus
                 "it rebounds is decided by little, and forces and places may be others",
                 w->name, sw_scene_obstacle_in(s, (size_t)p->obstacle)->name, 1e3 * after,
                 p->normal_force);
+}
+
+/* Both ends are struck: the rod buckles between them, in waves that its smallest bends decide. */
+static void tell_both(sw_scene *s, const sw_scene_wire *w, const sw_contact_push *p, double times) {
+  sw_scene_tell(s, "buckling", w->name, p->place - w->mesh.s[0], p->normal_force,
+                "wire '%s' is struck hard at both ends, by '%s' with %.3g N, %.3g times what "
+                "buckles it: how it buckles, and whether it springs out, is decided by little, and "
+                "forces and places may be others",
+                w->name, sw_scene_obstacle_in(s, (size_t)p->obstacle)->name, p->normal_force,
+                times);
 }
 
 static void tell(sw_scene *s, const sw_scene_wire *w, const sw_contact_push *p, double part) {
@@ -121,8 +140,11 @@ static void watch_end(sw_scene *s, const sw_body *b, sw_scene_wire *w, int last)
   const double share = sw_norm(rubs) / (p.friction * p.normal_force);
   const double part = follow(poke, time, share, share > SLIDES || sw_norm(p.slip) > WENT, need);
   if (part > 1 - NEAR && part < 1 + NEAR) tell(s, w, &p, part);
-  if (rebounds(poke, time, p.normal_force * length * length / EI, swing))
-    tell_again(s, w, &p, time - struck);
+  const double push = p.normal_force * length * length / EI, other = w->pokes[!last].struck;
+  if (!strikes(poke, time, push)) return;
+  if (struck > 0 && time - struck < swing) tell_again(s, w, &p, time - struck);
+  if (other > 0 && time - other < swing && length > WHOLE * b->plan->length && is_straight(s, b))
+    tell_both(s, w, &p, push / (M_PI * M_PI));
 }
 
 void sw_scene_watch_poke(sw_scene *s, size_t wire) {
