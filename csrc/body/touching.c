@@ -77,6 +77,7 @@ static sw_status keeps(void *user, sw_system *system, const double *y, int *out,
 static double refine(void *user, sw_system *system) {
   const sw_scene *s = user;
   if (s->contact) sw_contact_refine(s->contact, system);
+  if (s->grains && !meets(s)) return sw_mutual_refine(s->grains, s->contact, system);
   return meets(s) ? sw_mutual_refine(s->pairs, s->contact, system) : 1.0;
 }
 

@@ -34,7 +34,9 @@ static size_t bucket(sw_grid_cell c, size_t size) {
 }
 
 double sw_thing_radius(const sw_body *b) {
-  return b->plan->web ? b->plan->web->skin : b->plan->beam.radius;
+  const sw_web *w = b->plan->web;
+  if (!w) return b->plan->beam.radius;
+  return sw_web_has_lines(w) ? fmax(w->skin, w->line_skin) : w->skin;
 }
 
 /* Square of the longest of a body's segments, or of the edges of its surface [m2]. */
@@ -76,10 +78,13 @@ sw_status sw_cells_make(void **room, size_t *capacity, size_t most, double width
   return SW_OK;
 }
 
-void sw_cells_put(sw_cells *g, const double *x, uint32_t body, size_t node, size_t end) {
+void sw_cells_put(sw_cells *g, const double *x, uint32_t body, size_t node, size_t end,
+                  double radius) {
   sw_thing *t = &g->things[g->count++];
-  *t = (sw_thing){.node = (uint32_t)node, .end = (uint32_t)end, .body = body};
-  t->at = cell_of(g->width, sw_lerp(sw_vec_at(x, node), sw_vec_at(x, end), 0.5));
+  *t = (sw_thing){.node = (uint32_t)node, .end = (uint32_t)end, .body = body, .radius = radius};
+  t->middle = sw_lerp(sw_vec_at(x, node), sw_vec_at(x, end), 0.5);
+  t->half = 0.5 * sw_dist(sw_vec_at(x, node), sw_vec_at(x, end));
+  t->at = cell_of(g->width, t->middle);
   uint32_t *head = &g->head[bucket(t->at, g->size)];
   t->next = *head;
   *head = (uint32_t)g->count;
@@ -90,11 +95,12 @@ static void put_body(sw_cells *g, const sw_system *s, uint32_t body, int points)
   const sw_web *w = b->plan->web;
   const size_t first = b->first_node;
   for (size_t i = 0; i < b->plan->nodes; i++) {
-    if (points && (!w || w->outer[i])) sw_cells_put(g, s->x, body, first + i, first + i);
-    if (!w && i < b->plan->edges) sw_cells_put(g, s->x, body, first + i, first + i + 1);
+    const double r = sw_plan_skin(b->plan, i);
+    if (points && (!w || w->outer[i])) sw_cells_put(g, s->x, body, first + i, first + i, r);
+    if (!w && i < b->plan->edges) sw_cells_put(g, s->x, body, first + i, first + i + 1, r);
     for (size_t k = points && w ? w->side_first[i] : 0; points && w && k < w->side_first[i + 1];
          k++)
-      sw_cells_put(g, s->x, body, first + i, first + w->side[k]);
+      sw_cells_put(g, s->x, body, first + i, first + w->side[k], r);
   }
 }
 

@@ -14,6 +14,9 @@ typedef struct sw_grid_cell {
 typedef struct sw_thing {
   uint32_t node, end, body, next; /* next: the next thing in its list, number + 1, or 0 */
   sw_grid_cell at;
+  sw_vec middle; /* [m] */
+  double half;   /* half of its length [m] */
+  double radius; /* distance of the surface [m] */
 } sw_thing;
 
 typedef struct sw_cells {
@@ -26,8 +29,9 @@ typedef struct sw_cells {
 /* Makes an empty grid for at most this many things, with cells of this width [m]. *room (*capacity
  * bytes) grows as needed; the caller frees it. The grid is valid until the next call. SW_ENOMEM. */
 sw_status sw_cells_make(void **room, size_t *capacity, size_t most, double width, sw_cells *out);
-/* Adds one thing between two nodes at x (nodes x 3) [m]. */
-void sw_cells_put(sw_cells *cells, const double *x, uint32_t body, size_t node, size_t end);
+/* Adds one thing between two nodes at x (nodes x 3), with its radius [m]. */
+void sw_cells_put(sw_cells *cells, const double *x, uint32_t body, size_t node, size_t end,
+                  double radius);
 /* Makes the grid of all segments of bodies that have a rule, with cells wide enough for gaps up to
  * reach [m]. points = 1: adds points and edges of surfaces too. The grid is valid until the next
  * call. SW_ENOMEM. */

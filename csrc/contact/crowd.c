@@ -122,7 +122,7 @@ static sw_status find_pairs(group *g, const sw_body *b, const double *x, const d
   g->count = 0;
   for (size_t i = 0; i < b->plan->nodes; i++) {
     if (sw_interrupted()) return SW_EINTR;
-    sw_cells_put(&cells, x, 0, i, i);
+    sw_cells_put(&cells, x, 0, i, i, 0);
     SW_TRY(sw_cells_around(&cells, &cells.things[i], look_at, &all));
   }
   if (g->count)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Internal types and functions of contact of objects of particles. */
+/* Internal types and functions of contact of objects of particles and meshes. */
 #ifndef SW_CONTACT_GRAIN_H
 #define SW_CONTACT_GRAIN_H
 
@@ -18,6 +18,7 @@ typedef struct sw_grain_pair {
 
 typedef struct sw_grains {
   sw_mutual m;          /* first member: a pointer to it points to this struct too */
+  int loose;            /* 1: an object of particles is among the bodies */
   sw_joined *joined;    /* (bodies) joined particles of objects that touch themselves */
   sw_grain_pair *pairs; /* (m.pair_count) pairs of this step, in order */
   size_t pair_capacity;

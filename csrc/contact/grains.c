@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Contact of objects of particles with each other and with wires: rules, review of a step, making
- * and freeing. */
+/* Contact of objects of particles and meshes with each other and with wires: rules, review of a
+ * step, making and freeing. */
 #include <math.h>
 
 #include "base/alloc.h"
@@ -8,22 +8,22 @@
 #include "contact/grain.h"
 #include "contact/same.h"
 
-static int is_loose(const sw_body *b) { return b->plan->web && !b->plan->web->per_ring; }
-
-/* Keeps only rules for two objects of particles, or for one and a wire that is a line. 1: there are
- * some. */
-static int take_rules(sw_mutual *m, const sw_system *s) {
+/* Keeps only rules with an object of particles or a mesh. 1: there are some. */
+static int take_rules(sw_grains *g, const sw_system *s) {
+  sw_mutual *m = &g->m;
   int any = 0;
   for (size_t i = 0; i < m->bodies; i++)
     for (size_t j = 0; j < m->bodies; j++) {
-      const sw_body *a = &s->bodies[i], *b = &s->bodies[j];
-      const int rings = (a->plan->web && !is_loose(a)) || (b->plan->web && !is_loose(b));
+      const sw_web *a = s->bodies[i].plan->web, *b = s->bodies[j].plan->web;
       sw_pair_rule *own = &m->rules[m->bodies * i + j];
-      own->on &= !rings && (is_loose(a) || is_loose(b));
+      own->on &= a || b;
       any |= own->on;
+      g->loose |= own->on && ((a && !a->per_ring) || (b && !b->per_ring));
     }
   return any;
 }
+
+int sw_grains_have_loose(const sw_mutual *m) { return ((const sw_grains *)(const void *)m)->loose; }
 
 static void free_own(sw_mutual *m) {
   const sw_grains *g = sw_grains_of(m);
@@ -45,11 +45,12 @@ static double stray(const sw_system *s, const double *x1, double h) {
   return sqrt(most);
 }
 
+static double thinnest(const sw_plan *p) { return p->web ? p->web->skin : p->beam.radius; }
+
 static int widen(sw_mutual *m, sw_system *s, const double *x1, double h) {
   const double needed = 2.0 * stray(s, x1, h);
   double least = HUGE_VAL;
-  for (size_t b = 0; b < s->body_count; b++)
-    least = fmin(least, 2.0 * sw_thing_radius(&s->bodies[b]));
+  for (size_t b = 0; b < s->body_count; b++) least = fmin(least, 2.0 * thinnest(s->bodies[b].plan));
   if (!(needed > fmax(SW_LISTED_GAP * least + m->fall, m->least_reserve))) return 0;
   m->least_reserve = SW_RESERVE * needed;
   return sw_mutual_choose(m, s) == SW_OK ? 1 : -1;
@@ -89,7 +90,7 @@ sw_status sw_grains_new(const sw_system *s, const sw_pair_rule *rules, sw_mutual
   g->joined = sw_alloc(n, sizeof *g->joined);
   sw_status status = sw_mutual_start(&g->m, &particles, rules, n);
   if (!g->joined) status = SW_ENOMEM;
-  const int any = status == SW_OK && take_rules(&g->m, s);
+  const int any = status == SW_OK && take_rules(g, s);
   for (size_t b = 0; any && b < n && status == SW_OK; b++)
     if (g->m.rules[n * b + b].on) status = sw_joined_new(s->bodies[b].plan->web, &g->joined[b]);
   if (any && status == SW_OK)

@@ -35,11 +35,21 @@ static int counts(const sw_system *s, const sw_thing *t, const sw_thing *u) {
   return points == 2 ? wires == 0 : wires < 2;
 }
 
+/* 1 if both are near each other along a mesh, and one of them is part of a line. Bent as sharply as
+ * the radius allows, a line meets itself after pi radii of length. */
+static int is_beside(const sw_web *w, const sw_plan *p, size_t one, size_t two) {
+  if (!sw_web_has_lines(w)) return 0;
+  const double skin = fmax(sw_plan_skin(p, one), sw_plan_skin(p, two));
+  return skin > w->skin && fabs(w->s[one] - w->s[two]) < M_PI * skin;
+}
+
 /* 1 if both are connected parts of one object. */
 static int is_one(const sw_grains *g, const sw_system *s, const sw_ends *e) {
+  const sw_plan *p = s->bodies[e->body[0]].plan;
   const uint32_t first = (uint32_t)s->bodies[e->body[0]].first_node;
   const uint32_t one[2] = {e->node[0], e->end[0]}, two[2] = {e->node[1], e->end[1]};
   if (e->body[0] != e->body[1]) return 0;
+  if (is_beside(p->web, p, one[0] - first, two[0] - first)) return 1;
   for (int i = 0; i < 2; i++)
     for (int j = 0; j < 2; j++)
       if (one[i] == two[j] ||
@@ -56,11 +66,18 @@ static double hardness(const sw_grains *g, const sw_system *s, const sw_ends *e)
   return least;
 }
 
+/* 1 if even the balls around two things leave more than this gap [m]. */
+static int is_far(const sw_thing *t, const sw_thing *u, double gap) {
+  const double reach = gap + t->radius + u->radius + t->half + u->half;
+  const sw_vec apart = sw_sub(t->middle, u->middle);
+  return sw_norm2(apart) > reach * reach;
+}
+
 static sw_status look_at(sw_grains *g, const sw_system *s, const sw_thing *t, const sw_thing *u) {
   double at[2];
   sw_grain_pair k = {.of = {{t->node, u->node}, {t->end, u->end}, {t->body, u->body}}};
-  if (!sw_mutual_rule(&g->m, k.of.body)->on || !counts(s, t, u)) return SW_OK;
-  k.reach = sw_thing_radius(&s->bodies[t->body]) + sw_thing_radius(&s->bodies[u->body]);
+  if (!counts(s, t, u)) return SW_OK;
+  k.reach = t->radius + u->radius;
   const double gap = sw_grain_nearest(s->x, &k.of, at) - k.reach;
   if (!(gap < reserve_of(g, k.reach, sw_ends_speed(s, &k.of))) || is_one(g, s, &k.of)) return SW_OK;
   if (g->m.pair_count == MOST_NEAR) return SW_ELIMIT;
@@ -75,6 +92,7 @@ static sw_status look_at(sw_grains *g, const sw_system *s, const sw_thing *t, co
 typedef struct search {
   sw_grains *g;
   const sw_system *s;
+  double gap; /* the largest at which any pair is listed [m] */
 } search;
 
 /* Of a point and an edge the point looks for the pair; of two points or two edges the first one
@@ -84,6 +102,8 @@ static sw_status meets(void *user, const sw_thing *t, const sw_thing *u) {
   const int point = t->node == t->end, other = u->node == u->end;
   const int line = !all->s->bodies[t->body].plan->web && !point; /* a wire's segment comes second */
   if (point == other ? u <= t : !point) return SW_OK;
+  const uint32_t bodies[2] = {t->body, u->body};
+  if (!sw_mutual_rule(&all->g->m, bodies)->on || is_far(t, u, all->gap)) return SW_OK;
   return look_at(all->g, all->s, line ? u : t, line ? t : u);
 }
 
@@ -92,7 +112,7 @@ static int by_order(const void *p, const void *q) {
 }
 
 static sw_status find_pairs(sw_grains *g, const sw_system *s) {
-  search all = {g, s};
+  search all = {g, s, 0};
   sw_cells cells;
   double speed = 0, reach = 0;
   for (size_t k = 0; k < s->body_count; k++) {
@@ -102,7 +122,8 @@ static sw_status find_pairs(sw_grains *g, const sw_system *s) {
     for (size_t i = 0; g->m.h > 0 && i < b->plan->nodes; i++)
       speed = fmax(speed, 2.0 * sw_norm(sw_vec_at(s->v, b->first_node + i)));
   }
-  SW_TRY(sw_cells_fill(&g->m, s, reserve_of(g, reach, speed), 1, &cells));
+  all.gap = reserve_of(g, reach, speed);
+  SW_TRY(sw_cells_fill(&g->m, s, all.gap, 1, &cells));
   for (size_t k = 0; k < cells.count; k++) {
     if (sw_interrupted()) return SW_EINTR;
     SW_TRY(sw_cells_around(&cells, &cells.things[k], meets, &all));

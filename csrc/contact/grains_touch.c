@@ -40,7 +40,7 @@ static double softness(const sw_system *s, const sw_ends *e) {
   double most = 0;
   for (int i = 0; i < 2; i++) {
     const sw_web *w = s->bodies[e->body[i]].plan->web;
-    if (w) most = fmax(most, (double)w->particles);
+    if (w && !w->per_ring) most = fmax(most, (double)w->particles);
   }
   return fmin(SW_SOFTEST, most);
 }

@@ -24,11 +24,14 @@ typedef struct sw_pair_rule {
  * copied. Segments are round rods. Wires that cross touch where their smooth curves, or their
  * segments, are nearest; nearly parallel segments touch at each other's nodes. SW_ENOMEM. */
 sw_status sw_pairs_new(const sw_system *system, const sw_pair_rule *rules, sw_mutual **out);
-/* Makes contact of objects of particles with each other and with wires that are lines. A particle
- * is a ball of the object's radius, a wire a chain of round rods. Joined particles, and particles
- * with a common partner, do not touch. There is no surface between balls: a thin wire passes
- * through the gaps. *out = NULL: no such rule. SW_ENOMEM. */
+/* Makes contact of objects of particles and of wires that are meshes with each other, with
+ * themselves and with wires that are lines. A particle at the surface is a ball, an edge of the
+ * surface a round rod, a line a chain of such. Joined particles, and particles with a common
+ * partner, do not touch. Between edges there is no surface: a thin wire passes through the gaps.
+ * *out = NULL: no such rule. SW_ENOMEM. */
 sw_status sw_grains_new(const sw_system *system, const sw_pair_rule *rules, sw_mutual **out);
+/* 1 if an object of particles is among the bodies of such contact. */
+int sw_grains_have_loose(const sw_mutual *grains);
 /* Makes a copy with the same rules and memory, for a look ahead. *out must be NULL before; the
  * caller frees it, also on failure. SW_ENOMEM. */
 sw_status sw_mutual_copy(const sw_mutual *mutual, const sw_system *system, sw_mutual **out);

@@ -16,12 +16,9 @@ sw_strand_plan sw_scene_strand_plan(const sw_scene_wire *wire, const sw_wire_cla
                                     const sw_wire_mesh_args *mesh);
 /* Draws the wire's mesh with this many segments, with frames if needed. SW_ENOMEM. */
 sw_status sw_scene_draw(sw_scene_wire *wire, size_t segments, sw_mesh *out, sw_error *err);
-/* SW_EINVAL when the wire, as given, does not go with the scene's forces and rules. */
+/* SW_EINVAL when the wire, as given, does not go with the scene's forces. */
 sw_status sw_scene_check_rules(const sw_scene *scene, size_t wire, const sw_scene_wire *as,
                                sw_error *err);
-/* SW_EINVAL when rules of contact ask the wire to touch others, and it cannot. */
-sw_status sw_scene_check_touched(const sw_scene *scene, size_t wire, const sw_scene_wire *as,
-                                 sw_error *err);
 /* Free what these slots own. */
 void sw_scene_clear_body(sw_scene_wire *body);
 void sw_scene_clear_obstacle(sw_scene_obstacle *obstacle);

@@ -68,7 +68,7 @@ sw_status sw_scene_check_rules(const sw_scene *s, size_t wire, const sw_scene_wi
     if (f->alive && (f->wire < 0 ? !passes_by(f->cls, as) : f->wire == (long)wire))
       SW_TRY(check_wire(f->cls, as, f->args, err));
   }
-  return sw_scene_check_touched(s, wire, as, err);
+  return SW_OK;
 }
 
 static sw_status check_force(const sw_scene *s, const sw_force_class *cls, sw_handle wire,

@@ -32,8 +32,6 @@ sw_status sw_scene_wire_contact(sw_scene *s, const sw_wire_contact_args *args,
   SW_TRY(sw_scene_editable(s, err));
   for (size_t k = 0; k < count; k++)
     if (!sw_scene_find_body(s, wires[k], err)) return SW_EDEAD;
-  for (size_t k = 0; args->on && k < (count ? count : sw_scene_wire_slots(s)); k++)
-    SW_TRY(sw_scene_check_touching(sw_scene_wire_in(s, count ? wires[k].slot : k), err));
   SW_TRY(sw_scene_unbuild(s));
   uint32_t *slots = sw_alloc(count, sizeof *slots);
   if (!slots ||
@@ -48,16 +46,6 @@ sw_status sw_scene_wire_contact(sw_scene *s, const sw_wire_contact_args *args,
                       .count = count,
                       .self = args->self,
                       .rule = {.on = args->on, .friction = args->friction}};
-  return SW_OK;
-}
-
-sw_status sw_scene_check_touched(const sw_scene *s, size_t wire, const sw_scene_wire *as,
-                                 sw_error *err) {
-  SW_ITEMS(const sw_scene_rule, r, sw_scene_rules_of(s)->list, sw_scene_rules_of(s)->count) {
-    int mine = r->count == 0;
-    for (size_t i = 0; i < r->count; i++) mine |= r->wires[i] == wire;
-    if (mine && r->rule.on) SW_TRY(sw_scene_check_touching(as, err));
-  }
   return SW_OK;
 }
 

@@ -159,11 +159,6 @@ sw_status sw_scene_check_line(const sw_scene_wire *w, const char *what, sw_error
                  what, w->name, w->cls->name);
 }
 
-sw_status sw_scene_check_touching(const sw_scene_wire *w, sw_error *err) {
-  if (sw_scene_is_loose(w)) return SW_OK;
-  return sw_scene_check_line(w, "scene:wire_contact", err);
-}
-
 /* --- bodies, including those that have left ----------------------------------------------- */
 
 const sw_scene_wire *sw_scene_numbered(const sw_scene *s, size_t number, const sw_gone **gone) {

@@ -32,9 +32,6 @@ sw_tool *sw_scene_any_tool(const sw_scene *scene, sw_handle h, sw_error *err);
 
 /* SW_EINVAL when the wire is a mesh of particles, which `what` does not support. */
 sw_status sw_scene_check_line(const sw_scene_wire *wire, const char *what, sw_error *err);
-/* SW_EINVAL when the wire may not touch others. Wires that are lines and objects of particles may,
- * sections of meshes may not. */
-sw_status sw_scene_check_touching(const sw_scene_wire *wire, sw_error *err);
 /* A body is a wire or an object of particles; sw_scene_find_wire refuses the latter. */
 sw_scene_wire *sw_scene_find_body(const sw_scene *scene, sw_handle h, sw_error *err);
 sw_scene_wire *sw_scene_find_wire(const sw_scene *scene, sw_handle h, sw_error *err);

@@ -127,8 +127,8 @@ static inline double sw_plan_place(const sw_plan *plan, size_t node) {
 static inline double sw_plan_skin(const sw_plan *plan, size_t node) {
   const sw_web *web = plan->web;
   if (!web) return plan->beam.radius;
-  const int lines = web->per_ring && web->particles != web->rings * web->per_ring;
-  return lines && !sw_web_is_ring(web, sw_web_ring_of(web, node)) ? web->line_skin : web->skin;
+  return sw_web_has_lines(web) && !sw_web_is_ring(web, sw_web_ring_of(web, node)) ? web->line_skin
+                                                                                  : web->skin;
 }
 
 /* Returns the shortest of its edges, of its links or, along a mesh of rings, of the distances

@@ -112,6 +112,11 @@ static inline int sw_web_is_ring(const sw_web *web, size_t r) {
   return web->first[r + 1] - web->first[r] == web->per_ring;
 }
 
+/* 1: some rings are single particles of a line. */
+static inline int sw_web_has_lines(const sw_web *web) {
+  return web->per_ring && web->particles != web->rings * web->per_ring;
+}
+
 /* Returns the ring of a particle. */
 size_t sw_web_ring_of(const sw_web *web, size_t particle);
 

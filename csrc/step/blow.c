@@ -89,12 +89,13 @@ static double jolt_of(sw_scene *s, int followed) {
   sw_course *course = sw_scene_course(s);
   const sw_system *system = sw_scene_system(s);
   sw_contact *contact = sw_scene_contact(s);
-  const sw_mutual *pairs = sw_scene_pairs(s);
+  const sw_mutual *const mutual[] = {sw_scene_pairs(s), sw_scene_grains(s)};
+  const int dull = course->stepper.plastic;
   double jolt = jolt_of_ties(s, followed);
   if (contact) jolt = fmax(jolt, sw_contact_jolt(contact, system, followed, hardest_of, s));
-  if (pairs)
-    jolt =
-        fmax(jolt, sw_pairs_jolt(pairs, system, course->stepper.plastic, followed, hardest_of, s));
+  for (int k = 0; k < 2; k++)
+    if (mutual[k])
+      jolt = fmax(jolt, sw_mutual_jolt(mutual[k], system, dull, followed, hardest_of, s));
   return jolt;
 }
 
@@ -113,7 +114,8 @@ static double part_for(const sw_scene *s, double jolt, double h) {
 static const char *why_whole(const sw_scene *s) {
   if (sw_coarse_is_crowd(s)) return "more than " TEXT(SW_MOST_MOVING) " wires move";
   if (sw_coarse_is_bundle(s)) return "more than " TEXT(SW_MOST_NEAR) " wires touch each other";
-  if (sw_scene_grains(s)) return "objects of particles touch others";
+  if (sw_scene_grains(s) && sw_grains_have_loose(sw_scene_grains(s)))
+    return "objects of particles touch others";
   return any_gives_way(s) ? "a feed obeys a force" : NULL;
 }
 

@@ -276,13 +276,9 @@ describe("an object of particles", function()
     t.near(x[1], (object:particle(1))[1], 1e-4, "place")
   end)
 
-  it("is refused wire contact with a tube, which is a mesh of particles", function()
+  it("names what may touch where something else is given", function()
     local scene = sw.scene{}
-    local tube = scene:wire{ model = "tube", E = 1e6, density = 1000, radius = R, from = { 0, 0, 1 },
-      to = { 0.02, 0, 1 } }
     local object = block(scene, { at = { 0, 0, 0 } })
-    assert.error_matches(function() scene:wire_contact{ between = { tube, object } } end,
-      "is a tube, a mesh of particles; this goes with rods and strings only")
     assert.error_matches(function() scene:wire_contact{ between = 3 } end,
       "is a wire, an object of particles or a list of these, got")
     scene:wire_contact{ between = object, friction = 0.2 }

@@ -247,8 +247,6 @@ describe("wire:remodel", function()
     local force = scene:force{ kind = "moment", on = wire, s = 0.1, moment = { 0, 0.01, 0 } }
     refused("force moment", function() wire:remodel{ model = "tube" } end)
     force:release()
-    scene:wire_contact{}
-    refused("wire_contact", function() wire:remodel{ model = "tube" } end)
     local rolling = sw.scene{}
     local other = rolling:wire{ E = 2e7, nu = 0.35, density = 1200, radius = 0.006, rolls = true,
       from = { 0, 0, 0 }, to = { L, 0, 0 } }

@@ -56,8 +56,8 @@ static double jolt_of(const sw_mutual *m, const sw_system *s, const uint32_t bod
   return sw_contact_jolt_of(size, usual, m->h);
 }
 
-double sw_pairs_jolt(const sw_mutual *m, const sw_system *s, int dull, int followed, sw_blow_of of,
-                     void *user) {
+double sw_mutual_jolt(const sw_mutual *m, const sw_system *s, int dull, int followed, sw_blow_of of,
+                      void *user) {
   double most = 0;
   if (m->regime != SW_CONTACT_IMPLICIT || !(m->h > 0) || (!followed && !m->struck)) return 0;
   for (size_t i = 0; i < m->touch_count; i++) {
