@@ -192,6 +192,11 @@ void sw_contact_touches_of(const sw_contact *c, size_t node, size_t end_node, si
   *end = c->touch_count + first_touch(c->still.list, c->still.count, end_node);
 }
 
+int sw_contact_pusher(const sw_contact *c, size_t k) {
+  const sw_touch *t = touch_at(c, k);
+  return t->press.normal_force > 0 ? c->obstacles[t->obstacle].id : -1;
+}
+
 int sw_contact_push_at(const sw_contact *c, const sw_system *s, size_t k, sw_contact_push *out) {
   const sw_touch *t = touch_at(c, k);
   const sw_press *p = &t->press;

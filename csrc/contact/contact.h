@@ -171,8 +171,10 @@ typedef struct sw_contact_push {
   double place;       /* arc length [m] */
   double slid;        /* sliding way since the touch began to press [m] */
 } sw_contact_push;
-/* Touches, with or without a force. sw_contact_push_at reads touch k; 0: it has no force. */
+/* Touches, with or without a force. sw_contact_push_at reads touch k; 0: it has no force.
+ * sw_contact_pusher returns the obstacle that pushes at touch k; -1: it has no force. */
 size_t sw_contact_touches(const sw_contact *contact);
+int sw_contact_pusher(const sw_contact *contact, size_t k);
 /* Touches from *first up to before *end are those of nodes from node up to before end_node. */
 void sw_contact_touches_of(const sw_contact *contact, size_t node, size_t end_node, size_t *first,
                            size_t *end);

@@ -14,7 +14,7 @@ static const double CLOSE = 3.0; /* least rings along the pad's face, its x and 
  * at its edges [-]. */
 static const double SAMPLES = 12.0;
 
-/* Edges of a whole number of samples, give or take rounding, all have that number [-]. */
+/* Edges of a whole number of samples, give or take rounding, all have one more [-]. */
 static const double ROUNDING = 1e-9;
 
 /* A round pad presses along a short length, shorter across the wire than along it. There too the
@@ -100,7 +100,7 @@ void sw_pads_look(sw_contact *c, const sw_plan *p) {
 
 int sw_pad_samples(const sw_contact *c, const sw_plan *p, size_t i, size_t o) {
   if (!(c->spaced[o] > 0)) return 0;
-  const double samples = ceil(p->rest[i] / c->spaced[o] * (1.0 - ROUNDING));
+  const double samples = ceil(p->rest[i] / c->spaced[o] * (1.0 + ROUNDING));
   return (int)fmin(SW_SAMPLES_MOST, fmax(SW_LEAST_SAMPLES, samples));
 }
 

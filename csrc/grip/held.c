@@ -18,13 +18,28 @@ typedef struct list {
   size_t count;
 } list;
 
-static void list_free(list *l) { SW_FREE_ALL(l->touch, l->friction, l->slip, l->body); }
-
-/* Returns the finger of the pad; below 0: the obstacle is no pad. */
-static int finger_of(const sw_tool *t, int obstacle) {
-  for (size_t k = 0; k < t->pads; k++)
-    if (t->pad[k].obstacle == (size_t)obstacle) return t->pad[k].finger;
+/* Returns the finger of the pad that pushes at touch k; below 0: none does. */
+static int finger_at(const sw_contact *c, const sw_tool *t, size_t k) {
+  const int obstacle = sw_contact_pusher(c, k);
+  for (size_t i = 0; obstacle >= 0 && i < t->pads; i++)
+    if (t->pad[i].obstacle == (size_t)obstacle) return t->pad[i].finger;
   return -1;
+}
+
+/* Makes an empty list for the touches of the pads, in the tool's room. */
+static sw_status make_list(const sw_contact *c, sw_tool *t, list *l) {
+  size_t most = 0;
+  const size_t touches = c && t->pads ? sw_contact_touches(c) : 0;
+  *l = (list){0};
+  for (size_t k = 0; k < touches; k++) most += finger_at(c, t, k) >= 0;
+  if (!most) return SW_OK;
+  const size_t each = sizeof *l->touch + 2 * sizeof(sw_vec) + sizeof(size_t);
+  SW_TRY(sw_grow_empty(&t->room, &t->room_size, most * each, 1));
+  l->touch = t->room;
+  l->friction = (sw_vec *)(void *)(l->touch + most);
+  l->slip = l->friction + most;
+  l->body = (size_t *)(void *)(l->slip + most);
+  return SW_OK;
 }
 
 static void add(list *l, const sw_tool *t, const sw_contact_push *p, size_t body) {
@@ -45,9 +60,9 @@ static void collect(sw_scene *s, const sw_tool *t, list *l, sw_held *out) {
   const sw_system *system = sw_scene_system(s);
   for (size_t k = 0; k < sw_contact_touches(contact); k++) {
     sw_contact_push p;
-    if (!sw_contact_push_at(contact, system, k, &p)) continue;
-    const int finger = finger_of(t, p.obstacle);
+    const int finger = finger_at(contact, t, k);
     if (finger < 0) continue;
+    sw_contact_push_at(contact, system, k, &p);
     out->press |= 1u << finger;
     out->normal += p.normal_force;
     out->most += p.friction * p.normal_force;
@@ -97,18 +112,14 @@ static void look_at_wire(const list *l, size_t first, size_t end, sw_held *out, 
  * line that bends change from step to step. This is the share of the largest inertia [-]. */
 static const double IDLE = 1e-2;
 
-sw_status sw_held_look(sw_scene *s, const sw_tool *t, sw_held *out, sw_vec *slipped, sw_vec *turned,
+sw_status sw_held_look(sw_scene *s, sw_tool *t, sw_held *out, sw_vec *slipped, sw_vec *turned,
                        double *furthest, sw_error *err) {
   *out = (sw_held){0};
-  const size_t most = sw_scene_contact(s) ? sw_contact_touches(sw_scene_contact(s)) : 0;
-  list l = {0};
+  list l;
   turning w = {{0}, {{0}}};
-  if (!most || !t->pads) return SW_OK;
-  if (SW_ALLOC_ALL(SW_ROOM(l.touch, most), SW_ROOM(l.friction, most), SW_ROOM(l.slip, most),
-                   SW_ROOM(l.body, most)) != SW_OK) {
-    list_free(&l);
+  if (make_list(sw_scene_contact(s), t, &l) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "gripper '%s': out of memory for its touches", t->name);
-  }
+  if (!l.touch) return SW_OK;
   collect(s, t, &l, out);
   for (size_t first = 0, end; first < l.count; first = end) {
     for (end = first + 1; end < l.count && l.body[end] == l.body[first];) end++;
@@ -116,9 +127,8 @@ sw_status sw_held_look(sw_scene *s, const sw_tool *t, sw_held *out, sw_vec *slip
   }
   if (sw_dense_least(&w.inertia[0][0], 3, w.moment, IDLE)) out->turn = sw_load(w.moment);
   *slipped = sw_add(*slipped, out->slip), *turned = sw_add(*turned, out->turn);
-  if (l.count) *furthest = 0;
+  *furthest = 0;
   for (size_t k = 0; k < l.count; k++)
     *furthest = fmax(*furthest, sw_norm(sw_add(*slipped, sw_cross(*turned, l.touch[k].at))));
-  list_free(&l);
   return SW_OK;
 }

@@ -21,7 +21,7 @@ typedef struct sw_held {
 /* Reads the touches of the tool's pads. slipped, turned: slip and turn before this step, in the
  * tool's axes [m], [rad]; they grow by those of this step. *furthest: the longest way of a touch by
  * both [m], as it was if nothing presses. SW_ENOMEM. */
-sw_status sw_held_look(sw_scene *scene, const sw_tool *tool, sw_held *out, sw_vec *slipped,
+sw_status sw_held_look(sw_scene *scene, sw_tool *tool, sw_held *out, sw_vec *slipped,
                        sw_vec *turned, double *furthest, sw_error *err);
 
 #endif

@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "base/alloc.h"
 #include "body/build.h"
 #include "body/hold.h"
 #include "body/obstacle_log.h"
@@ -25,6 +26,7 @@ void sw_scene_clear_tool(sw_tool *t) {
   sw_drive_free(&t->drive);
   sw_frozen_release(t->frozen);
   sw_log_free(&t->log);
+  sw_free(t->room);
 }
 
 static const double SLIP = 1e-4; /* default slip that is an event [m] */

@@ -81,7 +81,11 @@ int lsw_probe_fields(lua_State *L) {
   }
   put_holds(&out, s);
   put(&out, s->gone, s->gone_count, sizeof *s->gone);
-  put(&out, s->tools, s->tool_count, sizeof *s->tools);
+  SW_EACH(tool, t, s) {
+    sw_tool tool = *t;
+    tool.room = NULL, tool.room_size = 0;
+    put(&out, &tool, 1, sizeof tool);
+  }
   put(&out, s->forces, s->force_count, sizeof *s->forces);
   put(&out, s->zones.list, s->zones.count, sizeof *s->zones.list);
   put(&out, s->rules.list, s->rules.count, sizeof *s->rules.list);

@@ -97,6 +97,8 @@ typedef struct sw_tool {
   sw_crash crash;    /* the last one */
   int crashing;      /* 1: the last crash goes on */
   sw_log log;
+  void *room; /* growing buffer for the touches of the pads */
+  size_t room_size;
 } sw_tool;
 
 /* 1 if the obstacle of this number is one of the tool's pads. */

@@ -92,10 +92,6 @@ describe("a mesh does not go with", function()
       s:clamp(w, { s = 0 })
       w:frequencies()
     end },
-    { "contact of wires", "tube, a mesh of particles", function(s) s:wire_contact{ friction = 0.3 } end },
-    { "contact of wires by name", "tube, a mesh of particles", function(s, w)
-      s:wire_contact{ between = { w, w } }
-    end },
     { "plastic bends", "goes with model = 'rod'", function(s, w)
       s:force{ kind = "plastic", on = w, yield_moment = 1 }
     end },
