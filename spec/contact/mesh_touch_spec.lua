@@ -13,9 +13,10 @@ local function turned(angle)
 end
 
 local function wire(scene, name, model, radius, from, to, E)
-  local solid = model == "radial" or model == "cubic"
+  local solid, whole = model == "radial" or model == "cubic", model == "composite"
   return scene:wire{ name = name, model = model, radius = radius, from = from, to = to, density = 1200, E = E,
-    segments = not solid and 24 or nil, spacing = solid and 0.004 or nil, body = solid and "solid" or nil }
+    segments = not (solid or whole) and 24 or nil, spacing = (solid or whole) and 0.004 or nil,
+    body = solid and "solid" or nil, core = whole and "line" or nil }
 end
 
 -- A wire across two others whose ends are clamped. o: models, angle, gap, gravity's tilt along x, damping.
@@ -51,7 +52,7 @@ local function borne(scene, name)
 end
 
 local PAIRS = { { "tube", "rod" }, { "rod", "tube" }, { "tube", "tube" }, { "radial", "rod" },
-  { "cubic", "rod" } }
+  { "cubic", "rod" }, { "composite", "rod" } }
 
 describe("a mesh that touches wires", function()
   for _, pair in ipairs(PAIRS) do
