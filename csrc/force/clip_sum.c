@@ -44,13 +44,6 @@ sw_vec sw_clip_world(const sw_clip *c, const double g[3]) {
   return sw_madd(sw_madd(sw_scale(c->direction, g[0]), c->across, g[1]), c->axis, g[2]);
 }
 
-void sw_clip_window(const sw_clip *c, double a, double chi[3]) {
-  const double k = 2.0 * M_PI / c->width;
-  chi[0] = 1.0 + cos(k * a);
-  chi[1] = -k * sin(k * a);
-  chi[2] = -k * k * cos(k * a);
-}
-
 /* Items of a whole matrix in its upper half. */
 static const int WHOLE[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
 
@@ -61,11 +54,10 @@ static void second(const sw_clip_point *p, const double chi[3], double w, double
 }
 
 /* Adds one place at t along the edge, of weight w. */
-static void add_place(const sw_clip *c, const double x[3], double t, double w, double s,
-                      int stiffness, sw_clip_sum *out) {
+static void add_place(const sw_clip *c, const double x[3], double t, const double chi[3], double w,
+                      double s, int stiffness, sw_clip_sum *out) {
   const double part[2] = {1.0 - t, t};
-  double chi[3], H[6];
-  sw_clip_window(c, x[2], chi);
+  double H[6];
   const double in = w * chi[0] * sw_clip_between(&c->law, x[1]);
   out->all[0] += w * chi[0], out->all[1] += w * chi[0] * x[0], out->all[2] += w * chi[0] * x[1];
   out->share += in, out->u += in * x[0], out->v += in * x[1], out->s += in * s;
@@ -164,14 +156,36 @@ int sw_clip_begin(const sw_clip *c, const sw_field *f, size_t e, sw_clip_walk *w
   length_of(w->b[2] - w->a[2], w->length, seen);
   const double share = 1.0 / ((double)w->count * c->width);
   w->weight = share * seen[0], w->slope = share * seen[1], w->curve = share * seen[2];
+  w->rate = 0;
   return 1;
 }
 
-int sw_clip_next(sw_clip_walk *w, double x[3], double *along) {
+/* Sets the window's phase at the first place. */
+static void begin_window(sw_clip_walk *w) {
+  const double part = (w->b[2] - w->a[2]) / (double)w->count; /* way from place to place [m] */
+  const double first = w->a[2] + ((double)w->k + 0.5) * part;
+  w->rate = M_PI / w->half;
+  w->now[0] = cos(w->rate * first), w->now[1] = sin(w->rate * first);
+  w->turn[0] = cos(w->rate * part), w->turn[1] = sin(w->rate * part);
+}
+
+/* Turns the window's phase to the next place: four products instead of a sine and a cosine. */
+static void advance_window(sw_clip_walk *w) {
+  const double cosine = w->now[0], sine = w->now[1];
+  w->now[0] = cosine * w->turn[0] - sine * w->turn[1];
+  w->now[1] = sine * w->turn[0] + cosine * w->turn[1];
+}
+
+int sw_clip_next(sw_clip_walk *w, double x[3], double *along, double chi[3]) {
+  if (!(w->rate > 0)) begin_window(w);
   while (w->k <= w->last) {
     const double t = ((double)w->k++ + 0.5) / (double)w->count;
     for (int i = 0; i < 3; i++) x[i] = w->a[i] + t * (w->b[i] - w->a[i]);
     *along = t;
+    chi[0] = 1.0 + w->now[0];
+    chi[1] = -w->rate * w->now[1];
+    chi[2] = -w->rate * w->rate * w->now[0];
+    advance_window(w);
     if (fabs(x[2]) < w->half) return 1;
   }
   return 0;
@@ -186,13 +200,18 @@ int sw_clip_far(const sw_clip *c, const sw_clip_walk *w) {
          fmin(w->a[1], w->b[1]) >= side || fmax(w->a[1], w->b[1]) <= -side;
 }
 
-int sw_clip_edge(const sw_clip *c, const sw_field *f, size_t e, int stiffness, sw_clip_sum *out) {
-  sw_clip_walk w;
-  double x[3], t;
-  if (!sw_clip_begin(c, f, e, &w)) return 0;
+void sw_clip_sum_of(const sw_clip *c, sw_clip_walk *w, int stiffness, sw_clip_sum *out) {
+  double x[3], t, chi[3];
   memset(out, 0, sizeof *out);
-  while (sw_clip_next(&w, x, &t)) add_place(c, x, t, w.weight, w.s + t * w.length, stiffness, out);
-  add_weight(&w, stiffness, out);
+  while (sw_clip_next(w, x, &t, chi))
+    add_place(c, x, t, chi, w->weight, w->s + t * w->length, stiffness, out);
+  add_weight(w, stiffness, out);
+}
+
+int sw_clip_edge(const sw_clip *c, const sw_field *f, size_t e, sw_clip_sum *out) {
+  sw_clip_walk w;
+  if (!sw_clip_begin(c, f, e, &w)) return 0;
+  sw_clip_sum_of(c, &w, 0, out);
   return 1;
 }
 
@@ -202,13 +221,13 @@ int sw_clip_edge(const sw_clip *c, const sw_field *f, size_t e, int stiffness, s
 static void turn(const sw_clip *c, const double H[9], double out[9]) {
   const double q[9] = {c->direction.x, c->direction.y, c->direction.z, c->across.x, c->across.y,
                        c->across.z,    c->axis.x,      c->axis.y,      c->axis.z};
+  double half[9]; /* H Q */
+  for (int k = 0; k < 3; k++)
+    for (int j = 0; j < 3; j++)
+      half[3 * k + j] = H[3 * k] * q[j] + H[3 * k + 1] * q[3 + j] + H[3 * k + 2] * q[6 + j];
   for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++) {
-      double sum = 0;
-      for (int k = 0; k < 3; k++)
-        for (int l = 0; l < 3; l++) sum += q[3 * k + i] * H[3 * k + l] * q[3 * l + j];
-      out[3 * i + j] = sum;
-    }
+    for (int j = 0; j < 3; j++)
+      out[3 * i + j] = q[i] * half[j] + q[3 + i] * half[3 + j] + q[6 + i] * half[6 + j];
 }
 
 /* The same of one end's own derivatives. lump: NULL; or of the coupling, whose symmetric part is

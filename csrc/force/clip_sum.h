@@ -73,6 +73,9 @@ typedef struct sw_clip_walk {
   long count, k, last; /* number of places on the edge, next place, last place in the window */
   double half, weight; /* half the clip's width; weight of a place, without chi [m], [-] */
   double slope, curve; /* its derivatives by the edge's way along the axis [1/m], [1/m2] */
+  double rate;         /* phase of the window over the way along the axis; 0: not begun [rad/m] */
+  double now[2];       /* cosine and sine of the window's phase at the next place [-] */
+  double turn[2];      /* the same of the phase from place to place [-] */
 } sw_clip_walk;
 
 enum { SW_CLIP_NO_EDGE = -1 };
@@ -82,19 +85,20 @@ long sw_clip_find(const sw_clip *clip, const sw_field *field, long from);
 /* Starts a walk along the edge from place e to the next; 0: the edge is outside the clip's
  * width. */
 int sw_clip_begin(const sw_clip *clip, const sw_field *field, size_t e, sw_clip_walk *walk);
-/* Returns the next place: u, v, a [m] and its share of the way along the edge [-]; 0: no more
- * places. */
-int sw_clip_next(sw_clip_walk *walk, double x[3], double *along);
-
-/* Window chi at a, with its first and second derivative [-], [1/m], [1/m2]. */
-void sw_clip_window(const sw_clip *clip, double a, double chi[3]);
+/* Returns the next place: u, v, a [m] and its share of the way along the edge [-]; the window chi
+ * there, with its first and second derivative [-], [1/m], [1/m2]. 0: no more places. */
+int sw_clip_next(sw_clip_walk *walk, double x[3], double *along, double chi[3]);
 
 /* 1 if the clip does not act on any part of the edge. */
 int sw_clip_far(const sw_clip *clip, const sw_clip_walk *walk);
 
-/* Sums along edge e, from place e to the next; 0: the edge is outside the clip's width. */
-int sw_clip_edge(const sw_clip *clip, const sw_field *field, size_t e, int stiffness,
-                 sw_clip_sum *out);
+/* Sums along the edge of a walk that was just begun. stiffness: 1 to fill second derivatives too.
+ */
+void sw_clip_sum_of(const sw_clip *clip, sw_clip_walk *walk, int stiffness, sw_clip_sum *out);
+
+/* The same, without second derivatives, along edge e, from place e to the next; 0: the edge is
+ * outside the clip's width. */
+int sw_clip_edge(const sw_clip *clip, const sw_field *field, size_t e, sw_clip_sum *out);
 
 /* Turns (u, v, a) into world axes. */
 sw_vec sw_clip_world(const sw_clip *clip, const double local[3]);

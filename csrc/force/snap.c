@@ -35,11 +35,11 @@ static void add_edge(const sw_clip *c, double damping, sw_field *f, size_t e) {
   sw_clip_walk w;
   sw_clip_sum sum = {0};
   double x[3], t, chi[3];
+  if (!(va < 0 || vb < 0)) return;
   if (!sw_clip_begin(c, f, e, &w) || sw_clip_far(c, &w)) return;
-  while (sw_clip_next(&w, x, &t)) {
+  while (sw_clip_next(&w, x, &t, chi)) {
     const double speed = va + t * (vb - va);
     if (!(speed < 0) || x[0] < -c->law.clearance - 2.0 * c->law.reach) continue;
-    sw_clip_window(c, x[2], chi);
     const double here =
         damping * w.weight * chi[0] * share_at(&c->law, x[0]) * sw_clip_between(&c->law, x[1]);
     sum.g[0][0] += (1.0 - t) * here * speed, sum.g[1][0] += t * here * speed;
