@@ -140,14 +140,15 @@ local function room(o, shape, wires)
   return least
 end
 
--- Moves an obstacle from far away towards a place of a wire until no more than gap is left.
+-- Moves an obstacle from far away towards a place of a wire until no more than gap is left. A hull that does
+-- not contain its origin may pass by; it stays beyond the wires.
 local function bring_near(o, wires, from, towards, gap)
   local shape, way = sw.core.shape(random_plans.shape_args(o)), 1
   repeat
     o.at = add(towards, from, way)
     local left = room(o, shape, wires) - gap
     way = way - left
-  until left < CLEAR
+  until left < CLEAR or way < -1
 end
 
 local function obstacle_plan(d, wires, from)
