@@ -82,11 +82,16 @@ static double stiffness_of(const sw_mutual *m, const sw_meet *t, const sw_met *m
   return met && met->kept.normal_force > 0 ? met->kept.k : t->usual;
 }
 
-/* Wires along each other that pressed at the step's start press in the first iterate too, unless
- * the prediction opens them by more than this share of the sum of radii [-]. Their depth is far
- * below their motion in a step, so a prediction cannot tell whether they part. Crossings are
- * excepted: in a tight knot they slide along both segments and would not settle. */
+/* Wires along each other, and particles, that pressed at the step's start press in the first
+ * iterate too, unless the prediction opens them by more than this share of the sum of radii [-].
+ * Their depth is far below their motion in a step, so a prediction cannot tell whether they part.
+ * Crossings are excepted: in a tight knot they slide along both segments and would not settle. */
 static const double STILL_NEAR = 0.02;
+
+static int stays_near(const sw_mutual *m, const sw_meet *t) {
+  if (m->regime != SW_CONTACT_IMPLICIT || !(t->press.gap < STILL_NEAR * t->reach)) return 0;
+  return t->kind != SW_CROSSING || t->press.by_place;
+}
 
 /* A force that turns with its normal has negative stiffness. At a predicted place, as deep as a
  * wire flew in the step, this would be thousands of weights. So it is left out until the last
@@ -123,6 +128,7 @@ static void begin_friction(const sw_mutual *m, const sw_system *s, const double 
   else if (!press->active)
     u = sw_v(0, 0, 0);
   sw_press_aim(press, u, last ? &last->press : NULL, last && last->stage == m->stage, m->first);
+  if (last && m->updates > 0) press->reversals = last->press.reversals;
   sw_press_resume(press, pressed ? &met->kept : NULL, last ? &last->press : NULL, went_on,
                   first_force(t));
   /* soft springs let touches creep: in such a solve also those slide that stick */
@@ -152,8 +158,7 @@ void sw_meet_add(sw_mutual *m, const sw_system *s, const double *y, sw_meet *t, 
   t->flies = may_fly(m, t);
   t->far = is_far(m, t, last, pressed);
   t->turns = !t->flies || (m->calm && !t->far);
-  if (pressed && !last && m->regime == SW_CONTACT_IMPLICIT && t->kind != SW_CROSSING)
-    press->active |= press->gap < STILL_NEAR * t->reach;
+  if (pressed && !last) press->active |= stays_near(m, t);
   begin_friction(m, s, y, t, met, last);
   m->touch_count++;
 }
