@@ -163,8 +163,9 @@ describe("a mesh that touches wires", function()
       for _, gap in ipairs{ 1e-4, 1e-3 } do
         local scene, c, s = sw.scene{}, 0.1 * math.cos(angle), 0.1 * math.sin(angle)
         scene:obstacle{ shape = "plane", friction = 0.3 }
-        wire(scene, "a", "tube", R, { -0.1, 0, R + gap }, { 0.1, 0, R + gap }, 5e6)
-        wire(scene, "b", "tube", R, { -c, 0.003 - s, 3 * R + 2 * gap }, { c, 0.003 + s, 3 * R + 2 * gap }, 5e6)
+        local low, high = R + gap, 3 * R + 2 * gap
+        wire(scene, "a", "tube", R, { -0.1, 0, low }, { 0.1, 0, low }, 5e6)
+        wire(scene, "b", "tube", R, { -c, 0.003 - s, high }, { c, 0.003 + s, high }, 5e6)
         scene:wire_contact{ friction = 0.3 }
         scene:force{ kind = "damping", mass = 1, stiffness = 1e-3 }
         local run = t.fine(scene:run{ dt = 0.01, duration = 0.15 })
