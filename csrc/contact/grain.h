@@ -16,12 +16,25 @@ typedef struct sw_grain_pair {
   uint32_t last; /* its touch in the previous iterate: number + 1, or 0 */
 } sw_grain_pair;
 
+/* Two things near each other, not joined. */
+typedef struct sw_grain_near {
+  sw_ends of;
+  double reach; /* sum of the radii [m] */
+} sw_grain_near;
+
 typedef struct sw_grains {
   sw_mutual m;          /* first member: a pointer to it points to this struct too */
   int loose;            /* 1: an object of particles is among the bodies */
   sw_joined *joined;    /* (bodies) joined particles of objects that touch themselves */
   sw_grain_pair *pairs; /* (m.pair_count) pairs of this step, in order */
   size_t pair_capacity;
+
+  /* list of things near each other, in order, used for many steps */
+  sw_grain_near *near;
+  size_t near_count, near_capacity;
+  double *listed_at; /* (listed_nodes x 3) positions that the list was made for [m] */
+  size_t listed_nodes, listed_capacity;
+  double listed_gap; /* gap up to which the list is complete at those positions [m] */
 } sw_grains;
 
 static inline sw_grains *sw_grains_of(sw_mutual *m) { return (sw_grains *)(void *)m; }

@@ -28,8 +28,7 @@ int sw_grains_have_loose(const sw_mutual *m) { return ((const sw_grains *)(const
 static void free_own(sw_mutual *m) {
   const sw_grains *g = sw_grains_of(m);
   for (size_t b = 0; g->joined && b < m->bodies; b++) sw_joined_free(&g->joined[b]);
-  sw_free(g->joined);
-  sw_free(g->pairs);
+  SW_FREE_ALL(g->joined, g->pairs, g->near, g->listed_at);
 }
 
 /* --- review ---------------------------------------------------------------------------- */

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Finds the pairs that may touch in a step: two particles, a particle and a segment, or two edges
- * near each other. */
+ * near each other. A list of things near each other serves many steps. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/alloc.h"
 #include "base/interrupt.h"
@@ -73,27 +74,24 @@ static int is_far(const sw_thing *t, const sw_thing *u, double gap) {
   return sw_norm2(apart) > reach * reach;
 }
 
-static sw_status look_at(sw_grains *g, const sw_system *s, const sw_thing *t, const sw_thing *u) {
-  double at[2];
-  sw_grain_pair k = {.of = {{t->node, u->node}, {t->end, u->end}, {t->body, u->body}}};
-  if (!counts(s, t, u)) return SW_OK;
-  k.reach = t->radius + u->radius;
-  const double gap = sw_grain_nearest(s->x, &k.of, at) - k.reach;
-  if (!(gap < reserve_of(g, k.reach, sw_ends_speed(s, &k.of))) || is_one(g, s, &k.of)) return SW_OK;
-  if (g->m.pair_count == MOST_NEAR) return SW_ELIMIT;
-  k.usual = hardness(g, s, &k.of);
-  k.held = sw_ends_held(s, &k.of);
-  SW_TRY(sw_grow((void **)&g->pairs, &g->pair_capacity, g->m.pair_count + 1, sizeof *g->pairs));
-  g->pairs[g->m.pair_count++] = k;
-  return SW_OK;
-}
-
-/* A search for pairs that may touch. */
+/* A search for things near each other. */
 typedef struct search {
   sw_grains *g;
   const sw_system *s;
-  double gap; /* the largest at which any pair is listed [m] */
 } search;
+
+static sw_status look_at(sw_grains *g, const sw_system *s, const sw_thing *t, const sw_thing *u) {
+  double at[2];
+  sw_grain_near n = {.of = {{t->node, u->node}, {t->end, u->end}, {t->body, u->body}},
+                     .reach = t->radius + u->radius};
+  if (!counts(s, t, u)) return SW_OK;
+  if (!(sw_grain_nearest(s->x, &n.of, at) - n.reach < g->listed_gap)) return SW_OK;
+  if (is_one(g, s, &n.of)) return SW_OK;
+  if (g->near_count == MOST_NEAR) return SW_ELIMIT;
+  SW_TRY(sw_grow((void **)&g->near, &g->near_capacity, g->near_count + 1, sizeof *g->near));
+  g->near[g->near_count++] = n;
+  return SW_OK;
+}
 
 /* Of a point and an edge the point looks for the pair; of two points or two edges the first one
  * does. */
@@ -103,32 +101,85 @@ static sw_status meets(void *user, const sw_thing *t, const sw_thing *u) {
   const int line = !all->s->bodies[t->body].plan->web && !point; /* a wire's segment comes second */
   if (point == other ? u <= t : !point) return SW_OK;
   const uint32_t bodies[2] = {t->body, u->body};
-  if (!sw_mutual_rule(&all->g->m, bodies)->on || is_far(t, u, all->gap)) return SW_OK;
+  if (!sw_mutual_rule(&all->g->m, bodies)->on || is_far(t, u, all->g->listed_gap)) return SW_OK;
   return look_at(all->g, all->s, line ? u : t, line ? t : u);
 }
 
 static int by_order(const void *p, const void *q) {
-  return sw_ends_order(&((const sw_grain_pair *)p)->of, &((const sw_grain_pair *)q)->of);
+  return sw_ends_order(&((const sw_grain_near *)p)->of, &((const sw_grain_near *)q)->of);
 }
 
-static sw_status find_pairs(sw_grains *g, const sw_system *s) {
-  search all = {g, s, 0};
+static sw_status list_anew(sw_grains *g, const sw_system *s, double gap) {
+  search all = {g, s};
   sw_cells cells;
-  double speed = 0, reach = 0;
-  for (size_t k = 0; k < s->body_count; k++) {
-    const sw_body *b = &s->bodies[k];
-    if (!sw_mutual_takes_part(&g->m, k)) continue;
-    reach = fmax(reach, 2.0 * sw_thing_radius(b));
-    for (size_t i = 0; g->m.h > 0 && i < b->plan->nodes; i++)
-      speed = fmax(speed, 2.0 * sw_norm(sw_vec_at(s->v, b->first_node + i)));
-  }
-  all.gap = reserve_of(g, reach, speed);
-  SW_TRY(sw_cells_fill(&g->m, s, all.gap, 1, &cells));
+  g->near_count = g->listed_nodes = 0;
+  g->listed_gap = gap;
+  SW_TRY(sw_cells_fill(&g->m, s, gap, 1, &cells));
   for (size_t k = 0; k < cells.count; k++) {
     if (sw_interrupted()) return SW_EINTR;
     SW_TRY(sw_cells_around(&cells, &cells.things[k], meets, &all));
   }
-  if (g->m.pair_count) qsort(g->pairs, g->m.pair_count, sizeof *g->pairs, by_order);
+  if (g->near_count) qsort(g->near, g->near_count, sizeof *g->near, by_order);
+  SW_TRY(sw_grow((void **)&g->listed_at, &g->listed_capacity, 3 * s->nodes, sizeof(double)));
+  memcpy(g->listed_at, s->x, 3 * s->nodes * sizeof *s->x);
+  g->listed_nodes = s->nodes;
+  return SW_OK;
+}
+
+/* Adds a vector to the range of vectors. */
+static void widen_range(sw_vec v, sw_vec *low, sw_vec *high) {
+  *low = sw_v(fmin(low->x, v.x), fmin(low->y, v.y), fmin(low->z, v.z));
+  *high = sw_v(fmax(high->x, v.x), fmax(high->y, v.y), fmax(high->z, v.z));
+}
+
+/* Returns a bound of the difference of any two of the vectors a - b of nodes that take part; b:
+ * NULL for 0. What moves as a whole has none. */
+static double largest_difference(const sw_grains *g, const sw_system *s, const double *a,
+                                 const double *b) {
+  sw_vec low = sw_v(HUGE_VAL, HUGE_VAL, HUGE_VAL), high = sw_neg(low);
+  double most = 0;
+  for (size_t k = 0; k < s->body_count; k++) {
+    const sw_body *body = &s->bodies[k];
+    if (!sw_mutual_takes_part(&g->m, k)) continue;
+    for (size_t i = body->first_node; i < body->first_node + body->plan->nodes; i++) {
+      const sw_vec v = b ? sw_sub(sw_vec_at(a, i), sw_vec_at(b, i)) : sw_vec_at(a, i);
+      most = fmax(most, sw_norm2(v));
+      widen_range(v, &low, &high);
+    }
+  }
+  return most > 0 ? fmin(2.0 * sqrt(most), sw_dist(low, high)) : 0.0;
+}
+
+/* The list reaches further than a step needs, by this share of the largest sum of radii, if things
+ * then move for SOME_STEPS steps before it must be made again [-]. At twice and at half of the
+ * share crossing tubes take as long. */
+static const double SPARE = 0.25, SOME_STEPS = 4.0;
+
+static sw_status list(sw_grains *g, const sw_system *s) {
+  double reach = 0;
+  for (size_t k = 0; k < s->body_count; k++)
+    if (sw_mutual_takes_part(&g->m, k)) reach = fmax(reach, 2.0 * sw_thing_radius(&s->bodies[k]));
+  const double speed = g->m.h > 0 ? largest_difference(g, s, s->v, NULL) : 0.0;
+  const double gap = reserve_of(g, reach, speed), spare = SPARE * reach;
+  if (g->listed_nodes == s->nodes &&
+      gap + largest_difference(g, s, s->x, g->listed_at) < g->listed_gap)
+    return SW_OK;
+  return list_anew(g, s, gap + (SOME_STEPS * g->m.h * speed < spare ? spare : 0.0));
+}
+
+static sw_status find_pairs(sw_grains *g, const sw_system *s) {
+  double at[2];
+  SW_TRY(list(g, s));
+  for (size_t i = 0; i < g->near_count; i++) {
+    const sw_grain_near *n = &g->near[i];
+    sw_grain_pair k = {.of = n->of, .reach = n->reach};
+    const double gap = sw_grain_nearest(s->x, &k.of, at) - k.reach;
+    if (!(gap < reserve_of(g, k.reach, sw_ends_speed(s, &k.of)))) continue;
+    k.usual = hardness(g, s, &k.of);
+    k.held = sw_ends_held(s, &k.of);
+    SW_TRY(sw_grow((void **)&g->pairs, &g->pair_capacity, g->m.pair_count + 1, sizeof *g->pairs));
+    g->pairs[g->m.pair_count++] = k;
+  }
   return SW_OK;
 }
 
