@@ -223,6 +223,15 @@ static void add_child(const sw_tree *t, const piece *p, const piece *child, uint
   }
 }
 
+/* Clears the lower half of a front's remainder, up to full tiles: no more of it is used. */
+static void clear_left(const piece *p, double *left) {
+  const size_t rows = 3 * (size_t)p->rest;
+  for (size_t i = 0; i < rows; i++) {
+    const size_t end = sw_front_pad(i / SW_FRONT_PANEL * SW_FRONT_PANEL + SW_FRONT_PANEL);
+    memset(left + i * p->before, 0, (end < p->before ? end : p->before) * sizeof *left);
+  }
+}
+
 sw_status sw_tree_factor(sw_tree *t, const double *values, const unsigned char *fixed,
                          size_t *negative) {
   size_t count = 0, bad = 0;
@@ -231,7 +240,7 @@ sw_status sw_tree_factor(sw_tree *t, const double *values, const unsigned char *
     sw_front f = front_of(t, p);
     double *left = t->left + p->left;
     memset(f.factor, 0, f.n * f.stride * sizeof *f.factor);
-    memset(left, 0, 3 * p->rest * p->before * sizeof *left);
+    clear_left(p, left);
     find_places(t, p);
     add_entries(t, p, values, fixed);
     for (uint32_t c = p->child; c != NONE; c = t->piece[c].other)
