@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Crossings: a swept test finds parts of wires that passed through an obstacle within the step. A
  * barrier then keeps them on their side for the rest of the step. */
+#include "contact/cross.h"
+
 #include <math.h>
 
 #include "base/alloc.h"
 #include "base/halving.h"
-#include "contact/touch.h"
 
 /* A segment that moves by less than this share of its skin cannot pass anything [-]. */
 static const double SAFE_SHIFT = 0.5;
@@ -129,9 +130,8 @@ static void widen(sw_bounds *b, sw_vec p) {
                 p.z > b->max.z ? p.z : b->max.z);
 }
 
-/* 1 if the candidate's piece of the wire, with its smooth curve, stays clear of the obstacle. */
-static int stays_away(const sw_contact *c, const sw_system *s, const sw_candidate *k,
-                      const double *x1) {
+int sw_contact_stays_away(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                          const double *x1) {
   const sw_body *b = &s->bodies[k->body];
   const sw_bounds box = passed(c, (size_t)k->obstacle);
   const size_t last = b->first_node + b->plan->nodes - 1;
@@ -151,7 +151,7 @@ static int stays_away(const sw_contact *c, const sw_system *s, const sw_candidat
  * peg would cut in with these halves, but does not with its edges, so its edges are tested. */
 static int cross(sw_contact *c, sw_system *s, const sw_candidate *k, const double *x1, double h) {
   crossing one, two;
-  if ((k->smooth || c->broad.moves[k->obstacle]) && stays_away(c, s, k, x1)) return 0;
+  if ((k->smooth || c->broad.moves[k->obstacle]) && sw_contact_stays_away(c, s, k, x1)) return 0;
   if (!k->smooth || k->round) {
     sw_candidate edge = *k;
     edge.smooth = 0;

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "contact/arc.h"
+#include "contact/cross.h"
 #include "contact/curve.h"
 #include "contact/jolt.h"
 #include "contact/same.h"
@@ -202,6 +203,11 @@ static int slips_off(const sw_contact *c, const sw_system *s, const double *x1, 
   return 0;
 }
 
+static int brushes(const sw_contact *c, const sw_system *s, const double *x1, double h) {
+  if (h < SW_SMALLEST_CARE * c->nominal || c->regime == SW_CONTACT_EXPLICIT) return 0;
+  return sw_contact_brushes(c, s, x1);
+}
+
 sw_contact_verdict sw_contact_review(sw_contact *c, sw_system *s, const double *x1,
                                      const double *v1, double h, int dull) {
   sw_error err;
@@ -224,7 +230,8 @@ sw_contact_verdict sw_contact_review(sw_contact *c, sw_system *s, const double *
   if (c->soonest < h) return SW_CONTACT_SOONER;
   if (crossed || struck || hasty) return SW_CONTACT_REDO;
   if (bounces(c, s, v1)) return SW_CONTACT_STRIKE;
-  const int smaller = bars_too_hard(c, s, h) || cuts_deep(c, s, x1, h) || slips_off(c, s, x1, h);
+  const int smaller = bars_too_hard(c, s, h) || cuts_deep(c, s, x1, h) || slips_off(c, s, x1, h) ||
+                      brushes(c, s, x1, h);
   return smaller ? SW_CONTACT_SMALLER : SW_CONTACT_ACCEPT;
 }
 
