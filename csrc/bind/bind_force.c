@@ -62,7 +62,7 @@ static int call_function(lua_State *L) {
   push_flat(L, 1, "x", field->x, n);
   push_flat(L, 1, "v", field->v, n);
   push_flat(L, 1, "f", NULL, n);
-  lua_call(L, 4, 0);
+  lsw_motion_call(L, 4, 0, "force function");
   lua_getfield(L, 1, "f");
   read_back(L, lua_gettop(L), field, n);
   return 0;

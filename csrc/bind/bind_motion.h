@@ -38,6 +38,10 @@ int lsw_motion_rethrow(lua_State *L, sw_status status, const sw_error *err);
  * for lsw_motion_rethrow, and writes it as text to err. Returns SW_ECALLBACK; never raises. */
 sw_status lsw_motion_keep_error(lua_State *L, sw_error *err);
 
+/* As lua_call, for functions that the solver calls within a step; what is for messages. They cannot
+ * yield, which Lua itself says in words of C. */
+void lsw_motion_call(lua_State *L, int args, int results, const char *what);
+
 /* --- between the files of this binding ---------------------------------------- */
 
 void lsw_motion_open_functions(lua_State *L);

@@ -3,6 +3,8 @@
  * Lua thread, so that any part of the core can evaluate them. An error's value
  * stays in the registry until the caller raises it again. */
 
+#include <string.h>
+
 #include "bind/bind_motion.h"
 
 static const char thread_key = 0; /* registry: the thread of the functions */
@@ -19,18 +21,39 @@ typedef struct job {
   sw_pose *out;
 } job;
 
+void lsw_motion_call(lua_State *L, int args, int results, const char *what) {
+  if (lua_pcall(L, args, results, 0) == LUA_OK) return;
+  const char *text = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "";
+  if (strcmp(text, "attempt to yield across a C-call boundary") == 0)
+    luaL_error(L, "%s must not yield or wait: it is called within a step; a process may wait",
+               what);
+  lua_error(L);
+}
+
+/* Pushes "file:line: " of the function's definition, or "" for a function of C. Its results are
+ * read in the middle of a step, where no line of the script runs that could be named. */
+static const char *place_of(lua_State *L, const function *f) {
+  lua_Debug at;
+  lua_rawgeti(L, LUA_REGISTRYINDEX, f->reference);
+  if (!lua_getinfo(L, ">S", &at) || at.linedefined <= 0) return lua_pushliteral(L, "");
+  return lua_pushfstring(L, "%s:%d: ", at.short_src, at.linedefined);
+}
+
 static int run(lua_State *L) {
   const job *j = lua_touserdata(L, 1);
+  const char *place = place_of(L, j->f);
+  const char *name = lua_pushfstring(L, "%strajectory: func(%f)", place, j->t);
   lua_rawgeti(L, LUA_REGISTRYINDEX, j->f->reference);
   lua_pushnumber(L, j->t);
-  lua_call(L, 1, 2);
-  if (!lua_istable(L, 2))
-    return luaL_error(L,
-                      "trajectory: func(%f) must return a position {x, y, z} [m] and, if it turns, "
-                      "a rotation; got %s",
-                      j->t, luaL_typename(L, 2));
-  j->out->p = lsw_place(L, 2, lua_pushfstring(L, "trajectory: position from func(%f)", j->t));
-  j->out->q = lsw_rotation(L, 3, lua_pushfstring(L, "trajectory: rotation from func(%f)", j->t));
+  lsw_motion_call(L, 1, 2, name);
+  if (!lua_istable(L, 4))
+    return luaL_error(
+        L, "%s must return a position {x, y, z} [m] and, if it turns, a rotation; got %s", name,
+        luaL_typename(L, 4));
+  j->out->p =
+      lsw_place(L, 4, lua_pushfstring(L, "%strajectory: position from func(%f)", place, j->t));
+  j->out->q =
+      lsw_rotation(L, 5, lua_pushfstring(L, "%strajectory: rotation from func(%f)", place, j->t));
   return 0;
 }
 

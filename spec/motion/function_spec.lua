@@ -84,6 +84,31 @@ describe("a function of time", function()
     assert.matches("rotation from func%(0.25%)", message({ 1, 2, 3 }, 7))
   end)
 
+  -- Within a step no line of the script runs that a message could name.
+  it("is named by the line where it begins, in errors about its result and about yielding", function()
+    local function say(f, words)
+      local line = debug.getinfo(f, "S").linedefined
+      local sw = require "softworld"
+      local scene = sw.scene{}
+      local wire = scene:wire{ E = 1e7, density = 1000, radius = 0.003, from = { 0, 0, 0 }, to = { 1, 0, 0 },
+        segments = 4 }
+      local clamp = scene:clamp(wire, { s = 0 })
+      clamp:follow{ func = f, duration = 1 }
+      local fine, why = pcall(scene.run, scene, { duration = 0.1, dt = 0.01 })
+      assert.is_false(fine)
+      assert.matches("^.*function_spec.lua:" .. line .. ": trajectory: " .. words, why)
+    end
+    say(function(t) return { 0, 0, t < 0.02 and 0 or 0 / 0 } end,
+      "position from func%(0.02.*%), item 3, = .*nan m")
+    say(function(t) return t < 0.02 and { 0, 0, 0 } or 7 end, "func%(0.02.*%) must return a position")
+    say(function(t) return { 0, 0, 0 }, t < 0.02 and { 1, 0, 0, 0 } or {} end, "rotation from func%(0.02")
+    say(function(t) return t < 0.02 and { 0, 0, 0 } or coroutine.yield() end,
+      "func%(0.02.*%) must not yield or wait")
+    assert.matches("^trajectory: func%(1.0%) must not yield", select(2, pcall(function()
+      core.trajectory(coroutine.yield):position(1)
+    end)))
+  end)
+
   it("must not yield or recurse without end, and may close its own trajectory", function()
     local m = core.trajectory(coroutine.yield)
     assert.has_error(function() coroutine.wrap(function() m:position(1) end)() end)
