@@ -105,7 +105,7 @@ end
 --- Raises an error unless value is a number from low to high (default: any); above: low itself is not
 -- allowed.
 function checks.number(what, value, low, unit, level, high, above)
-  local fine = type(value) == "number" and value >= low and value < math.huge
+  local fine = type(value) == "number" and value >= low and value - value == 0
     and not (above and value == low) and not (high and value > high)
   if fine then return value end
   local any = low == -math.huge

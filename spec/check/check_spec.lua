@@ -209,6 +209,10 @@ describe("run:check", function()
     fails(function() run:check{ checks = { one } } end, "checks[1], 'x': min = 2 is above max = 1")
     fails(function() run:check{ checks = one } end, "checks must be a list of tables, without the key")
     fails(function() run:check{ checks = { { name = "x", unit = "m" } } } end, "checks[1]: of is required")
+    fails(function() run:check{ checks = { { name = "x", unit = "m", of = print, max = 1 / 0 } } } end,
+      "checks[1]: max = inf m is not allowed; it must be finite")
+    fails(function() run:check{ checks = { { name = "x", unit = "-", of = print, min = -1 / 0 } } } end,
+      "checks[1]: min = -inf is not allowed; it must be finite")
     one.min = nil
     fails(function() run:check{ checks = { one, one } } end, "there is another check 'x'")
     one.name = "max_tension"

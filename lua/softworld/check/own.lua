@@ -31,6 +31,16 @@ local function check_list(given)
   end
 end
 
+-- Limits have the unit that the check itself names, which its row cannot know.
+local function check_limits(one, what)
+  local unit = checks.field(one, "unit")
+  unit = type(unit) == "string" and unit ~= "-" and " " .. unit or ""
+  for _, side in ipairs{ "min", "max" } do
+    local value = checks.field(one, side)
+    if type(value) == "number" then checks.number(what .. ": " .. side, value, -math.huge, unit, 0) end
+  end
+end
+
 --- Returns their checked list. taken: names of other checks.
 function own.read(given, taken)
   local list, seen = {}, {}
@@ -38,6 +48,7 @@ function own.read(given, taken)
   check_list(given)
   for i, one in ipairs(given) do
     local what = ("run:check: checks[%d]"):format(i)
+    check_limits(one, what)
     list[i] = own.rows:read(one, what)
     if seen[list[i].name] or taken[list[i].name] then
       error(("%s: there is another check '%s'"):format(what, list[i].name), 0)
