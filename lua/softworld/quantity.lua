@@ -9,6 +9,7 @@ local window = require "softworld.run.window"
 
 local quantity = {}
 
+local DEEPEST = 8 -- lists inside one another in a value of a quantity
 local places = 40 -- number of stretches of a wire; positions are compared at their ends
 
 local function positions(wire)
@@ -257,22 +258,32 @@ end
 
 -- --- values ---------------------------------------------------------------------------
 
-local function is_value(v)
-  if type(v) == "number" then return v == v end
-  if type(v) ~= "table" or #v == 0 then return false end
-  for _, x in ipairs(v) do
-    if not is_value(x) then return false end
+-- Returns what is wrong with a value, or nil: it must be a number, or a list without gaps of such values.
+-- depth: lists around it.
+local function fault_of(v, depth)
+  if type(v) == "number" then return v ~= v and "nan" or nil end
+  if type(v) ~= "table" then return core.type(v) or type(v) end
+  if depth > DEEPEST then return "too many lists, one inside the other" end
+  if next(v) == nil then return "an empty list" end
+  for key in next, v do
+    if math.type(key) ~= "integer" or key < 1 or key > #v then
+      return ("a list with the key '%s'"):format(checks.shown(key))
+    end
   end
-  return true
+  for i = 1, #v do
+    local fault = fault_of(rawget(v, i), depth + 1)
+    if fault then return ("%s as item %d"):format(fault, i) end
+  end
 end
 
 --- Reads a quantity. Returns { value, where [m], when [s], note }. start: when the run began [s].
 function quantity.read(q, start)
   local value, s, t, note
   if q.own then value = q.of() else value, s, t, note = q.of(start) end
-  if not is_value(value) then
-    error(("quantity '%s': its function must return a number or a list of numbers, got %s")
-      :format(q.name, type(value) == "number" and checks.shown(value) or core.type(value) or type(value)), 0)
+  local fault = fault_of(value, 1)
+  if fault then
+    error(("quantity '%s': its function must return a number or a list of numbers, got %s"):format(q.name,
+      fault), 0)
   end
   return { value = value, where = s, when = t, note = note }
 end

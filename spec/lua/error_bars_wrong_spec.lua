@@ -63,7 +63,7 @@ describe("an error in a computation with error bars", function()
   end)
 
   it("about a quantity that is no number leaves everything as it was", function()
-    for value, text in pairs{ [0 / 1] = false, [{}] = "table", [{ "a" }] = "table", x = "string" } do
+    for value, text in pairs{ [0 / 1] = false, [print] = "function", [true] = "boolean", x = "string" } do
       if text then
         check(function(scene)
           scene:run{ tolerance = { { name = "q", value = 1, of = function() return value end } } }
@@ -73,6 +73,18 @@ describe("an error in a computation with error bars", function()
     check(function(scene)
       scene:run{ tolerance = { { name = "q", value = 1, of = function() return 0 / 0 end } } }
     end, "got %-?nan")
+  end)
+
+  it("about a list that is no list of numbers leaves everything as it was", function()
+    local endless = {}
+    endless[1] = endless
+    for says, value in pairs{ ["got nil as item 2"] = { 1, nil, 3 }, ["got nan as item 2"] = { 1, 0 / 0 },
+      ["got an empty list"] = {}, ["got an empty list as item 1"] = { {} }, ["key 'x'"] = { 1, x = 2 },
+      ["too many lists, one inside the other"] = endless, ["got string as item 1"] = { "1" } } do
+      check(function(scene)
+        scene:run{ tolerance = { { name = "q", value = 1, of = function() return value end } } }
+      end, "quantity 'q': its function must return a number or a list of numbers, .*" .. says)
+    end
   end)
 
   it("about a list whose length changes with the mesh leaves everything as it was", function()
