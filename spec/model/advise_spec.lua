@@ -53,10 +53,23 @@ describe("scene:advise", function()
     assert.same({ 0, "rolling" }, { #a.spare, a.twist })
   end)
 
+  -- 1.25 / n^2 = 1e-300 asks for n = 1e150 edges; a wire takes 1e7 at most.
+  it("never advises more edges or longer steps than there can be, and says so", function()
+    local scene = cantilever()
+    local a = scene:advise { tolerance = 1e-300, duration = 1 }
+    assert.equal(10000000, a.segments[next(a.segments)])
+    assert.truthy(tostring(a):find("the most there can be; 1.12e+150 would be needed", 1, true))
+    assert.is_true(scene:settle().ok)
+    a = scene:advise { duration = 1e9 }
+    assert.same({ "poses", 1000 }, { a.motion, a.dt })
+    assert.truthy(tostring(a))
+  end)
+
   it("refuses arguments that make no sense", function()
     local scene = cantilever()
     for text, args in pairs { ["tolerance = 2 is not allowed"] = { tolerance = 2 },
       ["duration = 0 s is not allowed"] = { duration = 0 },
+      ["duration = 1e+300 s is not allowed"] = { duration = 1e300 },
       ["did you mean 'tolerance'"] = { tolerence = 1 } } do
       local fine, why = pcall(scene.advise, scene, args)
       assert.is_false(fine)

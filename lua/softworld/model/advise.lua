@@ -18,7 +18,9 @@ local POSE = 10       -- iterations of a pose over those of a step [-]
 local FRAMES = 30       -- stored frames [1/s]
 local BYTES = { node = 2500, frame = 28 } -- per node while computing, and in a frame [B]
 local PERIODS = 10      -- least duration of slow motion, in first periods [-]
+local MOST = 1e7        -- most segments of a wire, as in the core [-]
 local USUAL_DT = 0.01   -- largest step [s]
+local LONGEST_DT = 1000 -- longest step that a run takes [s]
 local USUAL_TIME = 10   -- duration if none is given [s]
 
 local take = rows.call("scene:advise", "{...}", "the model and mesh that the scene probably needs; runs "
@@ -28,7 +30,7 @@ local take = rows.call("scene:advise", "{...}", "the model and mesh that the sce
   example = "print(scene:advise { tolerance = 0.02, duration = 5 })",
   { "tolerance", "number", "-", "allowed error, as a share of each quantity", min = 0, max = 1, above = true,
     default = 0.02 },
-  { "duration", "number", "s", "duration of the run, or of its processes", min = 0, above = true },
+  { "duration", "number", "s", "duration of the run, or of its processes", min = 0, max = 1e9, above = true },
 })
 
 local Advice = { __name = "advice" }
@@ -96,16 +98,23 @@ local function sharpest(data)
   return least, name
 end
 
+-- Returns the number of edges for a wire, and why; never more than a wire can have.
+local function edges_of(bow, round, share, name)
+  local wanted = math.max(FEWEST, bow, round)
+  local why = round > math.max(FEWEST, bow) and ("edges of a third of the radius of '%s'"):format(name)
+    or ("for one bow with an error of %.3g %%"):format(100 * share)
+  if wanted <= MOST then return math.ceil(wanted), why end
+  return math.ceil(MOST), ("the most there can be; %.3g would be needed %s%s"):format(wanted,
+    round > bow and "for " or "", why)
+end
+
 local function mesh_of(scene, share, a)
   local data, nodes = build.data(scene), 0
   local radius, name = sharpest(data)
   a.segments, a.segments_why = {}, {}
   for _, w in ipairs(data.wires) do
-    local bow = math.max(FEWEST, math.ceil((BOW / share) ^ 0.5))
-    local round = name and math.ceil(ROUND * w.object.length / (radius + w.object.radius)) or 0
-    a.segments[w.name] = math.max(bow, round)
-    a.segments_why[w.name] = round > bow and ("edges of a third of the radius of '%s'"):format(name)
-      or ("for one bow with an error of %.3g %%"):format(100 * share)
+    local round = name and ROUND * w.object.length / (radius + w.object.radius) or 0
+    a.segments[w.name], a.segments_why[w.name] = edges_of((BOW / share) ^ 0.5, round, share, name)
     nodes = nodes + a.segments[w.name] + 1
   end
   return nodes
@@ -154,7 +163,7 @@ local function advice_of(scene, args)
   local nodes = mesh_of(scene, share, a)
   local steps = (share / 0.01) ^ 0.5
   a.dt = math.min(USUAL_DT, a.period and a.period / SWING * steps or USUAL_DT)
-  if a.motion == "poses" then a.dt = math.max(a.dt, a.duration / 100) end
+  if a.motion == "poses" then a.dt = math.min(LONGEST_DT, math.max(a.dt, a.duration / 100)) end
   a.time = COST * nodes * a.duration / a.dt * (a.twist == "rolling" and 2 or 1)
     * (a.motion == "poses" and POSE or 1)
   a.memory = BYTES.node * nodes + BYTES.frame * nodes * FRAMES * a.duration
