@@ -28,17 +28,18 @@ static int unknown_key(lua_State *L, const char *object, const lsw_section *sect
 
 size_t lsw_word(lua_State *L, const char *what, const char *also, const char *const *names,
                 size_t count) {
-  const char *word = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : luaL_typename(L, -1);
-  for (size_t i = 0; i < count; i++)
+  const char *word = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
+  for (size_t i = 0; word && i < count; i++)
     if (strcmp(names[i], word) == 0) return i;
-  const char *near = sw_nearest_name(word, names, sizeof names[0], count);
+  const char *near = word ? sw_nearest_name(word, names, sizeof names[0], count) : NULL;
   if (near) luaL_error(L, "%s '%s'; did you mean '%s'?", what, word, near);
+  const char *shown = word ? lua_pushfstring(L, "'%s'", word) : lsw_describe(L, -1);
   lua_pushstring(L, also);
   for (size_t i = 0; i < count; i++) {
     lua_pushfstring(L, "%s%s", i || *also ? ", " : "", names[i]);
     lua_concat(L, 2);
   }
-  luaL_error(L, "%s '%s'; known are: %s", what, word, lua_tostring(L, -1));
+  luaL_error(L, "%s %s; known are: %s", what, shown, lua_tostring(L, -1));
   return 0;
 }
 

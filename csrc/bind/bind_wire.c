@@ -86,6 +86,8 @@ int lsw_scene_wire(lua_State *L) {
   if (beam.EI == 0 && strcmp(sw_wire_all()[args.model]->name, "string") != 0)
     luaL_error(L, "%s: EI = 0 N m2 is allowed with model = 'string' only", object);
   const double *points = lsw_read_points(L, 2, "path", "wire", &count);
+  if (points && (isfinite(args.from.x) || isfinite(args.to.x)))
+    luaL_error(L, "%s: give either path or from and to, not both", object);
   lsw_child *child = lsw_new_child(L, &lsw_class_wire);
   LSW_DO(L, sw_scene_add_wire, scene, &args, &beam, &mesh, points, count, &child->id);
   return 1;

@@ -44,8 +44,13 @@ static sw_status check(const sw_link_wire *w, sw_hold_args *a, sw_error *err) {
   const int straight = isfinite(a->line.x) && sw_norm(a->line) > 0;
   sw_curve *curve = NULL;
   sw_rail_point near;
-  if (straight == (a->points != NULL))
+  if (straight && a->points)
+    return sw_fail(err, SW_EINVAL, "slider: give either direction or path, not both");
+  if (!straight && !a->points)
     return sw_fail(err, SW_EINVAL, "slider: give a direction that is not 0, or a path");
+  if (straight && a->closed)
+    return sw_fail(err, SW_EINVAL,
+                   "slider: closed goes with path; a straight rail has no end to join");
   if (straight) return SW_OK;
   if (isfinite(a->from) || isfinite(a->to))
     return sw_fail(err, SW_EINVAL,

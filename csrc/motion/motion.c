@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/param.h"
 #include "motion/law.h"
 
 static const sw_motion_law *const laws[] = {
@@ -26,6 +27,20 @@ static const sw_motion_law *find_law(const char *name) {
   for (size_t k = 0; k < LAWS; k++)
     if (laws[k]->plan && strcmp(laws[k]->name, name) == 0) return laws[k];
   return NULL;
+}
+
+static sw_status unknown_law(const char *object, const char *name, sw_error *err) {
+  const char *names[LAWS];
+  size_t count = 0;
+  while (sw_motion_law_at(count)) names[count] = sw_motion_law_at(count), count++;
+  const char *near = sw_nearest_name(name, names, sizeof names[0], count);
+  if (near)
+    return sw_fail(err, SW_EINVAL, "%s: there is no law '%s'; did you mean '%s'?", object, name,
+                   near);
+  char known[256] = "";
+  for (size_t i = 0, used = 0; i < count && used < sizeof known; i++)
+    used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", i ? " " : "", names[i]);
+  return sw_fail(err, SW_EINVAL, "%s: there is no law '%s'; known are: %s", object, name, known);
 }
 
 sw_motion_plan sw_motion_plan_empty(void) {
@@ -65,7 +80,7 @@ static sw_status plan_motion(const sw_motion_plan *plan, sw_route *route, sw_mot
   const char *name = plan->law;
   if (!name) name = route->timed && route->count > 2 ? "spline" : "minimum-jerk";
   const sw_motion_law *law = find_law(name);
-  if (!law) return sw_fail(err, SW_EINVAL, "%s: there is no law '%s'", route->name, name);
+  if (!law) return unknown_law(route->name, name, err);
   motion->law = law;
   SW_TRY(sw_route_time(plan, route, err));
   motion->start = plan->start + (route->timed ? route->t[0] : 0);

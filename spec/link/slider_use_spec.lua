@@ -140,7 +140,9 @@ describe("a slider is refused", function()
   it("without a rail, with two, or with an invalid one", function()
     refuses_args({ s = 0.5 }, "direction", "path")
     refuses_args({ s = 0.5, direction = { 0, 0, 0 } }, "direction")
-    refuses_args({ s = 0.5, direction = { 1, 0, 0 }, path = circle(1, 8) }, "path")
+    refuses_args({ s = 0.5, direction = { 1, 0, 0 }, path = circle(1, 8) },
+      "give either direction or path, not both")
+    refuses_args({ s = 0.5, direction = { 1, 0, 0 }, closed = true }, "closed goes with path")
     refuses_args({ s = 0.5, path = { { 0, 0, 0 }, { 1, 0, 0 } } }, "2 points")
     refuses_args({ s = 0.5, path = { { 0, 0, 0 }, { 0.5, 0, 0 }, { 0.5, 0, 0 } } },
       "away from the one before")

@@ -29,6 +29,19 @@ local cases = {
     "gripper:move: speed = -1 m/s is not allowed; it must be above 0 m/s" },
   ["a turn by a string"] = { function() hand:rotate{ axis = { 0, 0, 1 }, angle = "90", duration = 1 } end,
     "angle = '90' is not allowed; it must be a number that is finite" },
+  ["a path and its ends"] = { function()
+    scene:wire{ E = 1e7, density = 1000, radius = 0.003, path = { { 0, 0, 1 }, { 1, 0, 1 } },
+      from = { 0, 0, 0 } }
+  end, "give either path or from and to, not both" },
+  ["a number for a model"] = { function()
+    scene:wire{ E = 1e7, density = 1000, radius = 0.003, model = 3, from = { 0, 0, 0 }, to = { 1, 0, 0 } }
+  end, "wire: there is no model number 3; known are: string" },
+  ["an endless turn"] = { function()
+    hand:rotate{ axis = { 0, 0, 1 }, angle = -math.huge, duration = 1 }
+  end, "gripper:rotate: angle = -inf rad is not allowed; it must be finite" },
+  ["an endless rotation"] = { function()
+    scene:gripper{ at = { 0, 0, 0 }, rotation = { axis = { 0, 0, 1 }, angle = -math.huge } }
+  end, "scene:gripper: rotation.angle = -inf rad is not allowed; it must be finite" },
   ["a number for a place"] = { function() scene:gripper{ at = 5 } end,
     "scene:gripper: at must be a table of 3 finite numbers [m], got 5" },
   ["two numbers for a place"] = { function()

@@ -9,6 +9,8 @@ local wrong = {
   { { points = ways, speed = 0 / 0 }, "is not allowed; it must be above 0 m/s" },
   { { points = ways, speed = "fast" }, "trajectory: speed must be a number [m/s], got string" },
   { { points = ways, speed = 1, law = "minimum jerk" }, "did you mean 'minimum-jerk'?" },
+  { { points = ways, speed = 1, law = "sudden" },
+    "is not one of: linear, trapezoidal, minimum-jerk, spline" },
   { { points = ways, speed = 1, law = "callback" },
     "is not one of: linear, trapezoidal, minimum-jerk, spline" },
   { { points = ways }, "the speed is not given; give speed [m/s], duration [s] or a time for every "

@@ -41,7 +41,10 @@ describe("a feed", function()
     refused("length is required", feed.feed, feed, { speed = 1 })
     refused("did you mean 'length'", feed.feed, feed, { lenth = 1, speed = 1 })
     refused("length = -0.4 m is not allowed", feed.feed, feed, { length = -0.4, speed = 1 })
-    refused("law", feed.feed, feed, { length = 0.1, speed = 1, law = "sudden" })
+    refused("there is no law 'sudden'; known are: linear trapezoidal minimum-jerk spline", feed.feed, feed,
+      { length = 0.1, speed = 1, law = "sudden" })
+    refused("there is no law 'minimum-jrk'; did you mean 'minimum-jerk'?", feed.feed, feed,
+      { length = 0.1, speed = 1, law = "minimum-jrk" })
     assert.are.equal(0.1, feed:speed())
     assert.are.equal(0, feed:fed())
     assert.are.equal(1, #sw.core.data(scene).holds)
