@@ -95,8 +95,22 @@ function check.integer(what, row, value)
     and ("from %d to %d"):format(row.min, row.max) or ("of %d or more"):format(row.min)), 0)
 end
 
+--- Raises an error for a list with a hole, behind which a part of the list would be lost.
+function rows.whole(what, list)
+  local count = rawlen(list)
+  for key in next, list do
+    if math.type(key) == "integer" and key > count then count = key end
+  end
+  for i = 1, count do
+    if rawget(list, i) == nil then
+      error(("%s has %d items, but item %d is nil"):format(what, count, i), 0)
+    end
+  end
+end
+
 function check.list(what, row, value)
   if type(value) ~= "table" then error(("%s must be a list, got %s"):format(what, checks.got(value)), 0) end
+  rows.whole(what, value)
   for i, item in ipairs(row.of == "number" and value or {}) do
     number(("%s[%d]"):format(what, i), row, item)
   end
@@ -113,6 +127,7 @@ function check.rotation(what, _, value) checks.rotation(what, value, 0) end
 
 function check.numbers(what, row, value)
   if type(value) ~= "table" then return number(what, row, value) end
+  rows.whole(what, value)
   for i, item in ipairs(value) do number(("%s[%d]"):format(what, i), row, item) end
 end
 

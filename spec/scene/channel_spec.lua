@@ -167,6 +167,11 @@ describe("a channel", function()
     refused("channel 'd': points is required, a list of at least two", { points = { { 0, 0, 0 } } })
     refused("channel 'd': points[2] must be a table of 3 finite numbers",
       { points = { { 0, 0, 0 }, { 1, 2 } } })
+    refused("channel 'd': points has 3 items, but item 2 is nil",
+      { points = { { 0, 0, 0 }, nil, { 1, 0, 0 } } })
+    local far = { { 0, 0, 0 }, { 1, 0, 0 } }
+    far[9] = { 2, 0, 0 }
+    refused("channel 'd': points has 9 items, but item 3 is nil", { points = far })
     refused("channel 'd': points 1 and 2 are the same", { points = { { 0, 0, 0 }, { 0, 0, 0 } } })
     refused("channel 'd': leg 1 is parallel to up", { points = { { 0, 0, 0 }, { 0, 0, 1 } } })
     refused("meet at 180 degrees", { points = { { 0, 0, 0 }, { 0.1, 0, 0 }, { 0, 0, 0 } } })

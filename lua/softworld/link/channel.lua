@@ -55,6 +55,7 @@ local function read_points(what, given)
     error(what .. ": points is required, a list of at least two {x, y, z} [m]", 0)
   end
   local points = {}
+  rows.whole(what .. ": points", given)
   for i, p in ipairs(given) do points[i] = checks.vector(("%s: points[%d]"):format(what, i), p, "m", 0) end
   return points
 end
