@@ -159,9 +159,8 @@ local function points_of(data, scale)
   return points
 end
 
---- Returns way-points from a CSV file, or from CSV text. scale is the length unit of
--- columns without one [m].
-function trajectory.read(source, scale)
+-- Errors have no place: it may be read for a follow, which adds it.
+local function read(source, scale)
   if type(source) ~= "string" then
     error("trajectory: path must be a file name or an array of way-points, got " .. type(source), 0)
   end
@@ -180,7 +179,11 @@ function trajectory.read(source, scale)
   return points
 end
 
-core.trajectory_reader(function(source, scale) return trajectory.read(source, scale) end)
+core.trajectory_reader(read)
+
+--- Returns way-points from a CSV file, or from CSV text. scale is the length unit of
+-- columns without one [m].
+trajectory.read = build.placed(read)
 
 -- Errors have no place, see build.call.
 local function save(self, path, count)

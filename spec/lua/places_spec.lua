@@ -22,6 +22,14 @@ describe("an error", function()
   local tie = scene:tie(wire, { s = 0.1 })
   tie:release()
   scene:force{ kind = function() end }
+  local judged, tube_section = {}, nil
+  do
+    local other, tube = world()
+    local check = other:run{ duration = 0.001 }:check{}
+    judged.check, judged.both = check, sw.compare(check, check)
+    tube:remodel{ model = "radial" }
+    tube_section = tube:section(0.1)
+  end
 
   for name, call in pairs{
     ["settle without wires"] = function() empty:settle() end,
@@ -52,6 +60,15 @@ describe("an error", function()
       tube:section(0.1):chart(other:run{ duration = 0.001 })
     end,
     ["the library as a table of parameters"] = function() sw.scene(sw) end,
+    ["a check as a file that cannot be"] = function() local _ = judged.check:csv "/nowhere/c.csv" end,
+    ["a check as JSON on a full disk"] = function() local _ = judged.check:json "/dev/full" end,
+    ["a check as XML under no name"] = function() local _ = judged.check:junit "" end,
+    ["a comparison as a folder"] = function() local _ = judged.both:csv "/" end,
+    ["a comparison as a number"] = function() local _ = judged.both:json(3) end,
+    ["a section's chart on no disk"] = function()
+      local _ = tube_section:chart{ path = "/nowhere/c.svg" }
+    end,
+    ["way-points of no file"] = function() local _ = sw.trajectory.read "/nowhere/w.csv" end,
     ["a value that cannot say what it is"] = function()
       gripper:close_jaws{ force = setmetatable({}, { __tostring = function() return {} end }) }
     end,

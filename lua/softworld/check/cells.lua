@@ -44,7 +44,7 @@ end
 function cells.check_path(what, path, extension)
   if type(path) == "string" and path ~= "" then return end
   error(("%s expects the name of %s file, got %s"):format(what, extension, path == "" and "''"
-    or type(path)), 3)
+    or type(path)), 0)
 end
 
 local function quoted(text)

@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- The result of sw.compare: prints the differences, writes CSV and JSON.
 -- @module softworld.check.comparison
+local build = require "softworld.scene.build"
 local cells = require "softworld.check.cells"
 local json = require "softworld.output.json"
 local methods = require "softworld.methods"
@@ -94,6 +95,8 @@ function Comparison:json(path)
   return cells.write_json(path, json.object{ a = side(own.a), b = side(own.b), same = own.same,
     reason = own.reason, rows = cells.known_rows(columns, own.rows) })
 end
+
+for _, name in ipairs{ "csv", "json" } do Comparison[name] = build.placed(Comparison[name]) end
 
 -- --- the object --------------------------------------------------------------------------------------
 

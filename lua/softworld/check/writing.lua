@@ -2,6 +2,7 @@
 --- The result of run:check: prints as a table, writes CSV, JSON, JUnit XML and a page, all with the same
 -- numbers.
 -- @module softworld.check.writing
+local build = require "softworld.scene.build"
 local cells = require "softworld.check.cells"
 local checks = require "softworld.checks"
 local core = require "softworld.core"
@@ -115,6 +116,8 @@ function Check:junit(path)
     write "</testsuite>\n"
   end)
 end
+
+for _, name in ipairs{ "csv", "json", "junit" } do Check[name] = build.placed(Check[name]) end
 
 -- --- the object ----------------------------------------------------------------------------------------
 

@@ -41,21 +41,38 @@ function Section:width(direction)
   return high - low + 2 * self.skin
 end
 
---- Draws its outline, with those of others over it: { path = "x.svg" | ".png" | ".pdf", name =,
--- with = { { name, section }, ... }, title = }. Returns the path.
-function Section:chart(options)
-  if type(checks.field(options, "path")) ~= "string" then
-    error("section:chart takes { path = 'file.svg', name =, with = { { name, section }, ... } }", 2)
+local chart_takes = checks.set "path name with title"
+
+local function text_of(options, key)
+  local value = options[key]
+  if value ~= nil and type(value) ~= "string" then
+    error(("section:chart: %s must be a string, got %s"):format(key, checks.got(value)), 0)
   end
-  local list = { { options.name or ("s = %.4g m"):format(self.s), self } }
-  for i, item in ipairs(options.with or {}) do
+  return value
+end
+
+local function chart(self, options)
+  if type(checks.field(options, "path")) ~= "string" then
+    error("section:chart takes { path = 'file.svg', name =, with = { { name, section }, ... } }", 0)
+  end
+  checks.keys("section:chart", options, chart_takes, 0)
+  local list = { { text_of(options, "name") or ("s = %.4g m"):format(self.s), self } }
+  local with = options.with == nil and {} or options.with
+  if checks.kind(with) ~= "table" then
+    error("section:chart: with must be a list of { name, section }, got " .. checks.got(with), 0)
+  end
+  for i, item in ipairs(with) do
     if type(item) ~= "table" or getmetatable(item[2]) ~= Section then
-      error(("section:chart: with, item %d, must be { name, section }"):format(i), 2)
+      error(("section:chart: with, item %d, must be { name, section }"):format(i), 0)
     end
     list[#list + 1] = { checks.shown(item[1]), item[2] }
   end
-  return require("softworld.output.outlines").draw(options.path, list, options.title)
+  return require("softworld.output.outlines").draw(options.path, list, text_of(options, "title"))
 end
+
+--- Draws its outline, with those of others over it: { path = "x.svg" | ".png" | ".pdf", name =,
+-- with = { { name, section }, ... }, title = }. Returns the path.
+Section.chart = build.placed(chart)
 
 local function range(list)
   return math.min(table.unpack(list)), math.max(table.unpack(list))
