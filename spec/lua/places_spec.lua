@@ -22,7 +22,7 @@ describe("an error", function()
   local tie = scene:tie(wire, { s = 0.1 })
   tie:release()
   scene:force{ kind = function() end }
-  local judged, tube_section = {}, nil
+  local judged, tube_section = {}
   do
     local other, tube = world()
     local check = other:run{ duration = 0.001 }:check{}

@@ -18,7 +18,8 @@ describe("section:chart", function()
     assert.error_matches(function() section:chart{} end, "section:chart takes")
     assert.error_matches(function() section:chart{ path = path, with = { section } } end, "with, item 1")
     for says, options in pairs{ ["with must be a list of { name, section }, got 3"] = { with = 3 },
-      ["title must be a string, got 7"] = { title = 7 }, ["name must be a string, got a table"] = { name = {} },
+      ["title must be a string, got 7"] = { title = 7 },
+      ["name must be a string, got a table"] = { name = {} },
       ["there is no parameter 'titel'; did you mean 'title'?"] = { titel = "t" } } do
       options.path = path
       local fine, why = pcall(section.chart, section, options)
