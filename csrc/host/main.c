@@ -4,6 +4,7 @@
 #include <lauxlib.h>
 #include <lua.h>
 #include <lualib.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -63,6 +64,8 @@ static int flush_output(int status) {
 
 int main(int argc, char **argv) {
   host_options o;
+  signal(SIGXFSZ,
+         SIG_IGN); /* a file above the limit of ulimit -f is an error of writing, not an end */
   int status = host_options_read(&o, argc, argv);
   if (status != HOST_OK) return status;
   if (o.help) {

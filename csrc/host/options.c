@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "host/host.h"
+#include "softworld.h"
 
 static const char help_text[] =
     "usage: softworld [options] [script [arguments]]\n"
@@ -44,6 +45,16 @@ static int usage(const char *what, const char *word) {
   return HOST_USAGE;
 }
 
+static int no_option(const char *word) {
+  static const char *const options[] = {"--check", "--functions", "--help",
+                                        "--log",   "--version",   "--view"};
+  const char *near =
+      sw_nearest_name(word, options, sizeof options[0], sizeof options / sizeof options[0]);
+  if (!near) return usage("there is no option", word);
+  fprintf(stderr, "softworld: there is no option '%s'; did you mean '%s'?\n", word, near);
+  return HOST_USAGE;
+}
+
 static int is_help(const char *word) {
   return strcmp(word, "-h") == 0 || strcmp(word, "--help") == 0;
 }
@@ -70,7 +81,7 @@ static int read_option(host_options *o, int *at) {
   } else if (is_help(word)) {
     o->help = 1;
   } else {
-    return usage("there is no option", word);
+    return no_option(word);
   }
   return HOST_OK;
 }

@@ -77,6 +77,23 @@ describe("softworld script.lua", function()
     assert.equal("softworld: cannot write the output: No space left on device\n", err)
     assert.equal(1, code)
   end)
+
+  -- ulimit -f counts blocks of 512 or 1024 B; the page of a run has more than 1 MB.
+  it("goes on after a file that grew beyond the limit of files, and leaves nothing of it", function()
+    local folder = program.folder()
+    local name = program.write(folder .. "/s.lua", [[
+      local scene = require "softworld".scene{}
+      local wire = scene:wire{ E = 1e7, density = 1000, radius = 0.002, from = { 0, 0, 0 }, to = { 1, 0, 0 } }
+      local run = scene:run{ duration = 0.02 }
+      local fine, why = pcall(run.report, run, ... .. "/page.html")
+      print(fine, why:match "page.html: (.*)")
+    ]])
+    local out, err, code = program.shell(("ulimit -f 8; %s %s %s"):format(program.quote(program.path),
+      program.quote(name), program.quote(folder)))
+    assert.equal("false\tFile too large\n", out)
+    assert.same({ "", 0 }, { err, code })
+    assert.equal("s.lua\n", (program.shell("ls " .. program.quote(folder))))
+  end)
 end)
 
 describe("softworld options", function()
