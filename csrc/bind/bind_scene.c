@@ -89,11 +89,12 @@ static int mod_sleep(lua_State *L) {
 
 /* core.nearest(word, names) -> the name that word may be a misspelling of, or nil */
 static int mod_nearest(lua_State *L) {
-  const char *names[128];
   size_t count = 0;
   const char *word = luaL_checkstring(L, 1);
   luaL_checktype(L, 2, LUA_TTABLE);
-  for (; count < 128 && lua_rawgeti(L, 2, (lua_Integer)count + 1) == LUA_TSTRING; count++) {
+  const size_t most = lua_rawlen(L, 2);
+  const char **names = lua_newuserdatauv(L, (most + 1) * sizeof *names, 0);
+  for (; count < most && lua_rawgeti(L, 2, (lua_Integer)count + 1) == LUA_TSTRING; count++) {
     names[count] = lua_tostring(L, -1); /* the list keeps it alive */
     lua_pop(L, 1);
   }

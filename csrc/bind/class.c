@@ -160,15 +160,17 @@ static const char *word_of(lua_State *L) {
 /* Raises for the name at index 2, which the class does not have. Upvalues as of meta_index. */
 static int unknown_field(lua_State *L) {
   if (lua_type(L, 2) != LUA_TSTRING) return luaL_error(L, "%s has no such field", word_of(L));
-  const char *names[64];
+  const char **names = NULL;
   size_t count = 0;
-  for (int up = 2; up <= 3; up++) {
-    lua_pushnil(L);
-    while (count < 64 && lua_next(L, lua_upvalueindex(up))) {
-      lua_pop(L, 1);
-      if (lua_type(L, -1) == LUA_TSTRING) names[count++] = lua_tostring(L, -1);
-    }
-    lua_settop(L, 2);
+  for (int pass = 0; pass < 2; pass++) { /* counts the names, then collects them */
+    if (pass) names = lua_newuserdatauv(L, (count + 1) * sizeof *names, 0);
+    count = 0;
+    for (int up = 2; up <= 3; up++)
+      for (lua_pushnil(L); lua_next(L, lua_upvalueindex(up)); lua_pop(L, 1)) {
+        if (lua_type(L, -2) != LUA_TSTRING) continue;
+        if (pass) names[count] = lua_tostring(L, -2);
+        count++;
+      }
   }
   const char *word = lua_tostring(L, 2);
   const char *near = sw_nearest_name(word, names, sizeof names[0], count);

@@ -121,3 +121,25 @@ describe("within a process", function()
     assert.near(0.25, seen, 1e-12)
   end)
 end)
+
+describe("the nearest of many names", function()
+  it("is found behind any number of others", function()
+    local names = {}
+    for k = 1, 1000 do names[k] = ("other%d"):format(k) end
+    names[1001] = "wanted"
+    assert.equal("wanted", sw.core.nearest("wantd", names))
+    assert.is_nil(sw.core.nearest("wantd", {}))
+    names[900] = false -- a list ends where it is no list of texts
+    assert.is_nil(sw.core.nearest("wantd", names))
+  end)
+
+  it("is proposed by scene:find among hundreds of objects", function()
+    local many = sw.scene{}
+    for k = 1, 200 do
+      many:obstacle{ name = ("peg of row %d"):format(k), shape = "sphere", radius = 0.01, at = { k, 0, 0 } }
+    end
+    many:obstacle{ name = "last of all", shape = "sphere", radius = 0.01 }
+    local _, why = pcall(many.find, many, "lst of all")
+    assert.truthy(tostring(why):find("did you mean 'last of all'?", 1, true), why)
+  end)
+end)

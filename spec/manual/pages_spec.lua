@@ -74,6 +74,11 @@ describe("manual", function()
   it("suggests the nearest topic, and gives exit statuses", function()
     local out, err, code = program.run{ "doc", "gripp" }
     assert.are.same({ "", "softworld: no help on 'gripp'; did you mean 'grip'?\n", 1 }, { out, err, code })
+    for typo, name in pairs{ ["scene:wir"] = "scene:wire", ["gripper:grsp"] = "gripper:grasp",
+      handovr = "handover" } do
+      local _, says = program.run{ "doc", typo }
+      assert.are.equal(("softworld: no help on '%s'; did you mean '%s'?\n"):format(typo, name), says)
+    end
     out, err, code = program.run{ "doc", "qqqqqqqqqq" }
     assert.are.same({ "", "softworld: no help on 'qqqqqqqqqq'; softworld doc lists the topics\n", 1 },
       { out, err, code })

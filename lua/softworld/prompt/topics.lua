@@ -313,13 +313,21 @@ function topics.text(topic)
   return #texts > 0 and table.concat(texts, "\n\n") or nil
 end
 
+-- Returns the names of all calls and fields: of their owners too if the topic has one.
+local function call_names(topic)
+  local names = checks.sorted(rows.all)
+  if topic:find "[.:]" then return names end
+  for i, name in ipairs(names) do names[i] = name:match "[.:]([%w_]+)$" or name end
+  return names
+end
+
 --- Returns the message for a name without a topic, with the nearest topic.
 function topics.unknown(topic)
   local names = checks.sorted(manual.also)
   local function add(list) table.move(list, 1, #list, #names + 1, names) end
   for _, group in ipairs(manual.groups) do add(group[2]) end
   for _, group in ipairs(topics.reference()) do add(group[2]) end
-  local near = core.nearest(topic, names)
+  local near = core.nearest(topic, names) or core.nearest(topic, call_names(topic))
   return ("no help on '%s'; %s"):format(topic, near and ("did you mean '%s'?"):format(near)
     or "help() lists the topics")
 end
