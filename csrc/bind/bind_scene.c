@@ -47,10 +47,12 @@ static int mod_type(lua_State *L) {
   return 1;
 }
 
-/* core.busy(scene) -> true inside a step or a function of time */
+/* core.busy(scene) -> true inside a step, a function of time or an observer; true in an observer */
 static int mod_busy(lua_State *L) {
-  lua_pushboolean(L, sw_scene_busy(lsw_check_scene(L)));
-  return 1;
+  const int busy = sw_scene_busy(lsw_check_scene(L));
+  lua_pushboolean(L, busy);
+  lua_pushboolean(L, busy == 2);
+  return 2;
 }
 
 /* core.exists(object) -> true if its scene still has the object. Released holds, forces and joins

@@ -29,7 +29,7 @@ sw_status sw_scene_readable(const sw_scene *s, sw_error *err) {
                  s->name, s->why.text);
 }
 
-int sw_scene_busy(const sw_scene *s) { return s->running > 0 || s->looking; }
+int sw_scene_busy(const sw_scene *s) { return s->running > 0 ? 1 : s->looking ? 2 : 0; }
 
 sw_status sw_scene_still(const sw_scene *s, sw_error *err) {
   if (s->running)

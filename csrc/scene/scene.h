@@ -24,8 +24,8 @@ typedef struct sw_handle {
 const char *sw_scene_name(const sw_scene *scene);
 double sw_scene_time(const sw_scene *scene); /* [s] */
 sw_vec sw_scene_gravity(const sw_scene *scene);
-/* 1 inside a step or a user's function of the scene: every change is refused with
- * SW_EBUSY, and the scene must not be freed. */
+/* 1 inside a step or a user's function of the scene, 2 inside an observer: every change is refused
+ * with SW_EBUSY, and the scene must not be freed. */
 int sw_scene_busy(const sw_scene *scene);
 
 /* SW_EDIVERGED with the reason when the last run diverged: nothing may be read

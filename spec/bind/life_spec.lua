@@ -319,3 +319,75 @@ describe("names", function()
     scene:clamp(wire, { s = 0.5, name = "again" })
   end)
 end)
+
+-- A process, an observer's change and a condition are called between two steps, where the core allows it.
+describe("closing a scene during its run", function()
+  local lib = require "softworld"
+  local ways = {
+    ["in a process"] = function(scene, close)
+      scene:process(function(p)
+        p:wait(0.01)
+        close()
+        p:wait(0.01)
+      end)
+    end,
+    ["in a change of an observer"] = function(scene, close)
+      scene:observe{ every = 0.01, call = function(observer)
+        if observer.calls == 1 then observer:change(close) end
+      end }
+      scene:process(function(p) p:wait(0.05) end)
+    end,
+    ["in a condition"] = function(scene, close)
+      scene:process(function(p)
+        p:wait_until(function()
+          close()
+          return true
+        end)
+      end)
+    end,
+  }
+  for name, way in pairs(ways) do
+    it("is refused " .. name .. ", and the run goes on", function()
+      local scene = lib.scene{ name = "kept" }
+      local wire = scene:wire{ E = 1e7, density = 1000, radius = 0.003, segments = 6, from = { 0, 0, 0 },
+        to = { 0.3, 0, 0 } }
+      local why, calls = nil, 0
+      way(scene, function()
+        calls = calls + 1
+        why = select(2, pcall(function() scene:close() end))
+      end)
+      assert.is_true(scene:run{ dt = 0.005 }.ok)
+      assert.are.equal(1, calls)
+      assert.matches("life_spec.lua:%d+: scene:close: a run of scene 'kept' is under way", why)
+      assert.are.equal(6, wire.segments)
+      scene:close()
+      scene:close() -- and twice, as any scene
+      assert.has_error(function() return wire.segments end)
+    end)
+  end
+end)
+
+describe("an observer that changes its scene", function()
+  it("is told what to use instead, by every method", function()
+    local scene = require "softworld".scene{}
+    local wire = scene:wire{ E = 1e7, density = 1000, radius = 0.003, segments = 6, from = { 0, 0, 0 },
+      to = { 0.3, 0, 0 } }
+    local said = {}
+    scene:observe{ every = 0.01, call = function()
+      for name, change in pairs{
+        settle = function() scene:settle() end,
+        remove = function() scene:remove(wire) end,
+        set = function() scene:set{ gravity = { 0, 0, 0 } } end,
+        contact = function() scene:wire_contact{} end,
+        remodel = function() wire:remodel{ model = "string" } end,
+        gripper = function() scene:gripper{} end,
+      } do
+        said[name] = select(2, pcall(change))
+      end
+    end }
+    assert.is_true(scene:run{ duration = 0.02 }.ok)
+    for _, name in ipairs{ "settle", "remove", "set", "contact", "remodel", "gripper" } do
+      assert.matches("use observer:change(function() ... end)", said[name], 1, true)
+    end
+  end)
+end)

@@ -40,9 +40,11 @@ local function check_scene(scene, what)
   if core.type(scene) ~= "scene" then
     error(("%s is a method: call it with a colon, scene:%s"):format(what, what:match ":(.*)"), 0)
   end
-  if core.busy(scene) then
-    error(("%s: scene '%s' cannot be changed from inside a step or a function of time")
-      :format(what, scene.name), 0)
+  local busy, observed = core.busy(scene)
+  if busy then
+    error(("%s: scene '%s' cannot be changed %s"):format(what, scene.name, observed
+      and "inside an observer's function; use observer:change(function() ... end)"
+      or "from inside a step or a function of time"), 0)
   end
   if build.guard then build.guard(what) end -- set by softworld.run.process, which may keep steps
 end
@@ -331,6 +333,18 @@ function class.scene.forces(scene)
 end
 
 -- --- snapshots ------------------------------------------------------------------
+
+local close = class.scene.close
+local function name_of_scene(scene) return scene.name end
+--- Frees the scene. The variables of a process that runs would be left without it, so a run must have ended.
+function class.scene.close(scene)
+  local open, name = core.type(scene) == "scene", nil
+  if open then open, name = pcall(name_of_scene, scene) end
+  if open and not core.busy(scene) and build.data(scene).running then -- else the core says why not
+    error(("scene:close: a run of scene '%s' is under way; close it after the run"):format(name), 2)
+  end
+  return build.call(3, close, scene)
+end
 
 local new_snapshot = class.scene.snapshot
 --- Returns a snapshot of the scene that can be restored any number of times. Processes are not
