@@ -131,6 +131,14 @@ describe("softworld options", function()
     assert.equal("a file called -e\n", out)
   end)
 
+  it("have the nearest name proposed", function()
+    for typo, name in pairs{ ["--chek"] = "--check", ["--veiw"] = "--view", ["--hlep"] = "--help" } do
+      local _, err, code = run { typo }
+      assert.equal(("softworld: there is no option '%s'; did you mean '%s'?\n"):format(typo, name), err)
+      assert.equal(2, code)
+    end
+  end)
+
   it("print the version and the usage", function()
     local out, _, code = run { "-v" }
     assert.matches("^SoftWorld %d+%.%d+%.%d+ %(Lua 5%.4%.%d+%)\n$", out)
