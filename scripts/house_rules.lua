@@ -25,7 +25,7 @@ rules.ROOMS = {
   scene = { "base", "motion", "shape", "state", "wire", "force", "system", "integrate", "contact", "link",
     "record", "strand" },
   -- conversion of the scene to one system of bodies, lines and webs, and back
-  body = { "base", "state", "force", "system", "integrate", "contact", "link", "strand", "scene" },
+  body = { "base", "state", "solve", "force", "system", "integrate", "contact", "link", "strand", "scene" },
   -- grippers
   grip = { "base", "motion", "shape", "state", "wire", "solve", "system", "contact", "link", "strand",
     "scene", "body" },

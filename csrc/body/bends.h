@@ -1,29 +1,40 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A wire's bends beside its clamping holds, which stay when it gets other edges. Of the scene's
- * inside. */
+/* A wire's bends, which stay when it gets other edges or holds. Of the scene's inside. */
 #ifndef SW_BODY_BENDS_H
 #define SW_BODY_BENDS_H
 
+#include "link/hold.h"
 #include "scene/scene.h"
-#include "state/mesh.h"
 
-/* The bends on one side of a hold. */
-typedef struct sw_side_bends {
-  size_t hold;    /* slot */
-  int side;       /* 1: where arc lengths grow */
-  double longest; /* edge there [m] */
-  sw_mesh_bends bends;
-} sw_side_bends;
+/* Bend at an arc length, as a vector that turns the wire's direction as arc lengths grow. Two in
+ * sequence at the same place: before and after a jump. */
+typedef struct sw_bend {
+  double s;      /* [m] */
+  sw_vec vector; /* [1/m] */
+} sw_bend;
+
+typedef struct sw_bends {
+  sw_bend *list; /* (count) with growing s */
+  size_t count;
+} sw_bends;
 
 typedef struct sw_wire_bends {
-  sw_side_bends *list;
-  size_t count;
+  sw_bends loads, unloaded; /* by loads; of the unloaded wire, if the wire has frames */
+  double longest;           /* edge [m] */
 } sw_wire_bends;
 
-/* Reads the bends of a wire that is a line; the scene is not built. Free the list. SW_ENOMEM. */
-sw_status sw_scene_keep_bends(const sw_scene *scene, size_t wire, sw_wire_bends *out);
-/* Gives another mesh of the wire, which has the same holds, these bends. SW_ENOMEM. */
+/* Reads the bends of a wire that is a line; the scene is not built. SW_ENOMEM. */
+sw_status sw_scene_read_bends(const sw_scene *scene, size_t wire, sw_wire_bends *out);
+void sw_wire_bends_free(sw_wire_bends *bends);
+
+/* Shifts nodes near these ends of holds (count) of a wire, which has got other edges or holds,
+ * until it has these bends there as nearly as it can. Living holds and joints stay, but not
+ * `fresh`, a hold that is about to grasp the wire; NULL: none. *done: 0 where another shape would
+ * have been found. SW_ENOMEM. */
 sw_status sw_scene_give_bends(const sw_scene *scene, size_t wire, const sw_wire_bends *bends,
-                              sw_mesh *mesh);
+                              const double *places, size_t count, sw_hold *fresh, int *done);
+
+/* The same near all of its living holds. */
+sw_status sw_scene_give_all_bends(const sw_scene *scene, size_t wire, const sw_wire_bends *bends);
 
 #endif

@@ -38,9 +38,8 @@ typedef struct sw_body_class {
    * SW_ENOMEM. */
   sw_status (*place)(sw_scene *scene, sw_hold *hold, const sw_hold_args *args, int fresh);
   sw_status (*grasp)(const sw_scene_wire *wire, sw_hold *hold, const sw_hold_args *args);
-  /* lean: shifts what a clamping hold has by what its hinges need (way 1, see sw_mesh_lean), or
-   * back, before it lets go or nodes change (-1). NULL: nothing to shift. SW_ENOMEM. */
-  sw_status (*lean)(sw_scene *scene, sw_hold *hold, int way);
+  /* let_go: the hold ends, and the wire keeps its bends. NULL: nothing to do. SW_ENOMEM. */
+  sw_status (*let_go)(sw_scene *scene, sw_hold *hold);
   sw_status (*refine)(const sw_scene *scene, const sw_hold *hold, sw_mesh *mesh);
   /* Adds what the hold holds to the system's held nodes, each like `node`. */
   void (*add_held)(const sw_body *body, const sw_hold *hold, sw_held_node node, sw_system *system);

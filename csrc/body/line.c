@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "body/bends.h"
 #include "body/body.h"
 #include "body/hold.h"
 #include "body/join.h"
@@ -100,11 +101,12 @@ static int is_short(const sw_mesh *m, double low, double high) {
   return sw_mesh_node(m, high) - sw_mesh_node(m, low) < LEAST_EDGES;
 }
 
-/* Makes enough edges between h and the holds beside it. */
-static sw_status refine_gaps(const sw_scene *s, const sw_hold *h, sw_mesh *m) {
+/* Makes enough edges between h and the holds beside it. stays: 1 if its own nodes must not move. */
+static sw_status refine_gaps(const sw_scene *s, const sw_hold *h, int stays, sw_mesh *m) {
   double *keep SW_LOCAL = new_places(s, h->wire);
   if (!keep) return SW_ENOMEM;
-  const size_t count = kept_places(s, h->wire, keep);
+  size_t count = kept_places(s, h->wire, keep);
+  if (stays) keep[count++] = h->s1, keep[count++] = h->s2;
   SW_EACH(hold, o, s) {
     double low, high;
     if (!gap_between(h, o, &low, &high)) continue;
@@ -164,85 +166,60 @@ static sw_status place_ends(sw_scene *s, sw_hold *h, const double ends[2], doubl
   return SW_OK;
 }
 
-/* The hold beside a new one, and the wire's bends from it to the new one. */
-typedef struct beside {
-  sw_hold *hold; /* NULL: none */
-  int side;      /* on which side of it the new one is: 1 or -1 */
-  sw_vec director;
-  sw_mesh_bends bends;
-} beside;
-
-/* Finds the nearest hold that is so near that edges between are halved. */
-static sw_status find_beside(sw_scene *s, const sw_hold *h, beside *b) {
-  const sw_mesh *m = &sw_scene_wire_in(s, h->wire)->mesh;
-  int sides = 0;
-  double least = HUGE_VAL, low, high, *keep SW_LOCAL = new_places(s, h->wire);
-  if (!keep) return SW_ENOMEM;
-  SW_EACH(hold, o, s) {
-    if (!leans(o) || !gap_between(h, o, &low, &high) || !is_short(m, low, high)) continue;
-    if (high - low < least) b->hold = o, least = high - low;
-    sides |= o->s2 < h->s1 ? 1 : 2;
-  }
-  if (sides == 3) b->hold = NULL; /* it cannot come from both */
-  if (!b->hold) return SW_OK;
-  b->side = b->hold->s2 < h->s1 ? 1 : -1;
-  const size_t from = sw_mesh_node(m, b->side > 0 ? b->hold->s2 : b->hold->s1);
-  b->director = sw_scale(sw_rotate(b->hold->turn, b->hold->director[b->side > 0]), b->side);
-  if (!sw_mesh_read_bends(m, from, b->side, b->director, b->side > 0 ? h->s2 : h->s1, keep,
-                          kept_places(s, h->wire, keep), &b->bends))
-    b->hold = NULL;
-  return SW_OK;
-}
-
-/* Puts the hold where the wire comes from the hold beside it. *done: 0 if it could not. */
-static sw_status come_from(sw_scene *s, sw_hold *h, const beside *b, int *done) {
-  sw_mesh *m = &sw_scene_wire_in(s, h->wire)->mesh;
-  double *keep SW_LOCAL = new_places(s, h->wire);
-  if (!keep) return SW_ENOMEM;
-  const size_t first = sw_mesh_node(m, h->s1), last = sw_mesh_node(m, h->s2);
-  const size_t from = sw_mesh_node(m, b->side > 0 ? b->hold->s2 : b->hold->s1);
-  SW_TRY(sw_mesh_continue(m, from, b->side > 0 ? first : last, b->side > 0 ? last : first,
-                          b->director, &b->bends, keep, kept_places(s, h->wire, keep), h->director,
-                          done));
-  for (int side = 0; side < 2 && *done && m->rest; side++) {
-    sw_mesh_frame *f = &h->frame[side];
-    f->normal = sw_carry_unit(f->normal, f->tangent, h->director[side]);
-    f->tangent = h->director[side];
-  }
-  return SW_OK;
-}
-
 /* 1 if the user gives the direction that the hold holds. */
 static int is_given(const sw_hold_args *a) {
   return isfinite(a->direction.x) && sw_norm(a->direction) > 0;
 }
 
-/* Holds near the new one leave the curve by another length where edges change: they go back to the
- * curve before, and leave it again. The nearest one stays: the new hold is put where the wire comes
- * from it. If each hold were put on the curve by itself, the little wire between both would not fit
- * between their places and directions. */
-static sw_status place(sw_scene *s, sw_hold *h, const sw_hold_args *a, int fresh) {
-  sw_mesh *m = &sw_scene_wire_in(s, h->wire)->mesh;
-  const size_t holds = sw_scene_hold_slots(s);
-  int done = 0, *again SW_LOCAL = sw_alloc(holds, sizeof *again);
-  double ends[2], low, high;
-  beside b = {NULL};
-  if (!again) return SW_ENOMEM;
-  sw_body_interval(m, a, &ends[0], &ends[1]);
-  h->s1 = ends[0], h->s2 = ends[1];
-  const int bends = sw_scene_wire_in(s, h->wire)->beam.EI > 0;
-  if (fresh && bends && leans(h) && !is_given(a)) SW_TRY(find_beside(s, h, &b));
-  for (size_t k = 0; k < holds; k++) {
-    sw_hold *o = sw_scene_hold_in(s, k);
-    again[k] = fresh && o != b.hold && gap_between(h, o, &low, &high) && is_short(m, low, high);
-    if (again[k]) SW_TRY(lean(s, o, -1));
-  }
+/* 1 if the wire keeps its bends as the hold comes or goes. */
+static int keeps_bends(const sw_scene *s, const sw_hold *h) {
+  const sw_scene_wire *w = sw_scene_wire_in(s, h->wire);
+  return w->beam.EI > 0 && !w->mesh.drawn && !sw_hold_passes(h) && !h->formed;
+}
+
+/* Makes nodes for the hold where the wire is. */
+static sw_status make_nodes(sw_scene *s, sw_hold *h, const sw_hold_args *a, const double ends[2],
+                            int fresh) {
   SW_TRY(place_ends(s, h, ends, a->width));
-  SW_TRY(refine_gaps(s, h, m));
-  for (size_t k = 0; k < holds; k++)
-    if (again[k]) SW_TRY(lean(s, sw_scene_hold_in(s, k), 1));
-  if (b.hold) SW_TRY(come_from(s, h, &b, &done));
+  return refine_gaps(s, h, !fresh, &sw_scene_wire_in(s, h->wire)->mesh);
+}
+
+/* Makes nodes for a hold that comes new to the wire, with the bends that the wire has. */
+static sw_status place_on_bends(sw_scene *s, sw_hold *h, const sw_hold_args *a,
+                                const double ends[2], int *done) {
+  sw_wire_bends bends;
+  sw_status status = sw_scene_read_bends(s, h->wire, &bends);
+  if (status == SW_OK) status = make_nodes(s, h, a, ends, 1);
+  const double places[2] = {h->s1, h->s2};
+  if (status == SW_OK) status = sw_scene_give_bends(s, h->wire, &bends, places, 2, h, done);
+  sw_wire_bends_free(&bends);
+  return status;
+}
+
+static sw_status place(sw_scene *s, sw_hold *h, const sw_hold_args *a, int fresh) {
+  const sw_mesh *m = &sw_scene_wire_in(s, h->wire)->mesh;
+  int done = 0;
+  double ends[2];
+  sw_body_interval(m, a, &ends[0], &ends[1]);
+  if (!fresh || is_given(a) || !keeps_bends(s, h))
+    SW_TRY(make_nodes(s, h, a, ends, fresh));
+  else
+    SW_TRY(place_on_bends(s, h, a, ends, &done));
   return fresh && !done ? lean(s, h, 1) : SW_OK;
+}
+
+/* The hold lets go: the wire keeps its bends. */
+static sw_status let_go(sw_scene *s, sw_hold *h) {
+  sw_wire_bends bends;
+  const double places[2] = {h->s1, h->s2};
+  int done = 0;
+  h->alive = keeps_bends(s, h);
+  if (!h->alive) return lean(s, h, -1);
+  sw_status status = sw_scene_read_bends(s, h->wire, &bends);
+  h->alive = 0;
+  if (status == SW_OK) status = sw_scene_give_bends(s, h->wire, &bends, places, 2, NULL, &done);
+  sw_wire_bends_free(&bends);
+  return status == SW_OK && !done ? lean(s, h, -1) : status;
 }
 
 /* Finds the held places in the hold's frame. Its origin is the point at s, its axes are the world's
@@ -283,7 +260,7 @@ sw_status sw_scene_make_places(const sw_scene *s, size_t wire, sw_mesh *m) {
   for (size_t k = 0; k < n && status == SW_OK; k++) status = place_exactly(m, keep[k], keep, n);
   sw_free(keep);
   for (size_t k = 0; k < sw_scene_hold_slots(s) && status == SW_OK; k++)
-    if (is_on(sw_scene_hold_in(s, k), wire)) status = refine_gaps(s, sw_scene_hold_in(s, k), m);
+    if (is_on(sw_scene_hold_in(s, k), wire)) status = refine_gaps(s, sw_scene_hold_in(s, k), 0, m);
   return status;
 }
 
@@ -342,7 +319,7 @@ const sw_body_class sw_body_line = {.held = "node",
                                     .take = take,
                                     .widen = widen,
                                     .place = place,
-                                    .lean = lean,
+                                    .let_go = let_go,
                                     .grasp = grasp,
                                     .add_held = add_held,
                                     .check_holds = check_holds,

@@ -226,7 +226,7 @@ sw_status sw_scene_retake_hold(sw_scene *s, sw_hold *h) {
   sw_hold new = without_places(h);
   a.s = fmin(a.s * m->scale / h->scale, m->s[m->n - 1]);
   take_directions(m, &new, &a);
-  sw_status status = take_places(s, &new, &a, 0);
+  sw_status status = take_places(s, &new, &a, 1); /* as if it were made on it */
   if (status != SW_OK) return drop_places(&new), status;
   return become(s, h, &new, h->turn);
 }
@@ -240,7 +240,7 @@ sw_status sw_scene_release_hold(sw_scene *s, sw_handle hold, sw_error *err) {
   SW_TRY(sw_scene_unbuild(s));
   h->alive = 0; /* its own places may move */
   const sw_body_class *body = sw_body_class_of(sw_scene_wire_in(s, h->wire));
-  if (body->lean && body->lean(s, h, -1) != SW_OK)
+  if (body->let_go && body->let_go(s, h) != SW_OK)
     return h->alive = 1, sw_fail(err, SW_ENOMEM, "%s: out of memory", h->name);
   h->last_pose = now.pose;
   sw_drive_free(&h->drive);

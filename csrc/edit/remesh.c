@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "body/bends.h"
 #include "body/build.h"
 #include "body/hold.h"
 #include "edit/edit.h"
@@ -157,14 +158,18 @@ static sw_status carry_over(sw_scene *s, size_t wire, size_t segments) {
     held[2 * count] = h->s1;
     held[2 * count++ + 1] = h->s2;
   }
-  sw_status status = new_places(s, wire, segments, &places);
+  sw_wire_bends bends = {0};
+  sw_status status = w->beam.EI > 0 ? sw_scene_read_bends(s, wire, &bends) : SW_OK;
+  if (status == SW_OK) status = new_places(s, wire, segments, &places);
   if (status == SW_OK) status = sw_mesh_resample(&w->mesh, places.s, places.n, held, count, &fresh);
   if (status == SW_OK) {
     correct_twist(s, wire, &fresh);
     sw_mesh_free(&w->mesh);
     w->mesh = fresh;
     w->mesh.spacing = places.spacing;
+    if (bends.loads.list) status = sw_scene_give_all_bends(s, wire, &bends);
   }
+  sw_wire_bends_free(&bends);
   sw_mesh_free(&places);
   return status;
 }

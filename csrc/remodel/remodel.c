@@ -180,16 +180,28 @@ static sw_status check_twist(const sw_scene_wire *w, const sw_line *l, sw_error 
                  w->name, most);
 }
 
+/* Gives the next model the tension that the wire has on either side of its holds. */
+static sw_status take_tension(const sw_scene *s, size_t wire, sw_mesh *to) {
+  size_t count = 0;
+  double *held SW_LOCAL = sw_alloc(2 * sw_scene_hold_slots(s) + 1, sizeof *held);
+  if (!held) return SW_ENOMEM;
+  SW_EACH(hold, h, s)
+    if (h->alive && h->wire == wire) held[count++] = h->s1, held[count++] = h->s2;
+  sw_mesh_sample_tension(&sw_scene_wire_in((sw_scene *)s, wire)->mesh, held, count / 2, to);
+  return SW_OK;
+}
+
 /* Replaces the wire. A rod that becomes a rod with other edges keeps its bends beside holds. */
 static sw_status exchange(sw_scene *s, size_t wire, sw_scene_wire *next, sw_error *err) {
   const sw_scene_wire *w = sw_scene_wire_in(s, wire);
   const int rods = !w->strand.web && !next->strand.web && w->beam.EI > 0;
   sw_wire_bends bends = {0};
-  sw_status kept = rods ? sw_scene_keep_bends(s, wire, &bends) : SW_OK;
+  sw_status kept = rods ? sw_scene_read_bends(s, wire, &bends) : SW_OK;
+  if (kept == SW_OK && rods) kept = take_tension(s, wire, &next->mesh);
   sw_status status = kept == SW_OK ? sw_scene_replace_wire(s, wire, next, err) : kept;
   if (status == SW_OK && rods)
-    kept = sw_scene_give_bends(s, wire, &bends, &sw_scene_wire_in(s, wire)->mesh);
-  sw_free(bends.list);
+    kept = sw_scene_give_all_bends(s, wire, &bends);
+  sw_wire_bends_free(&bends);
   return kept == SW_OK ? status : sw_fail(err, kept, "remodel: out of memory");
 }
 

@@ -63,6 +63,11 @@ sw_status sw_mesh_like(const sw_mesh *other, size_t n, sw_mesh *to);
 sw_status sw_mesh_resample(const sw_mesh *from, const double *s, size_t count, const double *held,
                            size_t held_count, sw_mesh *out);
 
+/* Gives a mesh of the same wire the tension that its edges have at these places. Tension jumps at
+ * the ends of stretches that are held (as above). */
+void sw_mesh_sample_tension(const sw_mesh *from, const double *held, size_t held_count,
+                            sw_mesh *to);
+
 /* Puts node i, which was moved or inserted on its edges' chords, and its neighbours on the curve
  * through the nodes before, if the unloaded wire is curved there. keep: arc lengths (count) of
  * nodes that must stay. SW_ENOMEM. */
@@ -82,36 +87,6 @@ sw_status sw_mesh_halve(sw_mesh *mesh, double low, double high, const double *ke
  * (-1). keep: as above. SW_ENOMEM. */
 sw_status sw_mesh_lean(sw_mesh *mesh, size_t first, size_t last, int way, const double *keep,
                        size_t count);
-
-/* Bends of a wire at nodes on one side of a hold, the hold's own first. */
-enum { SW_MESH_BENDS = 32 };
-typedef struct sw_mesh_bends {
-  size_t count;
-  double s[SW_MESH_BENDS];    /* [m] */
-  sw_vec bend[SW_MESH_BENDS]; /* curvature, towards the inside [1/m] */
-} sw_mesh_bends;
-
-/* Reads the bends on one side (1 or -1) of a clamping hold that ends at node `from` and holds the
- * wire's direction, `director`, away from the node. Returns 0 if the wire is straight or straight
- * lines do not tell its bends: it is curved when unloaded, or it has too few edges up to `to` [m]
- * before a node in keep (count). */
-int sw_mesh_read_bends(const sw_mesh *mesh, size_t from, int side, sw_vec director, double to,
-                       const double *keep, size_t count, sw_mesh_bends *out);
-
-/* Puts a new hold, with nodes near to far, where the wire comes from the hold at node `from` with
- * these bends, and the nodes between both and beyond. directors: of the new hold's ends (see
- * sw_hold), turned with it. *done: 0 if nothing was changed, since too little wire is beyond.
- * SW_ENOMEM. */
-sw_status sw_mesh_continue(sw_mesh *mesh, size_t from, size_t near, size_t far, sw_vec director,
-                           const sw_mesh_bends *bends, const double *keep, size_t count,
-                           sw_vec directors[2], int *done);
-
-/* Puts the nodes on one side (1 or -1) of a hold that ends at node `from`, for which nothing moves,
- * where the wire has these bends, read from other edges; longest: of these [m]. Nodes go over to
- * where they are. keep: as above. SW_ENOMEM. */
-sw_status sw_mesh_leave(sw_mesh *mesh, size_t from, int side, sw_vec director,
-                        const sw_mesh_bends *bends, double longest, const double *keep,
-                        size_t count);
 
 /* Gives the wire frames without twist in its present shape. Their first axis at the wire's start is
  * the part of normal across it. straight: 1 if the unloaded wire is straight, else it has the
