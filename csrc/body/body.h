@@ -33,9 +33,9 @@ typedef struct sw_body_class {
   /* Hold. widen: extends an interval to one that can be held [m]. */
   void (*widen)(const sw_mesh *mesh, double *s1, double *s2);
   /* place: finds a new hold's interval, for which nodes may move. fresh: 0 if it held the wire
-   * before the wire's model changed, and stays where it is. grasp: finds what the hold holds,
-   * and its pose. refine: makes enough edges between the hold and others; NULL: place has.
-   * SW_ENOMEM. */
+   * before the wire's model changed, and stays where it is; a line then waits for sw_line_refine.
+   * grasp: finds what the hold holds, and its pose. refine: makes enough edges between the hold and
+   * others; NULL: place has. SW_ENOMEM. */
   sw_status (*place)(sw_scene *scene, sw_hold *hold, const sw_hold_args *args, int fresh);
   sw_status (*grasp)(const sw_scene_wire *wire, sw_hold *hold, const sw_hold_args *args);
   /* let_go: the hold ends, and the wire keeps its bends. NULL: nothing to do. SW_ENOMEM. */
@@ -81,6 +81,9 @@ static inline void sw_body_interval(const sw_mesh *m, const sw_hold_args *a, dou
 /* State at a place of a line (line_at.c); see `at` above. */
 void sw_line_at(const sw_scene *scene, const sw_scene_wire *wire, const sw_body *body, double s,
                 sw_point_state *out);
+
+/* Makes enough edges between all holds of a line, which stay where they are (line.c). SW_ENOMEM. */
+sw_status sw_line_refine(sw_scene *scene, size_t wire);
 
 /* Fails with SW_EINVAL: both hold the same. */
 sw_status sw_scene_held_twice(const sw_scene *scene, const sw_hold *a, const sw_hold *b,

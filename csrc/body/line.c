@@ -90,26 +90,29 @@ static void widen(const sw_mesh *m, double *s1, double *s2) { (void)m, (void)s1,
  * wire's energy grows when edges are halved. */
 enum { LEAST_EDGES = 4 };
 
-/* Finds the wire between hold h and another one; 0: none. */
-static int gap_between(const sw_hold *h, const sw_hold *o, double *low, double *high) {
-  if (!o->alive || o->wire != h->wire || o == h) return 0;
+/* Finds the wire between hold h and another one; 0: none, or a third one holds it in between. */
+static int gap_between(const sw_scene *s, const sw_hold *h, const sw_hold *o, double *low,
+                       double *high) {
+  if (!is_on(o, h->wire) || o == h) return 0;
   *low = o->s2 < h->s1 ? o->s2 : h->s2, *high = o->s2 < h->s1 ? h->s1 : o->s1;
-  return *low < *high;
+  if (!(*low < *high)) return 0;
+  SW_EACH(hold, third, s)
+    if (is_on(third, h->wire) && *low < third->s1 && third->s2 < *high) return 0;
+  return 1;
 }
 
 static int is_short(const sw_mesh *m, double low, double high) {
   return sw_mesh_node(m, high) - sw_mesh_node(m, low) < LEAST_EDGES;
 }
 
-/* Makes enough edges between h and the holds beside it. stays: 1 if its own nodes must not move. */
-static sw_status refine_gaps(const sw_scene *s, const sw_hold *h, int stays, sw_mesh *m) {
+/* Makes enough edges between h and the holds beside it. */
+static sw_status refine_gaps(const sw_scene *s, const sw_hold *h, sw_mesh *m) {
   double *keep SW_LOCAL = new_places(s, h->wire);
   if (!keep) return SW_ENOMEM;
-  size_t count = kept_places(s, h->wire, keep);
-  if (stays) keep[count++] = h->s1, keep[count++] = h->s2;
+  const size_t count = kept_places(s, h->wire, keep);
   SW_EACH(hold, o, s) {
     double low, high;
-    if (!gap_between(h, o, &low, &high)) continue;
+    if (!gap_between(s, h, o, &low, &high)) continue;
     for (size_t before = 0; is_short(m, low, high) && before < m->n;) { /* or nothing is halved */
       before = m->n;
       SW_TRY(sw_mesh_halve(m, low, high, keep, count));
@@ -177,11 +180,10 @@ static int keeps_bends(const sw_scene *s, const sw_hold *h) {
   return w->beam.EI > 0 && !w->mesh.drawn && !sw_hold_passes(h) && !h->formed;
 }
 
-/* Makes nodes for the hold where the wire is. */
-static sw_status make_nodes(sw_scene *s, sw_hold *h, const sw_hold_args *a, const double ends[2],
-                            int fresh) {
+/* Makes nodes for a new hold where the wire is. */
+static sw_status make_nodes(sw_scene *s, sw_hold *h, const sw_hold_args *a, const double ends[2]) {
   SW_TRY(place_ends(s, h, ends, a->width));
-  return refine_gaps(s, h, !fresh, &sw_scene_wire_in(s, h->wire)->mesh);
+  return refine_gaps(s, h, &sw_scene_wire_in(s, h->wire)->mesh);
 }
 
 /* Makes nodes for a hold that comes new to the wire, with the bends that the wire has. */
@@ -189,7 +191,7 @@ static sw_status place_on_bends(sw_scene *s, sw_hold *h, const sw_hold_args *a,
                                 const double ends[2], int *done) {
   sw_wire_bends bends;
   sw_status status = sw_scene_read_bends(s, h->wire, &bends);
-  if (status == SW_OK) status = make_nodes(s, h, a, ends, 1);
+  if (status == SW_OK) status = make_nodes(s, h, a, ends);
   const double places[2] = {h->s1, h->s2};
   if (status == SW_OK) status = sw_scene_give_bends(s, h->wire, &bends, places, 2, h, done);
   sw_wire_bends_free(&bends);
@@ -201,11 +203,12 @@ static sw_status place(sw_scene *s, sw_hold *h, const sw_hold_args *a, int fresh
   int done = 0;
   double ends[2];
   sw_body_interval(m, a, &ends[0], &ends[1]);
-  if (!fresh || is_given(a) || !keeps_bends(s, h))
-    SW_TRY(make_nodes(s, h, a, ends, fresh));
+  if (!fresh) return place_ends(s, h, ends, a->width);
+  if (is_given(a) || !keeps_bends(s, h))
+    SW_TRY(make_nodes(s, h, a, ends));
   else
     SW_TRY(place_on_bends(s, h, a, ends, &done));
-  return fresh && !done ? lean(s, h, 1) : SW_OK;
+  return done ? SW_OK : lean(s, h, 1);
 }
 
 /* The hold lets go: the wire keeps its bends. */
@@ -252,16 +255,23 @@ static sw_status place_exactly(sw_mesh *m, double s, const double *keep, size_t 
   return SW_OK;
 }
 
+/* Makes enough edges between all holds of the wire. */
+static sw_status refine_all(const sw_scene *s, size_t wire, sw_mesh *m) {
+  for (size_t k = 0; k < sw_scene_hold_slots(s); k++)
+    if (is_on(sw_scene_hold_in(s, k), wire)) SW_TRY(refine_gaps(s, sw_scene_hold_in(s, k), m));
+  return SW_OK;
+}
+
+sw_status sw_line_refine(sw_scene *s, size_t wire) {
+  return refine_all(s, wire, &sw_scene_wire_in(s, wire)->mesh);
+}
+
 sw_status sw_scene_make_places(const sw_scene *s, size_t wire, sw_mesh *m) {
-  double *keep = new_places(s, wire);
+  double *keep SW_LOCAL = new_places(s, wire);
   if (!keep) return SW_ENOMEM;
   const size_t n = kept_places(s, wire, keep);
-  sw_status status = SW_OK;
-  for (size_t k = 0; k < n && status == SW_OK; k++) status = place_exactly(m, keep[k], keep, n);
-  sw_free(keep);
-  for (size_t k = 0; k < sw_scene_hold_slots(s) && status == SW_OK; k++)
-    if (is_on(sw_scene_hold_in(s, k), wire)) status = refine_gaps(s, sw_scene_hold_in(s, k), 0, m);
-  return status;
+  for (size_t k = 0; k < n; k++) SW_TRY(place_exactly(m, keep[k], keep, n));
+  return refine_all(s, wire, m);
 }
 
 static void add_held(const sw_body *b, const sw_hold *h, sw_held_node node, sw_system *s) {

@@ -10,6 +10,7 @@
 
 #include "base/alloc.h"
 #include "body/bends.h"
+#include "body/body.h"
 #include "body/build.h"
 #include "body/join.h"
 #include "edit/edit.h"
@@ -62,7 +63,8 @@ static sw_status retake(sw_scene *s, size_t wire, sw_error *err) {
     SW_TRY(sw_drive_eval(s, &h->drive, sw_scene_time(s), &now, err));
     SW_TRY(sw_scene_rehold(s, h, now.pose, err));
   }
-  return SW_OK;
+  /* only now: nodes move along the curve there, up to holds that hold them */
+  return sw_scene_wire_in(s, wire)->strand.web ? SW_OK : sw_line_refine(s, wire);
 }
 
 /* --- all of it ----------------------------------------------------------------------- */
@@ -199,8 +201,7 @@ static sw_status exchange(sw_scene *s, size_t wire, sw_scene_wire *next, sw_erro
   sw_status kept = rods ? sw_scene_read_bends(s, wire, &bends) : SW_OK;
   if (kept == SW_OK && rods) kept = take_tension(s, wire, &next->mesh);
   sw_status status = kept == SW_OK ? sw_scene_replace_wire(s, wire, next, err) : kept;
-  if (status == SW_OK && rods)
-    kept = sw_scene_give_all_bends(s, wire, &bends);
+  if (status == SW_OK && rods) kept = sw_scene_give_all_bends(s, wire, &bends);
   sw_wire_bends_free(&bends);
   return kept == SW_OK ? status : sw_fail(err, kept, "remodel: out of memory");
 }
