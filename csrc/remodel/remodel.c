@@ -182,14 +182,32 @@ static sw_status check_twist(const sw_scene_wire *w, const sw_line *l, sw_error 
                  w->name, most);
 }
 
-/* Gives the next model the tension that the wire has on either side of its holds. */
-static sw_status take_tension(const sw_scene *s, size_t wire, sw_mesh *to) {
+/* Makes the mesh of a line that stays one: strains of its edges stay, too, on either side of holds.
+ * to: has the places, which are as near to those of holds as rounding. */
+static sw_status carry_line(const sw_scene *s, size_t wire, sw_mesh *to) {
+  const sw_mesh *from = &sw_scene_wire_in((sw_scene *)s, wire)->mesh;
+  const double near = 1e-9 * (from->s[from->n - 1] - from->s[0]);
   size_t count = 0;
-  double *held SW_LOCAL = sw_alloc(2 * sw_scene_hold_slots(s) + 1, sizeof *held);
+  sw_mesh fresh = {0};
+  const size_t joins = sw_scene_join_places(s, wire, NULL);
+  double *held SW_LOCAL = sw_alloc(2 * (sw_scene_hold_slots(s) + joins) + 1, sizeof *held);
   if (!held) return SW_ENOMEM;
+  double *joined =
+      held + 2 * sw_scene_hold_slots(s) + joins; /* read before they are written over */
+  sw_scene_join_places(s, wire, joined);
   SW_EACH(hold, h, s)
     if (h->alive && h->wire == wire) held[count++] = h->s1, held[count++] = h->s2;
-  sw_mesh_sample_tension(&sw_scene_wire_in((sw_scene *)s, wire)->mesh, held, count / 2, to);
+  for (size_t k = 0; k < joins; k++) {
+    const double at = joined[k];
+    held[count++] = at, held[count++] = at;
+  }
+  for (size_t i = 0; i < to->n; i++)
+    for (size_t k = 0; k < count; k++)
+      if (fabs(to->s[i] - held[k]) <= near) to->s[i] = held[k];
+  SW_TRY(sw_mesh_resample(from, to->s, to->n, held, count / 2, &fresh));
+  fresh.spacing = to->spacing;
+  sw_mesh_free(to);
+  *to = fresh;
   return SW_OK;
 }
 
@@ -199,7 +217,7 @@ static sw_status exchange(sw_scene *s, size_t wire, sw_scene_wire *next, sw_erro
   const int rods = !w->strand.web && !next->strand.web && w->beam.EI > 0;
   sw_wire_bends bends = {0};
   sw_status kept = rods ? sw_scene_read_bends(s, wire, &bends) : SW_OK;
-  if (kept == SW_OK && rods) kept = take_tension(s, wire, &next->mesh);
+  if (kept == SW_OK && rods) kept = carry_line(s, wire, &next->mesh);
   sw_status status = kept == SW_OK ? sw_scene_replace_wire(s, wire, next, err) : kept;
   if (status == SW_OK && rods) kept = sw_scene_give_all_bends(s, wire, &bends);
   sw_wire_bends_free(&bends);

@@ -63,11 +63,6 @@ sw_status sw_mesh_like(const sw_mesh *other, size_t n, sw_mesh *to);
 sw_status sw_mesh_resample(const sw_mesh *from, const double *s, size_t count, const double *held,
                            size_t held_count, sw_mesh *out);
 
-/* Gives a mesh of the same wire the tension that its edges have at these places. Tension jumps at
- * the ends of stretches that are held (as above). */
-void sw_mesh_sample_tension(const sw_mesh *from, const double *held, size_t held_count,
-                            sw_mesh *to);
-
 /* Puts node i, which was moved or inserted on its edges' chords, and its neighbours on the curve
  * through the nodes before, if the unloaded wire is curved there. keep: arc lengths (count) of
  * nodes that must stay. SW_ENOMEM. */

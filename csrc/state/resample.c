@@ -280,10 +280,3 @@ sw_status sw_mesh_resample(const sw_mesh *from, const double *s, size_t count, c
   if (from->rest) give_frames(&p);
   return SW_OK;
 }
-
-void sw_mesh_sample_tension(const sw_mesh *from, const double *held, size_t held_count,
-                            sw_mesh *to) {
-  const resample p = {.old = from, .held = held, .held_count = held_count};
-  for (size_t e = 0; e + 1 < to->n; e++)
-    to->tension[e] = edge_value_at(&p, from->tension, sw_mesh_middle(to, e));
-}
