@@ -4,6 +4,7 @@
 #ifndef SW_BODY_BODY_H
 #define SW_BODY_BODY_H
 
+#include "link/hold.h"
 #include "scene/parts.h"
 #include "scene/values.h"
 #include "scene/wire.h"
@@ -84,6 +85,9 @@ void sw_line_at(const sw_scene *scene, const sw_scene_wire *wire, const sw_body 
 
 /* Makes enough edges between all holds of a line, which stay where they are (line.c). SW_ENOMEM. */
 sw_status sw_line_refine(sw_scene *scene, size_t wire);
+
+/* Puts the nodes that a hold at this pose holds where it holds them, in a mesh with other nodes. */
+void sw_line_put_held(const sw_hold *hold, sw_pose pose, sw_mesh *mesh);
 
 /* Fails with SW_EINVAL: both hold the same. */
 sw_status sw_scene_held_twice(const sw_scene *scene, const sw_hold *a, const sw_hold *b,

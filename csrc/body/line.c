@@ -46,6 +46,12 @@ static sw_vec local_of(const sw_hold *h, double s) {
   return sw_lerp(sw_vec_at(h->local, i), sw_vec_at(h->local, i + 1), f);
 }
 
+void sw_line_put_held(const sw_hold *h, sw_pose pose, sw_mesh *m) {
+  for (size_t i = sw_mesh_node(m, h->s1); i < m->n && m->s[i] <= h->s2; i++)
+    sw_store(m->x + 3 * i, sw_pose_point(pose, local_of(h, m->s[i])));
+  if (!h->formed) sw_mesh_strain_as_held(m, h->s1, h->s2);
+}
+
 /* Sets the unstressed lengths of edges that a hold has formed to their lengths in the hold. */
 static void form(const sw_scene *s, size_t w, sw_plan *plan) {
   SW_EACH(hold, h, s) {

@@ -6,10 +6,12 @@
 
 #include "base/alloc.h"
 #include "body/bends.h"
+#include "body/body.h"
 #include "body/build.h"
 #include "body/hold.h"
 #include "edit/edit.h"
 #include "link/hold.h"
+#include "scene/drive.h"
 #include "scene/lookup.h"
 #include "scene/parts.h"
 #include "scene/wire.h"
@@ -147,7 +149,18 @@ static void correct_twist(sw_scene *s, size_t wire, const sw_mesh *fresh) {
   }
 }
 
-static sw_status carry_over(sw_scene *s, size_t wire, size_t segments) {
+/* Between the places that a hold has grasped its wire is straight, wherever nodes were since. */
+static sw_status put_held(sw_scene *s, size_t wire, sw_mesh *m, sw_error *err) {
+  SW_EACH(hold, h, s) {
+    sw_motion_state now;
+    if (!h->alive || h->wire != wire || !h->local || sw_hold_passes(h)) continue;
+    SW_TRY(sw_drive_eval(s, &h->drive, sw_scene_time(s), &now, err));
+    sw_line_put_held(h, now.pose, m);
+  }
+  return SW_OK;
+}
+
+static sw_status carry_over(sw_scene *s, size_t wire, size_t segments, sw_error *err) {
   sw_scene_wire *w = sw_scene_wire_in(s, wire);
   sw_mesh places = {0}, fresh = {0};
   size_t count = 0;
@@ -167,7 +180,8 @@ static sw_status carry_over(sw_scene *s, size_t wire, size_t segments) {
     sw_mesh_free(&w->mesh);
     w->mesh = fresh;
     w->mesh.spacing = places.spacing;
-    if (bends.loads.list) status = sw_scene_give_all_bends(s, wire, &bends);
+    status = put_held(s, wire, &w->mesh, err);
+    if (status == SW_OK && bends.loads.list) status = sw_scene_give_all_bends(s, wire, &bends);
   }
   sw_wire_bends_free(&bends);
   sw_mesh_free(&places);
@@ -209,7 +223,7 @@ sw_status sw_scene_remesh(sw_scene *s, const size_t *segments, size_t count, sw_
   SW_TRY(sw_scene_unbuild(s));
   for (size_t w = 0; w < count; w++) {
     const sw_status status = is_drawn(sw_scene_wire_in(s, w)) ? redraw(s, w, segments[w], err)
-                                                              : carry_over(s, w, segments[w]);
+                                                              : carry_over(s, w, segments[w], err);
     if (status == SW_ENOMEM)
       return sw_fail(err, status, "scene '%s': out of memory", sw_scene_name(s));
     if (status != SW_OK) return status;

@@ -63,6 +63,10 @@ sw_status sw_mesh_like(const sw_mesh *other, size_t n, sw_mesh *to);
 sw_status sw_mesh_resample(const sw_mesh *from, const double *s, size_t count, const double *held,
                            size_t held_count, sw_mesh *out);
 
+/* Gives edges of a stretch that a hold keeps rigid the tension that their chords have, which they
+ * cannot leave. */
+void sw_mesh_strain_as_held(sw_mesh *mesh, double from, double to);
+
 /* Puts node i, which was moved or inserted on its edges' chords, and its neighbours on the curve
  * through the nodes before, if the unloaded wire is curved there. keep: arc lengths (count) of
  * nodes that must stay. SW_ENOMEM. */

@@ -250,6 +250,11 @@ static void give_frames(resample *p) {
   }
 }
 
+void sw_mesh_strain_as_held(sw_mesh *m, double from, double to) {
+  for (size_t e = sw_mesh_node(m, from); m->s[e] < to; e++)
+    m->tension[e] = m->EA * (sw_norm(edge_vector(m->x, e)) / (m->s[e + 1] - m->s[e]) - 1.0);
+}
+
 sw_status sw_mesh_resample(const sw_mesh *from, const double *s, size_t count, const double *held,
                            size_t held_count, sw_mesh *out) {
   resample p = {.old = from, .out = out, .held = held, .held_count = held_count};
@@ -276,6 +281,7 @@ sw_status sw_mesh_resample(const sw_mesh *from, const double *s, size_t count, c
   }
   for (size_t e = 0; e + 1 < count; e++) p.strain[e] = out->tension[e] / out->EA;
   give_strains(&p, out->x, p.strain);
+  for (size_t k = 0; k < held_count; k++) sw_mesh_strain_as_held(out, held[2 * k], held[2 * k + 1]);
   give_rates(&p);
   if (from->rest) give_frames(&p);
   return SW_OK;
