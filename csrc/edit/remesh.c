@@ -153,7 +153,8 @@ static void correct_twist(sw_scene *s, size_t wire, const sw_mesh *fresh) {
 static sw_status put_held(sw_scene *s, size_t wire, sw_mesh *m, sw_error *err) {
   SW_EACH(hold, h, s) {
     sw_motion_state now;
-    if (!h->alive || h->wire != wire || !h->local || sw_hold_passes(h)) continue;
+    if (!h->alive || h->wire != wire || !h->local || sw_hold_passes(h) || h->cls->hold->rail)
+      continue; /* of these the wire may be elsewhere than they have grasped it */
     SW_TRY(sw_drive_eval(s, &h->drive, sw_scene_time(s), &now, err));
     sw_line_put_held(h, now.pose, m);
   }

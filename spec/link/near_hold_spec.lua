@@ -2,8 +2,8 @@
 -- A bent wire at rest is held near a hold that it has, and stays at rest: its bend radius must not change.
 -- Between the holds is less wire than four edges, so that edges are halved. If each hold is put on the curve
 -- by itself, an error of direction of 0.05 rad, which is usual, on 1.5 mm of wire is a bend radius of 30 mm,
--- and an error of place pulls with kilonewtons. So the new hold is put where the wire comes from the other
--- one (csrc/state/between.c).
+-- and an error of place pulls with kilonewtons. So nodes are put where the wire keeps its
+-- bends (csrc/body/bends.c).
 local sw = require "softworld"
 local t = require "physics.tools"
 
