@@ -134,13 +134,12 @@ static sw_vec held_direction(const sw_scene *s, size_t wire, double at, int leav
 
 /* Keeps the turn of the holds against one another. A curve through the nodes turns a carried vector
  * a little more or less than the chords did; the twist makes up for that. */
-static void correct_twist(sw_scene *s, size_t wire, const sw_mesh *fresh) {
+static void correct_twist(sw_scene *s, size_t wire, const sw_mesh *old, const sw_mesh *fresh) {
   const sw_scene_wire *w = sw_scene_wire_in(s, wire);
   SW_ITEMS(sw_twisted, span, w->twisted, w->twisted_count) {
     const sw_vec from = held_direction(s, wire, span->s1, 1);
     const sw_vec to = held_direction(s, wire, span->s2, 0);
     if (!(sw_norm(from) > 0) || !(sw_norm(to) > 0)) continue; /* a hold has just gone */
-    const sw_mesh *old = &w->mesh;
     const sw_vec u =
         carry_along(old, sw_mesh_node(old, span->s1), sw_mesh_node(old, span->s2), from, to);
     const sw_vec v =
@@ -177,12 +176,13 @@ static sw_status carry_over(sw_scene *s, size_t wire, size_t segments, sw_error 
   if (status == SW_OK) status = new_places(s, wire, segments, &places);
   if (status == SW_OK) status = sw_mesh_resample(&w->mesh, places.s, places.n, held, count, &fresh);
   if (status == SW_OK) {
-    correct_twist(s, wire, &fresh);
-    sw_mesh_free(&w->mesh);
+    sw_mesh old = w->mesh;
     w->mesh = fresh;
     w->mesh.spacing = places.spacing;
     status = put_held(s, wire, &w->mesh, err);
     if (status == SW_OK && bends.loads.list) status = sw_scene_give_all_bends(s, wire, &bends);
+    correct_twist(s, wire, &old, &w->mesh);
+    sw_mesh_free(&old);
   }
   sw_wire_bends_free(&bends);
   sw_mesh_free(&places);
