@@ -5,14 +5,16 @@
 
 #include "scene/wire.h"
 
-/* Forces and bend of slice number r, between rings r and r + 1. T: axial forces of its springs,
- * from the state [N]; after a step of few iterations the springs' lengths at x would give rougher
- * ones. */
+/* Forces and bend of slice number r, between rings r and r + 1. T: elastic axial forces of its
+ * springs, from the state; pull: the same with the forces of their dashpots, or T [N]. After a step
+ * of few iterations the springs' lengths at x would give rougher ones. */
 typedef struct sw_slice {
-  double tension, twist_moment, curvature; /* [N], [N m], [1/m] */
-  sw_vec bend;                             /* the curvature, towards its centre [1/m] */
+  double tension, elastic;        /* axial force; the same without dashpots [N] */
+  double twist_moment, curvature; /* [N m], [1/m] */
+  sw_vec bend;                    /* the curvature, towards its centre [1/m] */
 } sw_slice;
-sw_slice sw_strand_slice(const sw_plan *plan, const double *x, const double *T, size_t r);
+sw_slice sw_strand_slice(const sw_plan *plan, const double *x, const double *T, const double *pull,
+                         size_t r);
 /* Read-outs at arc length s. */
 void sw_strand_at(const sw_scene *scene, const sw_scene_wire *wire, const sw_body *body, double s,
                   sw_point_state *out);

@@ -74,8 +74,8 @@ void sw_wear_count_mesh(const sw_system *s, const sw_body *b, sw_wear *wear) {
   const sw_web *w = p->web;
   const double *x = s->x + 3 * b->first_node, *T = sw_system_elastic(s, b);
   const uint64_t holds = axes(p, x, wear->across);
-  sw_slice near = sw_strand_slice(p, x, T, 0),
-           next = w->rings > 2 ? sw_strand_slice(p, x, T, 1) : near;
+  sw_slice near = sw_strand_slice(p, x, T, T, 0),
+           next = w->rings > 2 ? sw_strand_slice(p, x, T, T, 1) : near;
   for (size_t r = 0; r < w->rings; r++) {
     const double f = r == 0 ? -0.5 : r > 1 && r + 1 == w->rings ? 1.5 : 0.5;
     const sw_vec t = sw_strand_facing(w, x, r);
@@ -86,7 +86,7 @@ void sw_wear_count_mesh(const sw_system *s, const sw_body *b, sw_wear *wear) {
                                .bend = bend,
                                .tension = near.tension + f * (next.tension - near.tension)};
     sw_wear_count(wear, r, &load, wear->holds != holds);
-    if (r > 0 && r + 2 < w->rings) near = next, next = sw_strand_slice(p, x, T, r + 1);
+    if (r > 0 && r + 2 < w->rings) near = next, next = sw_strand_slice(p, x, T, T, r + 1);
   }
   wear->holds = holds;
 }
