@@ -62,6 +62,8 @@ int sw_hold_crashed(const sw_scene *scene, double since);
 
 /* Reports a rod or string that two obstacles squeeze. */
 void sw_scene_watch_squeezed(sw_scene *scene, size_t wire);
+/* Logs "pressed" where pads that hold a rod press it into an obstacle. */
+void sw_scene_watch_pads_press(sw_scene *scene, size_t wire);
 
 /* Reports an end of a rod that is pushed onto an obstacle and nearly slips, or hardly does. */
 void sw_scene_watch_poke(sw_scene *scene, size_t wire);
