@@ -152,4 +152,22 @@ describe("a bent wire at rest keeps its sharpest bend if it", function()
       end
     end
   end
+
+  -- A wave on 100 pins. The wire is bent everywhere; such a stretch is eased in parts.
+  it("is remodelled on many pins", function()
+    local scene, points, n = sw.scene{}, {}, 100
+    for i = 0, 20 * n do
+      local x = 0.0025 * i
+      points[i + 1] = { x, 0.01 * math.sin(25 * x), 0.004 * math.cos(13 * x) }
+    end
+    local wire = scene:wire{ EI = 1e-3, EA = 1e3, GJ = 1e-3, mass_per_length = 0.03, radius = 0.002,
+      path = points, segments = 5 * n }
+    for k = 0, n do scene:pin(wire, { s = k * wire.length / n }) end
+    assert.is_true(scene:settle().ok)
+    local before = wire:min_bend_radius()
+    wire:remodel{ model = "rod", segments = 7 * n }
+    t.near(before, wire:min_bend_radius(), LIMIT * before, "bend radius at once")
+    t.fine(scene:run{ dt = 0.01, duration = 0.01 })
+    t.near(before, wire:min_bend_radius(), LIMIT * before, "bend radius after a step")
+  end)
 end)
