@@ -19,8 +19,6 @@
 #include "scene/wire.h"
 #include "state/hinge.h"
 
-/* --- the wire with its holds ---------------------------------------------------------- */
-
 static sw_status open_view(const sw_scene *s, size_t wire, const sw_hold *fresh, int unloaded,
                            sw_held_wire *v) {
   const size_t slots = sw_scene_hold_slots(s), joins = sw_scene_join_places(s, wire, NULL);
@@ -29,8 +27,10 @@ static sw_status open_view(const sw_scene *s, size_t wire, const sw_hold *fresh,
   v->unloaded = unloaded;
   v->nodes = unloaded ? v->mesh->rest : v->mesh->x;
   v->normals = unloaded ? v->mesh->rest_normal : v->mesh->normal;
-  SW_TRY(SW_ALLOC_ALL(SW_ROOM(v->holds, slots + 1), SW_ROOM(v->joined, joins + 1)));
-  if (!places) return SW_ENOMEM;
+  /* NOLINTNEXTLINE(bugprone-sizeof-expression): a list of pointers */
+  v->holds = sw_alloc(slots + 1, sizeof *v->holds);
+  v->joined = sw_alloc(joins + 1, sizeof *v->joined);
+  if (!places || !v->holds || !v->joined) return SW_ENOMEM;
   for (size_t k = 0; k < slots; k++) {
     const sw_hold *h = sw_scene_hold_in((sw_scene *)s, k);
     if (h->alive && h->wire == wire && h != fresh) v->holds[v->count++] = h;

@@ -61,8 +61,8 @@ int sw_pairs_cross(sw_mutual *m, const sw_system *s, const double *x1) {
   return changed;
 }
 
-/* Returns the largest gap at the step's start of segments that were not chosen but touched or
- * passed each other; -1 if none did [m]. */
+/* Returns the largest gap at the step's start of segments that were not chosen but touched, passed
+ * or overlapped each other; -1 if none did [m]. */
 static double missed_gap(const sw_pairs *p, const sw_system *s, const double *x1) {
   const double farthest = 2.0 * sw_pairs_largest_move(s->x, x1, s->nodes);
   double gap = -1;
@@ -81,7 +81,7 @@ static double missed_gap(const sw_pairs *p, const sw_system *s, const double *x1
     sw_vec normal;
     if (n->distance - sw_pair_approach(s, &as, s->x, x1) >= radii) continue;
     if (sw_pair_distance(s, &as, x1) - n->bulge < radii ||
-        sw_pair_sweep(s, &as, s->x, x1, at, &normal))
+        sw_pair_sweep(s, &as, s->x, x1, at, &normal) || sw_pair_brushes(&as, s->x, x1))
       gap = n->distance - radii;
   }
   return gap;
@@ -99,12 +99,29 @@ int sw_pairs_widen(sw_mutual *m, sw_system *s, const double *x1, double h) {
   return sw_mutual_choose(m, s) == SW_OK ? 1 : -1;
 }
 
+/* 1 if two bodies press each other, or did at the step's start. Their nodes may then cut a bend
+ * that the wires go round. */
+static int are_pressed(const sw_mutual *m, const sw_pair *k) {
+  for (size_t i = 0; i < m->touch_count; i++) {
+    const sw_meet *t = &m->touches[i];
+    if (t->press.normal_force > 0 && t->of.body[0] == k->body[0] && t->of.body[1] == k->body[1])
+      return 1;
+  }
+  for (size_t i = 0; i < m->memory_count; i++) {
+    const sw_met *t = &m->memory[i];
+    if (t->kept.normal_force > 0 && t->of.body[0] == k->body[0] && t->of.body[1] == k->body[1])
+      return 1;
+  }
+  return 0;
+}
+
 int sw_pairs_cuts(const sw_mutual *m, const sw_system *s, const double *x1) {
   const sw_pairs *p = (const sw_pairs *)(const void *)m;
   for (size_t i = 0; i < m->pair_count; i++) {
     const sw_pair *k = &p->pairs[i];
     const double deeper = SW_DEEPER * k->reach;
     if (k->held || sw_pair_approach(s, k, s->x, x1) < deeper) continue;
+    if (sw_pair_brushes(k, s->x, x1) && !are_pressed(m, k)) return 1;
     const double after = sw_pair_distance(s, k, x1);
     if (after < k->reach - deeper && after < sw_pair_distance(s, k, s->x) - deeper) return 1;
   }

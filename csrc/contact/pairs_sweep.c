@@ -85,12 +85,13 @@ static sw_rods part_way(const sw_rods *from, const sw_rods *to, double t) {
   return r;
 }
 
-int sw_rods_sweep(const sw_rods *from, const sw_rods *to, double reach, double at[2],
-                  sw_vec *normal, double *when) {
-  const double near = TOO_NEAR * reach;
+/* As sw_rods_sweep, for a distance of the axes. least: rods that move less against each other do
+ * not come so near, unless they start too near [m]. */
+static int comes_near(const sw_rods *from, const sw_rods *to, double near, double least,
+                      double at[2], sw_vec *normal, double *when) {
   const double speed = approach(from, to);
   double t = 0;
-  if (speed < near) return 0; /* to pass, they must start too near */
+  if (speed < least) return 0;
   for (int i = 0; i < MOST_ADVANCES; i++) {
     const sw_rods r = part_way(from, to, t);
     const double d = sw_segments_nearest(r.a[0], r.a[1], r.b[0], r.b[1], at);
@@ -104,6 +105,11 @@ int sw_rods_sweep(const sw_rods *from, const sw_rods *to, double reach, double a
     if (t >= 1) return 0;
   }
   return 0;
+}
+
+int sw_rods_sweep(const sw_rods *from, const sw_rods *to, double reach, double at[2],
+                  sw_vec *normal, double *when) {
+  return comes_near(from, to, TOO_NEAR * reach, TOO_NEAR * reach, at, normal, when);
 }
 
 int sw_pair_sweep(const sw_system *s, const sw_pair *k, const double *x0, const double *x1,
@@ -133,4 +139,17 @@ double sw_pair_distance(const sw_system *s, const sw_pair *k, const double *x) {
   if (!sw_pair_crossing(s, k, x, at, slides)) return HUGE_VAL;
   const sw_bow bow[2] = {sw_pair_bow(s, k, 0, at[0]), sw_pair_bow(s, k, 1, at[1])};
   return sw_dot(sw_pair_normal(x, bow, slides), sw_bows_apart(x, bow));
+}
+
+/* Largest overlap that a step may miss, and the least way of a larger one; shares of the sum of
+ * radii. As in csrc/contact/brush.c [-]. */
+static const double MISSED = 0.03, LEAST_WAY = 0.48;
+
+int sw_pair_brushes(const sw_pair *k, const double *x0, const double *x1) {
+  const sw_rods from = chords_of(k, x0), to = chords_of(k, x1);
+  double at[2], when;
+  sw_vec normal;
+  if (!comes_near(&from, &to, (1.0 - MISSED) * k->reach, LEAST_WAY * k->reach, at, &normal, &when))
+    return 0;
+  return sw_segments_nearest(to.a[0], to.a[1], to.b[0], to.b[1], at) > k->reach;
 }

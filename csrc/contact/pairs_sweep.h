@@ -24,4 +24,7 @@ double sw_pair_approach(const sw_system *s, const sw_pair *k, const double *x0, 
 int sw_pair_sweep(const sw_system *s, const sw_pair *k, const double *x0, const double *x1,
                   double at[2], sw_vec *normal);
 
+/* 1 if two segments, which are clear of each other at x1, overlap on the straight way from x0. */
+int sw_pair_brushes(const sw_pair *k, const double *x0, const double *x1);
+
 #endif

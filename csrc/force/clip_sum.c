@@ -156,7 +156,7 @@ int sw_clip_begin(const sw_clip *c, const sw_field *f, size_t e, sw_clip_walk *w
   length_of(w->b[2] - w->a[2], w->length, seen);
   const double share = 1.0 / ((double)w->count * c->width);
   w->weight = share * seen[0], w->slope = share * seen[1], w->curve = share * seen[2];
-  w->rate = 0;
+  w->begun = 0;
   return 1;
 }
 
@@ -164,7 +164,7 @@ int sw_clip_begin(const sw_clip *c, const sw_field *f, size_t e, sw_clip_walk *w
 static void begin_window(sw_clip_walk *w) {
   const double part = (w->b[2] - w->a[2]) / (double)w->count; /* way from place to place [m] */
   const double first = w->a[2] + ((double)w->k + 0.5) * part;
-  w->rate = M_PI / w->half;
+  w->rate = M_PI / w->half, w->begun = 1;
   w->now[0] = cos(w->rate * first), w->now[1] = sin(w->rate * first);
   w->turn[0] = cos(w->rate * part), w->turn[1] = sin(w->rate * part);
 }
@@ -177,7 +177,7 @@ static void advance_window(sw_clip_walk *w) {
 }
 
 int sw_clip_next(sw_clip_walk *w, double x[3], double *along, double chi[3]) {
-  if (!(w->rate > 0)) begin_window(w);
+  if (!w->begun) begin_window(w);
   while (w->k <= w->last) {
     const double t = ((double)w->k++ + 0.5) / (double)w->count;
     for (int i = 0; i < 3; i++) x[i] = w->a[i] + t * (w->b[i] - w->a[i]);

@@ -71,9 +71,10 @@ typedef struct sw_clip_walk {
   double a[3], b[3];   /* u, v, a of the edge's ends [m] */
   double s, length;    /* arc length at the first end; length of the edge [m] */
   long count, k, last; /* number of places on the edge, next place, last place in the window */
+  int begun;           /* 1: the window's phase is set */
   double half, weight; /* half the clip's width; weight of a place, without chi [m], [-] */
   double slope, curve; /* its derivatives by the edge's way along the axis [1/m], [1/m2] */
-  double rate;         /* phase of the window over the way along the axis; 0: not begun [rad/m] */
+  double rate;         /* phase of the window over the way along the axis [rad/m] */
   double now[2];       /* cosine and sine of the window's phase at the next place [-] */
   double turn[2];      /* the same of the phase from place to place [-] */
 } sw_clip_walk;
