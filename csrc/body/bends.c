@@ -51,8 +51,6 @@ static void close_view(sw_held_wire *v) {
   SW_FREE_ALL(v->holds, v->joined);
 }
 
-/* --- read ------------------------------------------------------------------------------ */
-
 static void note(sw_bends *out, double s, sw_vec turn, double length) {
   if (length > 0) out->list[out->count++] = (sw_bend){s, sw_scale(turn, 1.0 / length)};
 }
@@ -373,6 +371,7 @@ sw_status sw_scene_give_bends(const sw_scene *s, size_t wire, const sw_wire_bend
   const int curved = is_bent(&bends->unloaded, bends->longest);
   char *moves SW_LOCAL = sw_alloc(m->n, 1);
   *done = 1;
+  if (sw_held_remembers(s, wire)) return SW_OK; /* nodes are where forces remember bends */
   if (!curved && !is_bent(&bends->loads, bends->longest)) return SW_OK;
   if (!moves) return SW_ENOMEM;
   for (int unloaded = curved; unloaded >= 0; unloaded--) {
@@ -390,6 +389,7 @@ sw_status sw_scene_give_bends(const sw_scene *s, size_t wire, const sw_wire_bend
 sw_status sw_scene_give_all_bends(const sw_scene *s, size_t wire, const sw_wire_bends *bends) {
   size_t count = 0;
   int done;
+  if (sw_held_moves(s, wire, &bends->loads)) return SW_OK;
   double *places SW_LOCAL = sw_alloc(2 * sw_scene_hold_slots(s) + 1, sizeof *places);
   if (!places) return SW_ENOMEM;
   for (size_t k = 0; k < sw_scene_hold_slots(s); k++) {

@@ -34,7 +34,8 @@ void sw_wire_bends_free(sw_wire_bends *bends);
 sw_status sw_scene_give_bends(const sw_scene *scene, size_t wire, const sw_wire_bends *bends,
                               const double *places, size_t count, sw_hold *fresh, int *done);
 
-/* The same near all of its living holds. */
+/* The same near all of its living holds. A wire that moves keeps its nodes: one that falls is bent
+ * so sharply beside a clamp that coarse edges with that bend would shift its end by centimetres. */
 sw_status sw_scene_give_all_bends(const sw_scene *scene, size_t wire, const sw_wire_bends *bends);
 
 #endif

@@ -2,7 +2,34 @@
 #include "body/held_wire.h"
 
 #include "body/chain.h"
+#include "force/force.h"
+#include "scene/forces.h"
+#include "scene/lookup.h"
+#include "scene/wire.h"
 #include "state/hinge.h"
+
+int sw_held_remembers(const sw_scene *s, size_t wire) {
+  SW_EACH(force, f, s) {
+    const int bends = f->cls->state_size && !(f->cls->flags & SW_FORCE_ANY_SHAPE);
+    if (f->alive && bends && (f->wire < 0 || f->wire == (long)wire)) return 1;
+  }
+  return 0;
+}
+
+/* A wire whose kinetic energy is more than this share of its bending energy moves [-]. */
+static const double MOVES = 0.1;
+
+int sw_held_moves(const sw_scene *s, size_t wire, const sw_bends *b) {
+  const sw_scene_wire *w = sw_scene_wire_in((sw_scene *)s, wire);
+  const sw_mesh *m = &w->mesh;
+  double kinetic = 0, bending = 0;
+  for (size_t i = 0; i < m->n; i++)
+    kinetic += 0.25 * w->beam.mass * sw_norm2(sw_vec_at(m->v, i)) *
+               (m->s[i + 1 < m->n ? i + 1 : i] - m->s[i > 0 ? i - 1 : 0]);
+  for (size_t k = 0; k + 1 < b->count; k++)
+    bending += 0.5 * w->beam.EI * sw_norm2(b->list[k].vector) * (b->list[k + 1].s - b->list[k].s);
+  return kinetic > MOVES * bending;
+}
 
 const sw_hold *sw_held_by(const sw_held_wire *v, double s) {
   for (size_t k = 0; k < v->count; k++)

@@ -4,7 +4,9 @@
 #ifndef SW_BODY_HELD_WIRE_H
 #define SW_BODY_HELD_WIRE_H
 
+#include "body/bends.h"
 #include "link/hold.h"
+#include "scene/parts.h"
 #include "state/mesh.h"
 #include "state/plan.h"
 
@@ -19,6 +21,12 @@ typedef struct sw_held_wire {
   size_t joins;
   sw_plan *plan;
 } sw_held_wire;
+
+/* 1 if a force on a wire remembers how it was bent, node by node. */
+int sw_held_remembers(const sw_scene *s, size_t wire);
+
+/* 1 if a wire with these bends moves: its kinetic energy is a large share of its bending energy. */
+int sw_held_moves(const sw_scene *s, size_t wire, const sw_bends *bends);
 
 /* Returns the hold that holds arc length s, or NULL [m]. */
 const sw_hold *sw_held_by(const sw_held_wire *v, double s);

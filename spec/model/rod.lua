@@ -6,6 +6,7 @@ function rod.wire(scene, more)
   local args = { name = "w", E = 5e6, density = 1500, radius = rod.radius, from = { 0, 0, 0 },
     to = { 0.6, 0, 0 }, segments = 24, model = "auto" }
   for key, value in pairs(more or {}) do args[key] = value end
+  if args.path then args.from, args.to = nil, nil end
   return scene:wire(args)
 end
 

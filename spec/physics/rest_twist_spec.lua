@@ -17,6 +17,7 @@ local function make(kind, options)
     from = { 0, 0, 0 }, to = { 1, 0, 0 }, rest_twist = rest }
   for k, v in pairs(kinds[kind]) do args[k] = v end
   for k, v in pairs(options or {}) do args[k] = v end
+  if args.path then args.from, args.to = nil, nil end
   return scene, scene:wire(args)
 end
 
