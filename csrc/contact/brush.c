@@ -1,17 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Brushes: within a long step a fast wire may pass an edge so near that its surface overlaps it,
  * although it is clear of the obstacle at both ends of the step. */
-#include <math.h>
-
 #include "contact/cross.h"
 
-/* A wire that moves by less than this many radii in a step overlaps by less than MISSED [-]. */
-static const double LEAST_WAY = 0.48;
-/* Largest overlap that a step may miss; share of the radius. Of 72 runs of cables that boxes strike
- * as they fall past their edges, in steps of 5 to 20 ms, 12 have no force at all without this
- * limit, 3 with it, all of one cable that grazes. In another 180 runs they are 8 and 3; with 0.25
- * they are 6, with 0.1 3 (spec/contact/brush_spec) [-]. */
-static const double MISSED = 0.03;
+#include <math.h>
+
+#include "contact/same.h"
 
 /* 1 if a body presses on an obstacle, or did at the step's start. Its nodes may then cut a corner
  * that the wire itself goes round. */
@@ -46,7 +40,7 @@ static int comes_near(const sw_contact *c, const sw_system *s, const sw_candidat
   const sw_vec b1 = sw_pose_local(*p1, sw_contact_where(c, x1, k->other, k->other, 0));
   const double way2 = fmax(sw_norm2(sw_sub(a1, a0)), sw_norm2(sw_sub(b1, b0)));
   const sw_shape *shape = c->obstacles[k->obstacle].shape;
-  if (way2 < LEAST_WAY * LEAST_WAY * k->skin * k->skin) return 0;
+  if (way2 < SW_MISSED_WAY * SW_MISSED_WAY * k->skin * k->skin) return 0;
   const sw_bounds box = sw_shape_bounds(shape);
   if (!overlap(a0.x, b0.x, a1.x, b1.x, box.min.x - margin, box.max.x + margin) ||
       !overlap(a0.y, b0.y, a1.y, b1.y, box.min.y - margin, box.max.y + margin) ||
@@ -64,7 +58,7 @@ int sw_contact_brushes(const sw_contact *c, const sw_system *s, const double *x1
     if (!k->segment || b->plan->web || sw_contact_is_held(s, k)) continue;
     /* the straight way past an obstacle that turns may lead through it */
     if (c->broad.moves[k->obstacle] && sw_contact_stays_away(c, s, k, x1)) continue;
-    if (comes_near(c, s, k, x1, (1.0 - MISSED) * k->skin) && !is_pressed(c, b, k->obstacle))
+    if (comes_near(c, s, k, x1, (1.0 - SW_MISSED) * k->skin) && !is_pressed(c, b, k->obstacle))
       return 1;
   }
   return 0;

@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "contact/pairs_curve.h"
+#include "contact/same.h"
 
 /* Axes nearer than this share of the sum of radii are about to pass through each other. Contact
  * alone never lets them come so near [-]. */
@@ -141,15 +142,12 @@ double sw_pair_distance(const sw_system *s, const sw_pair *k, const double *x) {
   return sw_dot(sw_pair_normal(x, bow, slides), sw_bows_apart(x, bow));
 }
 
-/* Largest overlap that a step may miss, and the least way of a larger one; shares of the sum of
- * radii. As in csrc/contact/brush.c [-]. */
-static const double MISSED = 0.03, LEAST_WAY = 0.48;
-
 int sw_pair_brushes(const sw_pair *k, const double *x0, const double *x1) {
   const sw_rods from = chords_of(k, x0), to = chords_of(k, x1);
   double at[2], when;
   sw_vec normal;
-  if (!comes_near(&from, &to, (1.0 - MISSED) * k->reach, LEAST_WAY * k->reach, at, &normal, &when))
+  if (!comes_near(&from, &to, (1.0 - SW_MISSED) * k->reach, SW_MISSED_WAY * k->reach, at, &normal,
+                  &when))
     return 0;
   return sw_segments_nearest(to.a[0], to.a[1], to.b[0], to.b[1], at) > k->reach;
 }
