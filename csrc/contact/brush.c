@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Brushes: within a long step a fast wire may pass an edge so near that its surface overlaps it,
  * although it is clear of the obstacle at both ends of the step. */
-#include "contact/cross.h"
-
 #include <math.h>
 
+#include "contact/cross.h"
 #include "contact/same.h"
 
 /* 1 if a body presses on an obstacle, or did at the step's start. Its nodes may then cut a corner
