@@ -39,6 +39,6 @@ double sw_contact_free_length(const sw_plan *plan, int last);
 /* Like sw_contact_jolt, for few wires that strike each other. dull: 1 if the trial used implicit
  * Euler. */
 double sw_mutual_jolt(const sw_mutual *pairs, const sw_system *system, int dull, int followed,
-                     sw_blow_of of, void *user);
+                      sw_blow_of of, void *user);
 
 #endif
