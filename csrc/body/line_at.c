@@ -9,6 +9,7 @@
 #include "scene/values.h"
 #include "scene/wire.h"
 #include "state/clamp.h"
+#include "system/axial.h"
 #include "system/system.h"
 
 /* Returns the clamp hinge at a node on this edge, or NULL. */
@@ -141,8 +142,9 @@ void sw_line_at(const sw_scene *s, const sw_scene_wire *w, const sw_body *b, dou
     k0 = node_flexure(system, b, e, e);
     k1 = node_flexure(system, b, e + 1, e);
   }
+  const double axial = between_middles(b->plan, sw_system_elastic(system, b), at);
   const double bent = (k0 + f * (k1 - k0)) * w->beam.radius;
-  out->strain = out->elastic / w->beam.EA + bent;
-  out->least_strain = out->elastic / w->beam.EA - bent;
+  out->strain = axial / w->beam.EA + bent;
+  out->least_strain = axial / w->beam.EA - bent;
   out->twist_moment = sw_scene_torque(system, b, at);
 }

@@ -72,6 +72,31 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   return SW_OK;
 }
 
+/* Returns e/l of an edge with its unstressed length. */
+static sw_vec stretched(const sw_field *f, size_t e) {
+  const sw_vec d = sw_sub(sw_vec_at(f->x, e + 1), sw_vec_at(f->x, e));
+  return sw_scale(d, 1.0 / f->plan->rest[e]);
+}
+
+/* The second difference pulls along the edges too: by EI curvature^2 in a bend, and against a
+ * tension that changes from edge to edge, most of all next to a clamp. The edges' springs carry
+ * that much less. */
+static void axial(const void *args, const sw_field *f, double *sum) {
+  const double EI = ((const sw_bend_args *)args)->EI;
+  const sw_plan *p = f->plan;
+  for (size_t i = 1; EI > 0 && i + 1 < p->nodes; i++) {
+    if (!(p->hinge[i] > 0)) continue;
+    const sw_vec a = stretched(f, i - 1), b = stretched(f, i), d = sw_sub(b, a);
+    sum[i - 1] -= EI / p->hinge[i] * sw_dot(d, sw_field_tangent(f, i - 1)) / p->rest[i - 1];
+    sum[i] += EI / p->hinge[i] * sw_dot(d, sw_field_tangent(f, i)) / p->rest[i];
+  }
+  for (size_t c = 0; EI > 0 && c < p->clamp_count; c++) {
+    const sw_clamp_hinge *h = &p->clamps[c];
+    const sw_vec d = sw_sub(stretched(f, h->edge), sw_vec_at(f->hold_directors, sw_clamp_place(h)));
+    sum[h->edge] += EI / h->length * sw_dot(d, sw_field_tangent(f, h->edge)) / p->rest[h->edge];
+  }
+}
+
 /* The second difference stiffens axial waves too, so the limit covers both: omega^2 <= 16 EI/(mu
  * l^4) + 4 EA/(mu l^2). */
 static double stable_dt(const void *args, const sw_plan *plan) {
@@ -101,5 +126,6 @@ const sw_force_class sw_force_flex = {
     .params = {"force flex", NULL, 0},
     .eval = eval,
     .stable_dt = stable_dt,
+    .axial = axial,
     .clamp_moment = clamp_moment,
 };

@@ -69,6 +69,10 @@ typedef struct sw_force_class {
    * [s]; NULL = no such dashpots. */
   double (*axial_time)(const void *args);
 
+  /* Adds the axial forces of edges that the force bears beside their springs, to sum (edges) [N];
+   * NULL = none. For lines only (no webs). */
+  void (*axial)(const void *args, const sw_field *field, double *sum);
+
   /* Bending dashpots, including those of clamp hinges: moment per rate of curvature [N m2 s]; NULL
    * = no such dashpots. */
   double (*viscosity)(const void *args, const sw_plan *plan);

@@ -21,6 +21,7 @@
 #include "step/ladder.h"
 #include "step/rest.h"
 #include "step/run_check.h"
+#include "system/borne.h"
 #include "system/system.h"
 #include "watch/observe.h"
 
@@ -138,6 +139,7 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   sw_ledger_forget(s);
   sw_status status = /* energies need this */
       sw_system_place_holds(sw_scene_system(s), sw_scene_time(s), NULL, NULL, NULL, &why);
+  if (status == SW_OK) sw_system_begin_borne(sw_scene_system(s));
   if (status == SW_OK && isfinite(args->frame) && sw_scene_frames_of(s)->count == 0) {
     status = sw_scene_store_frame(s, &why);
     sw_scene_frames_of(s)->next =

@@ -21,7 +21,8 @@ enum {
 };
 
 /* Returns the axial forces of a body's edges or springs at the refreshed state, with those of
- * dashpots (sw_plan_axial) [N]. */
+ * dashpots (sw_plan_axial) and those that other forces bear (system/borne.h). Valid until the next
+ * call [N]. */
 const double *sw_system_pull(const sw_system *system, const sw_body *body);
 /* The same without the dashpots' forces [N]. */
 const double *sw_system_elastic(const sw_system *system, const sw_body *body);

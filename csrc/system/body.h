@@ -33,6 +33,7 @@ typedef struct sw_body {
   sw_plan *plan;
   size_t first_node, first_edge; /* place in the system's arrays */
   double EA, EA_push;            /* axial stiffness pulled and pushed [N] */
+  int bears;                     /* 1: a force of it bears axial forces too (system/borne.h) */
   double axial_time; /* axial dashpots: EA times this times the strain rate is their force [s] */
   size_t first_clamp, kept_clamps; /* with dashpots: first one in the system's strains; number */
   double viscosity;                /* dashpots in bending: moment per rate of curvature [N m2 s] */

@@ -5,6 +5,7 @@
 #include "base/each.h"
 #include "system/arrays.h"
 #include "system/axial.h"
+#include "system/borne.h"
 #include "system/rail.h"
 
 /* Larger relative changes in a step are blows, which do not last: read-outs are extrapolated by at
@@ -80,13 +81,16 @@ void sw_system_forget_turning(sw_system *s) {
 }
 
 const double *sw_system_pull(const sw_system *s, const sw_body *body) {
-  if (s->turning[SW_TURN_EVEN] > 0) return s->even + body->first_edge;
-  return (body->axial_time > 0 ? s->pull : s->tension) + body->first_edge;
+  const double *T = s->turning[SW_TURN_EVEN] > 0 ? s->even
+                    : body->axial_time > 0       ? s->pull
+                                                 : s->tension;
+  return sw_system_with_borne(s, body, T + body->first_edge, SW_BORNE_PULL);
 }
 
 const double *sw_system_elastic(const sw_system *s, const sw_body *body) {
-  if (s->turning[SW_TURN_EVEN] > 0 && !(body->axial_time > 0)) return s->even + body->first_edge;
-  return s->tension + body->first_edge;
+  const int even = s->turning[SW_TURN_EVEN] > 0 && !(body->axial_time > 0);
+  const double *T = even ? s->even : s->tension;
+  return sw_system_with_borne(s, body, T + body->first_edge, SW_BORNE_ELASTIC);
 }
 
 /* Force at a node along its link to another node [N]. */

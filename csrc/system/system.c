@@ -10,6 +10,7 @@
 #include "base/spread.h"
 #include "system/arrays.h"
 #include "system/axial.h"
+#include "system/borne.h"
 #include "system/bridge.h"
 #include "system/factors.h"
 #include "system/join.h"
@@ -31,7 +32,7 @@ void sw_system_free(sw_system *system) {
   sw_joins_free(system);
   SW_FREE_ALL(system->bodies, system->held, system->rails, system->rail_room, system->directors,
               system->hold_states, system->loads, system->standing, system->state,
-              system->pull_block, system->work, system->trial_history);
+              system->pull_block, system->borne, system->work, system->trial_history);
   memset(system, 0, sizeof *system);
 }
 
@@ -120,6 +121,7 @@ sw_status sw_system_add_term(sw_system *system, size_t body, const sw_force_clas
   if (cls->flags & SW_FORCE_EXPLICIT) b->is_explicit = 1;
   if (cls->commit) b->is_kinked = 1;
   if (!(cls->flags & SW_FORCE_INNER) || (cls->flags & SW_FORCE_EXPLICIT)) b->needs_velocity = 1;
+  if (cls->axial && !b->plan->web) b->bears = 1;
   if (cls->axial_time) b->axial_time += cls->axial_time(term->args);
   if (cls->viscosity && !b->plan->web) b->viscosity += cls->viscosity(term->args, b->plan);
   return SW_OK;
@@ -132,6 +134,7 @@ sw_status sw_system_add_histories(sw_system *s) {
   size_t size = 0, largest = 0;
   SW_TRY(sw_system_add_strains(s));
   SW_TRY(sw_system_add_even(s));
+  SW_TRY(sw_system_add_borne(s));
   for (size_t b = 0; b < s->body_count; b++)
     SW_ITEMS(const sw_term, term, s->bodies[b].terms, s->bodies[b].term_count) {
       const size_t own = term->cls->state_size ? term->cls->state_size(s->bodies[b].plan) : 0;
@@ -207,6 +210,7 @@ void sw_system_refresh(sw_system *s) {
     if (!is_measured(s, body)) measure(body);
     body->field.twist = body->has_twist ? s->twist + body->first_span : NULL;
     if (body->spin_block) sw_spin_show(s, body);
+    sw_system_find_borne(s, body);
   }
   s->judged = NULL;
 }
@@ -222,6 +226,7 @@ void sw_system_begin_step(sw_system *s) {
   s->fastest_turn = 0;
   s->loads_kept = 0, s->first.x = NULL;
   s->factor_hbar = 0;
+  sw_system_keep_borne(s);
   for (size_t b = 0; b < s->body_count; b++) s->bodies[b].is_kinked = is_kinked(&s->bodies[b]);
   for (size_t b = 0; b < s->body_count; b++) s->bodies[b].web_factored = s->bodies[b].web_slow = 0;
   for (size_t b = 0; b < s->body_count; b++)

@@ -78,6 +78,7 @@ struct sw_system {
   /* (edges) axial forces as read out, where they differ from the state's; and the mix of both
    * stages from which they are extrapolated to the step's end [N] */
   double *even, *between;
+  double *borne;        /* axial forces beside the springs' (system/borne.h), or NULL [N] */
   double *excess;       /* (edges) the last stage's axial forces minus those read out [N] */
   sw_first_stage first; /* its x is set, until the next stage, if they differ */
   double *turning;      /* (SW_TURN_SIZE) */

@@ -9,6 +9,7 @@
 #include "scene/parts.h"
 #include "scene/values.h"
 #include "scene/wire.h"
+#include "system/axial.h"
 #include "system/system.h"
 #include "watch/observe.h"
 
@@ -109,7 +110,7 @@ static const double MISSED = 1.15;
 static void watch_layer(sw_scene *s, const sw_body *b, const sw_scene_wire *w,
                         const sw_extreme *bend, double edge) {
   const sw_plan *p = b->plan;
-  const double *tension = sw_scene_system(s)->tension + b->first_edge;
+  const double *tension = sw_system_elastic(sw_scene_system(s), b);
   const size_t e = edge_at(p, bend->s), last = e > 0 ? e - 1 : e;
   const double T = fmax(tension[e], tension[last]);
   const size_t node = e + (bend->s > 0.5 * (p->s[e] + p->s[e + 1]));
