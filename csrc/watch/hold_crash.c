@@ -123,8 +123,8 @@ sw_status sw_hold_look_out(sw_scene *s, sw_hold *h, sw_error *err) {
   const int crashing = now.depth > most;
   if (crashing && !h->watch.crashing) h->watch.crash = now; /* a new one */
   h->watch.crashing = crashing;
-  if (!crashing && now.depth > h->watch.given + NOTICED)
-    sw_hold_watch_press(s, h, now.obstacle, now.depth - h->watch.given);
+  if (!crashing && now.depth > NOTICED) /* perhaps from the start on */
+    sw_hold_watch_press(s, h, now.obstacle, now.depth);
   else if (!crashing)
     SW_TRY(sw_hold_watch_tilt(s, h, NOTICED, err));
   if (!crashing) return SW_OK;

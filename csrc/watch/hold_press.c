@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reports holds that press a wire into an obstacle by less than a crash: they go deeper into it, or
- * point the wire into it. The section of a rod does not yield, so the wire beside the hold must
- * bend out of the obstacle within its first edge: with the force 3 EI d/h^3 for the depth d and the
- * edge h. A tenth of a millimetre gives 0.2 to 20 N, as the edges have it. A direction that tilts
- * by a into the obstacle has d = a h. */
+/* Reports holds that press a wire into an obstacle by less than a crash: they are in it, from the
+ * start on or later, or point the wire into it. The section of a rod does not yield, so the wire
+ * beside the hold must bend out of the obstacle within its first edge: with the force 3 EI d/h^3
+ * for the depth d and the edge h. A tenth of a millimetre gives 0.2 to 20 N, as the edges have it.
+ * A direction that tilts by a into the obstacle has d = a h. */
 #include <math.h>
 #include <stdio.h>
 
@@ -49,14 +49,14 @@ static void tell(sw_scene *s, const sw_hold *h, size_t obstacle, double force, c
                 sw_scene_obstacle_in(s, obstacle)->name, force, mend);
 }
 
-void sw_hold_watch_press(sw_scene *s, const sw_hold *h, size_t obstacle, double gained) {
+void sw_hold_watch_press(sw_scene *s, const sw_hold *h, size_t obstacle, double depth) {
   const sw_system *system = sw_scene_system(s);
   const sw_plan *plan = system->bodies[h->wire].plan;
   char how[64];
   if (!sw_scene_contact(s) || plan->web) return;
   const double force = force_beside(s, h, obstacle);
   if (!(force > sw_contact_usual_force(system, plan))) return;
-  snprintf(how, sizeof how, "%.3g mm into", 1e3 * gained);
+  snprintf(how, sizeof how, "%.3g mm into", 1e3 * depth);
   tell(s, h, obstacle, force, how, "lift");
 }
 

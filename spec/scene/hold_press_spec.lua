@@ -15,7 +15,8 @@ local function pressed(cable, down, o)
   local scene, r = sw.scene{}, sw.cable(cable).outer_diameter.value / 2
   scene:obstacle{ name = "table", shape = "plane", friction = 0.3 }
   local c, s = math.cos(o.turn or 0), math.sin(o.turn or 0)
-  local wire = scene:wire{ name = "w", cable = cable, from = { 0, 0, r }, to = { 0.3 * c, 0.3 * s, r },
+  local z = r - (o.sunk or 0) -- [m]
+  local wire = scene:wire{ name = "w", cable = cable, from = { 0, 0, z }, to = { 0.3 * c, 0.3 * s, z },
     segments = o.segments or 40 }
   scene:force{ kind = "damping", mass = 5, stiffness = 1e-3 }
   local hold = o.make(scene, wire)
@@ -57,6 +58,25 @@ describe("a hold that presses a cable a little into a table", function()
         t.above(2.3 * forces[1], forces[3], "force with shorter edges [N]")
       end)
     end
+  end
+
+  -- 20 um give 0.6 to 3 N, for a weight of 0.06 to 0.2 N.
+  for _, cable in ipairs{ "FLRY-B 0.5", "GXL 1.5", "H07V-K 4" } do
+    it("is told of if it begins there: " .. cable, function()
+      for _, make in pairs(makers) do
+        for _, o in ipairs{ { sunk = 2e-5 }, { sunk = 1e-4, segments = 60, dt = 0.002, turn = 0.8 },
+          { sunk = 5e-5, segments = 75, dt = 0.005 } } do
+          o.make = make
+          local told, peak, crash = pressed(cable, 0, o)
+          assert.same({ 1, 0 }, { #told, #crash })
+          assert.is_true(told[1].value > 0.3 * peak) -- of the first step that is told
+          o.sunk = 0
+          local none, light = pressed(cable, 0, o)
+          assert.equal(0, #none)
+          assert.is_true(peak > 3 * light) -- what a reader would have taken for a load of the hold
+        end
+      end
+    end)
   end
 
   it("is not told of where it does not press", function()
