@@ -80,15 +80,20 @@ void sw_system_forget_turning(sw_system *s) {
   memset(s->turning, 0, SW_TURN_SIZE * sizeof *s->turning);
 }
 
+/* 1 if the body's axial forces are read between both stages. Solid elements are read at the step's
+ * end: springs beside them must be read there too, for both are large and nearly cancel. */
+static int is_even(const sw_system *s, const sw_body *body) {
+  const sw_web *web = body->plan->web;
+  return s->turning[SW_TURN_EVEN] > 0 && !(web && web->solids);
+}
+
 const double *sw_system_pull(const sw_system *s, const sw_body *body) {
-  const double *T = s->turning[SW_TURN_EVEN] > 0 ? s->even
-                    : body->axial_time > 0       ? s->pull
-                                                 : s->tension;
+  const double *T = is_even(s, body) ? s->even : body->axial_time > 0 ? s->pull : s->tension;
   return sw_system_with_borne(s, body, T + body->first_edge, SW_BORNE_PULL);
 }
 
 const double *sw_system_elastic(const sw_system *s, const sw_body *body) {
-  const int even = s->turning[SW_TURN_EVEN] > 0 && !(body->axial_time > 0);
+  const int even = is_even(s, body) && !(body->axial_time > 0);
   const double *T = even ? s->even : s->tension;
   return sw_system_with_borne(s, body, T + body->first_edge, SW_BORNE_ELASTIC);
 }
@@ -157,7 +162,8 @@ void sw_system_bears(const sw_system *s, int hold, const double *x, sw_vec point
     add_excess_of_line(s, h, x, point, &more);
   }
   SW_ITEMS(const sw_body, b, s->bodies, s->body_count) {
-    if (b->plan->web && b->held) add_excess_of_web(s, b, x, hold, point, &more);
+    if (b->plan->web && b->held && !b->plan->web->solids)
+      add_excess_of_web(s, b, x, hold, point, &more);
   }
   *force = sw_add(*force, more.force);
   *moment = sw_add(*moment, more.moment);
