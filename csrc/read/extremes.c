@@ -18,7 +18,7 @@
 #include "scene/values.h"
 #include "scene/wire.h"
 #include "state/clamp.h"
-#include "system/borne.h"
+#include "system/axial.h"
 #include "system/system.h"
 
 /* Returns the largest |t2 - t1| / hinge length, squared: the curvature to second order in the hinge
@@ -212,8 +212,7 @@ static void keep_mean(const sw_scene *s, size_t w, sw_extreme *kept) {
 static const double *mean_tension(const sw_scene *s, const sw_body *b) {
   const sw_course *course = sw_scene_course(s);
   if (!(course->span > 0) || !course->stepper.mean) return NULL;
-  return sw_system_with_borne(sw_scene_system(s), b, course->stepper.mean + b->first_edge,
-                              SW_BORNE_MEAN);
+  return sw_system_mean_pull(sw_scene_system(s), b, course->stepper.mean + b->first_edge);
 }
 
 /* 1 if the step that led to this state is so long that it smears impacts. */

@@ -21,7 +21,7 @@
 #include "step/ladder.h"
 #include "step/rest.h"
 #include "step/run_check.h"
-#include "system/borne.h"
+#include "system/axial.h"
 #include "system/system.h"
 #include "watch/observe.h"
 

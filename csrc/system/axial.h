@@ -26,6 +26,12 @@ enum {
 const double *sw_system_pull(const sw_system *system, const sw_body *body);
 /* The same without the dashpots' forces [N]. */
 const double *sw_system_elastic(const sw_system *system, const sw_body *body);
+/* Returns the axial forces `mean` of a body's springs over the last step plus the mean of what
+ * other forces bear. Valid until the next call [N]. */
+const double *sw_system_mean_pull(const sw_system *system, const sw_body *body, const double *mean);
+/* A run begins, perhaps at a state that was read from a file; holds are placed there: finds what
+ * other forces bear there. */
+void sw_system_begin_borne(sw_system *system);
 /* out = axial forces of all edges or springs: tension plus the dashpots' forces at these rates
  * (NULL where there are none); all (edges) [N], [1/s], [N]. */
 void sw_system_sum_pull(const sw_system *system, const double *tension, const double *rate,

@@ -25,14 +25,6 @@ void sw_system_find_borne(sw_system *s, const sw_body *b) {
   }
 }
 
-void sw_system_begin_borne(sw_system *s) {
-  for (size_t b = 0; s->borne && b < s->body_count; b++) {
-    if (!s->bodies[b].bears) continue;
-    sw_system_show(s, b);
-    sw_system_find_borne(s, &s->bodies[b]);
-  }
-}
-
 void sw_system_keep_borne(sw_system *s) {
   if (s->borne) memcpy(s->borne + s->edges, s->borne, s->edges * sizeof *s->borne);
 }

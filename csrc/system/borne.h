@@ -13,9 +13,6 @@ enum { SW_BORNE_ELASTIC, SW_BORNE_PULL, SW_BORNE_MEAN, SW_BORNE_SUMS };
 sw_status sw_system_add_borne(sw_system *system);
 /* The body's field has just been measured at the state: computes these forces there. */
 void sw_system_find_borne(sw_system *system, const sw_body *body);
-/* A run begins, perhaps at a state that was read from a file; holds are placed there: computes them
- * for all bodies. */
-void sw_system_begin_borne(sw_system *system);
 /* A step begins at the state: keeps the forces there, for the mean over the step. */
 void sw_system_keep_borne(sw_system *system);
 /* Returns T of the body's edges plus these forces at the state, or for SW_BORNE_MEAN the mean of

@@ -98,6 +98,10 @@ const double *sw_system_elastic(const sw_system *s, const sw_body *body) {
   return sw_system_with_borne(s, body, T + body->first_edge, SW_BORNE_ELASTIC);
 }
 
+const double *sw_system_mean_pull(const sw_system *s, const sw_body *body, const double *mean) {
+  return sw_system_with_borne(s, body, mean, SW_BORNE_MEAN);
+}
+
 /* Force at a node along its link to another node [N]. */
 static sw_vec along(const double *x, size_t node, size_t other, double pull) {
   const sw_vec d = sw_sub(sw_vec_at(x, other), sw_vec_at(x, node));

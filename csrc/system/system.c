@@ -305,6 +305,14 @@ void sw_system_show(sw_system *s, size_t body) {
   if (b->spin_block) sw_spin_show(s, b);
 }
 
+void sw_system_begin_borne(sw_system *s) {
+  for (size_t b = 0; s->borne && b < s->body_count; b++) {
+    if (!s->bodies[b].bears) continue;
+    sw_system_show(s, b);
+    sw_system_find_borne(s, &s->bodies[b]);
+  }
+}
+
 double sw_system_term_energy(sw_system *s, size_t body, size_t term, double *bending) {
   sw_field *f = &s->bodies[body].field;
   sw_error err;
