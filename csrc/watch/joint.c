@@ -6,6 +6,7 @@
 
 #include <math.h>
 
+#include "body/build.h"
 #include "link/hold.h"
 #include "scene/events.h"
 #include "scene/parts.h"
@@ -100,8 +101,11 @@ static void watch(sw_scene *s, const sw_joint *j, const sw_joint_end *one,
 }
 
 void sw_scene_end_joints(sw_scene *s) {
+  sw_error ignored;
   SW_EACH(join, j, s) {
     if (!j->alive || !j->rigid || !isnan(j->slack)) continue;
+    /* after a run without a step, or changes since the last one, there may be no system */
+    if (sw_scene_build(s, &ignored) != SW_OK) return;
     for (size_t k = 0; k < j->count; k++)
       for (size_t l = k + 1; l < j->count; l++) watch(s, j, &j->ends[k], &j->ends[l]);
   }

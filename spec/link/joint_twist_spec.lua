@@ -63,4 +63,17 @@ describe("a joint between two holds", function()
     local _, _, angle = arch(true, 0.1, 0.04, nil, true) -- a pin lets the wire turn
     assert.is_nil(angle)
   end)
+
+  it("is looked for after a run that takes no step", function()
+    local scene = sw.scene{}
+    local one = scene:wire{ E = 3e7, density = 1400, radius = 0.003, from = { 0, 0, 0 }, to = { 0.3, 0, 0 },
+      segments = 9 }
+    local two = scene:wire{ E = 3e7, density = 1400, radius = 0.003, from = { 0.3, 0, 0 }, to = { 0.6, 0, 0 },
+      segments = 9 }
+    scene:clamp(one, { s = 0 })
+    scene:join{ ends = { { one, s = 0.3 }, { two, s = 0 } } }
+    assert.equal(0, scene:run{ duration = 1e-300 }.steps)
+    scene:clamp(two, { s = 0.3 }) -- the next run has no system yet either
+    assert.equal(0, scene:run{ duration = 1e-300 }.steps)
+  end)
 end)
