@@ -41,7 +41,7 @@ static size_t tape_list(sw_tape *t, void *list_pointer, size_t *count, size_t *c
   } while (0)
 
 static void tape_numbers(sw_tape *t, sw_scene *s) {
-  SW_TAPE_STRUCT(t, sw_scene, 3328);
+  SW_TAPE_STRUCT(t, sw_scene, 3336);
   sw_tape_name(t, s->name);
   sw_tape_uint32(t, &s->serial);
   sw_tape_vec(t, &s->gravity);
@@ -49,13 +49,13 @@ static void tape_numbers(sw_tape *t, sw_scene *s) {
       sw_tape_double(t, &s->course.window), sw_tape_double(t, &s->course.blow_part),
       sw_tape_double(t, &s->course.blow_since), sw_tape_double(t, &s->course.blow_until),
       sw_tape_double(t, &s->course.part), sw_tape_double(t, &s->course.next_dt),
-      sw_tape_double(t, &s->frames.next);
+      sw_tape_double(t, &s->course.stop_until), sw_tape_double(t, &s->frames.next);
   sw_tape_expect(t, s->course.span >= 0 && s->course.span <= 1e9, "the length of a step");
   sw_tape_expect(t, s->course.window >= 0 && s->course.window <= 1e9, "a window");
   sw_tape_expect(t,
                  s->course.blow_part >= 0 && s->course.blow_part <= 1e9 &&
                      !isnan(s->course.blow_since) && !isnan(s->course.blow_until) &&
-                     s->course.part >= 0 && s->course.part <= 1e9,
+                     s->course.part >= 0 && s->course.part <= 1e9 && !isnan(s->course.stop_until),
                  "a blow");
   sw_tape_int(t, &s->course.next);
   sw_tape_extreme(t, &s->deepest);

@@ -25,10 +25,11 @@ typedef struct sw_course {
   /* A blow that began at blow_since, or a bundle that converges badly, is followed in parts
    * (substeps) of blow_part until blow_until [s]. */
   double blow_part, blow_since, blow_until;
-  double part;    /* part that a step of fixed size begins with; 0: it is tried whole [s] */
-  double next_dt; /* next step of an adaptive run; 0 = not known [s] */
-  size_t parts;   /* parts taken since the last check for collapsed steps [-] */
-  double covered; /* steps covered by these parts [-] */
+  double stop_until; /* parts are short until then, because a drive stopped at once [s] */
+  double part;       /* part that a step of fixed size begins with; 0: it is tried whole [s] */
+  double next_dt;    /* next step of an adaptive run; 0 = not known [s] */
+  size_t parts;      /* parts taken since the last check for collapsed steps [-] */
+  double covered;    /* steps covered by these parts [-] */
 } sw_course;
 
 /* 1 if the method is explicit and uses lumped masses. */

@@ -46,7 +46,9 @@ typedef struct parts {
 /* Shortens the part where needed, and makes nodes for it. */
 static sw_status begin(sw_ladder *p, parts *k, sw_error *err) {
   const double left = k->h - k->done;
-  k->part = k->whole = sw_blow_part(p->s, k->part);
+  if (p->args->parts) SW_TRY(sw_restart_after_stop(p->s, k->h, err));
+  k->whole = sw_blow_part(p->s, k->part);
+  k->part = fmin(k->whole, sw_restart_part(p->s));
   k->least = fmin(k->least, sw_blow_smallest(p->s));
   if (k->part > left * (1 - ROUNDING)) k->part = left;
   SW_TRY(sw_restart_until_break(p->s, &k->part, err));

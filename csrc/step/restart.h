@@ -31,6 +31,10 @@ sw_status sw_restart_stops(const sw_scene *scene, double h, int *stops, sw_error
  * between now and h. Both, and sw_restart_stops, fail only where a function of a script does. */
 sw_status sw_restart_until_break(sw_scene *scene, double *h, sw_error *err);
 sw_status sw_restart_halts(const sw_scene *scene, double h, int *halts, sw_error *err);
+/* Returns the longest part that may begin now; HUGE_VAL: any [s]. sw_restart_after_stop, before it:
+ * notes whether a drive stops at once now, in steps of h, while wires slide. Fails as above. */
+double sw_restart_part(const sw_scene *scene);
+sw_status sw_restart_after_stop(sw_scene *scene, double h, sw_error *err);
 /* Call when the part was refused. cut: only because it has to end sooner. */
 void sw_restart_refused(sw_ladder *p, int cut);
 
