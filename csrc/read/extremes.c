@@ -256,7 +256,6 @@ static void keep_tension(sw_scene *s, size_t w, const sw_wire_extremes *now) {
   if (T) largest_tension(b, T, &step), step.time = sw_scene_time(s);
   if (step.value > kept->raw.value) kept->raw = step, kept->raw_span = course->span;
   if (!sw_scene_is_averaged(s)) keep_largest(&kept->tension, &step);
-  if (!sw_scene_is_averaged(s) && !wire->window.marks) return;
   if (!(course->span > 0)) {
     sw_window_forget(&wire->window);
     return;
@@ -290,8 +289,9 @@ void sw_scene_keep_extremes(sw_wire_extremes *kept, const sw_wire_extremes *now)
 
 sw_status sw_scene_note_extremes(sw_scene *s, size_t w, sw_wire_extremes *now, sw_error *err) {
   double *tension = NULL;
-  if ((sw_scene_is_averaged(s) || sw_scene_wire_in(s, w)->window.marks) &&
-      fit_window(s, w) != SW_OK)
+  /* Steps as long as the window count, too: a window may begin in one and end in a part (substep).
+   * Else a pulse at the begin of the first parts had no window without what came after it. */
+  if (sw_scene_course(s)->span > 0 && fit_window(s, w) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "out of memory for the tension of '%s'",
                    sw_scene_wire_in(s, w)->name);
   if (sw_scene_wire_in(s, w)->strand.web &&

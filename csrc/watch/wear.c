@@ -192,7 +192,7 @@ static sw_status press(sw_scene *s, const sw_plan *p, sw_wear *w) {
   press_sides(p, w);
   for (size_t i = 0; i < w->nodes && !averaged; i++)
     keep(&w->sidewall, pressure_at(w, i), w->places[i].s, sw_scene_time(s));
-  if (!averaged && !w->pressed.marks) return SW_OK;
+  if (!averaged && !w->pressed.marks && !(c->span > 0)) return SW_OK;
   SW_TRY(fit_pressed(w));
   if (!(c->span > 0)) {
     sw_window_forget(&w->pressed);
