@@ -27,19 +27,21 @@ static sw_vec sliding_part(sw_vec v, sw_vec normal, const sw_levers *l) {
   return sw_madd(v, rolls, -sw_dot(v, rolls));
 }
 
-static void halt(const sw_contact *c, sw_system *s, sw_touch *t) {
+/* Returns the speed along the surface that the place still had [m/s]. */
+static double halt(const sw_contact *c, sw_system *s, sw_touch *t) {
   sw_press *p = &t->press;
-  if (t->held || !(t->friction > 0) || !(p->normal_force > 0)) return;
+  if (t->held || !(t->friction > 0) || !(p->normal_force > 0)) return 0;
   const sw_levers l = sw_touch_levers(s, t);
   const sw_vec o = sw_obstacle_velocity(&c->now[t->obstacle], t->point);
   const sw_vec v = sliding_part(sw_sub(sw_mean_of(s->v, 0, &t->spot), o), p->normal, &l);
   const sw_vec a = sliding_part(sw_mean_of(s->a, 0, &t->spot), p->normal, &l);
-  if (sw_norm(v) > fmax(RESTS * c->h, LATE) * sw_norm(a)) return;
+  if (sw_norm(v) > fmax(RESTS * c->h, LATE) * sw_norm(a)) return sw_norm(v);
   const sw_vec rest = sw_madd(p->tangential, a, -c->candidates[t->candidate].mass);
   const double most = t->friction * p->normal_force;
   p->tangential = sw_scale(rest, fmin(1.0, most / fmax(sw_norm(rest), 1e-300)));
   p->next_sliding = 0;
   if (t->spot.count == 1) sw_store(s->v + 3 * t->node, sw_sub(sw_load(s->v + 3 * t->node), v));
+  return sw_norm(v);
 }
 
 /* Friction keeps this share of its limit against the slide at the start, or has turned [-]. */
@@ -61,6 +63,22 @@ int sw_contact_turned(const sw_contact *c, const sw_system *s) {
   return against < KEPT * most;
 }
 
-void sw_contact_halt(sw_contact *c, sw_system *s) {
-  for (size_t i = 0; i < c->touch_count; i++) halt(c, s, &c->touches[i]);
+static double most_of(const sw_touch *t) {
+  return t->held ? 0.0 : t->friction * fmax(0.0, t->press.normal_force);
+}
+
+double sw_contact_halt(sw_contact *c, sw_system *s, double still) {
+  double moving = 0;
+  for (size_t i = 0; i < c->touch_count; i++) {
+    sw_touch *t = &c->touches[i];
+    const int web = s->bodies[t->body].plan->web != NULL; /* its section trembles at any time */
+    if (halt(c, s, t) > still && !web) moving += most_of(t);
+  }
+  return moving;
+}
+
+double sw_contact_friction(const sw_contact *c) {
+  double most = 0;
+  for (size_t i = 0; i < c->touch_count; i++) most += most_of(&c->touches[i]);
+  return most;
 }

@@ -47,7 +47,7 @@ sw_status sw_rung_strike(sw_ladder *p, const sw_rung *below, double h, sw_error 
   sw_contact *contact = sw_scene_contact(s);
   sw_course *c = sw_scene_course(s);
   sw_system *system = sw_scene_system(s);
-  p->soonest = 0, p->halts = 0;
+  p->soonest = 0, p->halts = p->turned = 0;
   sw_restart_try(p);
   if (!sw_scene_has_contact(s)) return sw_rung_go(p, below, h, err);
   memcpy(p->v_start, system->v, system->freedoms * sizeof(double));
@@ -72,7 +72,7 @@ sw_status sw_rung_strike(sw_ladder *p, const sw_rung *below, double h, sw_error 
     if (verdict == SW_CONTACT_ACCEPT && !mistaken && !turned) return SW_OK;
     sw_stepper_reject(&c->stepper, system);
     if (turned) {
-      c->stepper.plastic = 1, p->halts = 0;
+      c->stepper.plastic = p->turned = 1, p->halts = 0;
       continue;
     }
     if (mistaken) {
