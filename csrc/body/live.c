@@ -81,7 +81,7 @@ static sw_status put_contact(sw_scene *s, const sw_live *p) {
   sw_system *system = sw_scene_system(s);
   if (contact) {
     SW_TRY(sw_contact_set_memory(contact, p->memory, p->memory_size, p->fresh));
-    SW_TRY(sw_contact_set_seen(contact, p->seen[0], p->seen_size[0], system->nodes));
+    SW_TRY(sw_contact_set_seen(contact, p->seen[0], p->seen_size[0], system));
   }
   if (pairs) {
     SW_TRY(sw_mutual_set_memory(pairs, p->pairs, p->pairs_size));

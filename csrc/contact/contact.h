@@ -224,7 +224,8 @@ int sw_contact_memory_fits(const void *memory, size_t bytes, size_t nodes, size_
 /* The touches at the accepted state, as a block for read-outs only. SW_EINVAL: the block names
  * nodes (of this many) or obstacles that do not exist. */
 const void *sw_contact_seen(sw_contact *contact, size_t *bytes);
-sw_status sw_contact_set_seen(sw_contact *contact, const void *seen, size_t bytes, size_t nodes);
+sw_status sw_contact_set_seen(sw_contact *contact, const void *seen, size_t bytes,
+                              const sw_system *system);
 /* A number that changes with the layout of these blocks, from version to version. */
 size_t sw_contact_layout(void);
 /* 1: a wire's node, or a segment that begins or ends there, has a memory. */

@@ -111,23 +111,25 @@ const void *sw_contact_seen(sw_contact *c, size_t *bytes) {
   return c->touches;
 }
 
-static int spans(const sw_mean *spot, size_t nodes) {
-  for (size_t i = 0; i < spot->count; i++)
-    if (spot->node[i] >= nodes) return 0;
-  return spot->count > 0;
+/* 1 if the touch's obstacle, body and nodes exist. */
+static int is_possible(const sw_contact *c, const sw_system *s, const sw_touch *t) {
+  if (t->obstacle < 0 || (size_t)t->obstacle >= c->count || t->body >= s->body_count) return 0;
+  const sw_body *b = &s->bodies[t->body];
+  const size_t first = b->first_node, end = first + b->plan->nodes;
+  if (t->node < first || t->node >= end || t->other < first || t->other >= end) return 0;
+  if (t->spot.count < 1 || t->spot.count > SW_MEAN_MOST) return 0;
+  for (size_t i = 0; i < t->spot.count; i++)
+    if (t->spot.node[i] < first || t->spot.node[i] >= end) return 0;
+  return 1;
 }
 
-sw_status sw_contact_set_seen(sw_contact *c, const void *seen, size_t bytes, size_t nodes) {
+sw_status sw_contact_set_seen(sw_contact *c, const void *seen, size_t bytes, const sw_system *s) {
   const size_t n = bytes / sizeof *c->touches;
   c->touch_count = 0;
   if (bytes % sizeof *c->touches != 0) return SW_EINVAL;
   SW_TRY(sw_fill((void **)&c->touches, &c->touch_capacity, seen, n, sizeof *c->touches));
-  for (size_t i = 0; i < n; i++) {
-    const sw_touch *t = &c->touches[i];
-    if (t->obstacle < 0 || (size_t)t->obstacle >= c->count || t->node >= nodes ||
-        t->other >= nodes || t->spot.count > SW_MEAN_MOST || !spans(&t->spot, nodes))
-      return SW_EINVAL;
-  }
+  for (size_t i = 0; i < n; i++)
+    if (!is_possible(c, s, &c->touches[i])) return SW_EINVAL;
   c->touch_count = n;
   c->still.accepted = 1;
   return SW_OK;

@@ -274,11 +274,10 @@ static sw_status stop_at_once(const sw_motion *m, double t, double h, double *at
 sw_status sw_restart_after_stop(sw_scene *s, double h, sw_error *err) {
   sw_course *c = sw_scene_course(s);
   double at;
-  if (!sw_scene_contact(s) || !any_slides(s)) {
-    if (c->stop_until - sw_scene_time(s) < FOLLOWED - LEAST) c->stop_until = 0;
-    return SW_OK;
-  }
-  SW_TRY(first(s, h, ALL, stop_at_once, &at, err));
+  if (!sw_scene_contact(s)) return SW_OK;
+  const double left = c->stop_until - sw_scene_time(s);
+  if (left > 0 && left < FOLLOWED - LEAST && !any_slides(s)) c->stop_until = 0;
+  SW_TRY(while_sliding(s, h, stop_at_once, &at, err));
   if (!(at > 0)) c->stop_until = sw_scene_time(s) + FOLLOWED;
   return SW_OK;
 }
