@@ -16,6 +16,7 @@
 #include "edit/edit.h"
 #include "link/hold.h"
 #include "read/reading.h"
+#include "remodel/borne.h"
 #include "remodel/line.h"
 #include "save/life.h"
 #include "scene/drive.h"
@@ -182,42 +183,13 @@ static sw_status check_twist(const sw_scene_wire *w, const sw_line *l, sw_error 
                  w->name, most);
 }
 
-/* Makes the mesh of a line that stays one: strains of its edges stay, too, on either side of holds.
- * to: has the places, which are as near to those of holds as rounding. */
-static sw_status carry_line(const sw_scene *s, size_t wire, sw_mesh *to) {
-  const sw_mesh *from = &sw_scene_wire_in((sw_scene *)s, wire)->mesh;
-  const double near = 1e-9 * (from->s[from->n - 1] - from->s[0]);
-  size_t count = 0;
-  sw_mesh fresh = {0};
-  const size_t joins = sw_scene_join_places(s, wire, NULL);
-  double *held SW_LOCAL = sw_alloc(2 * (sw_scene_hold_slots(s) + joins) + 1, sizeof *held);
-  if (!held) return SW_ENOMEM;
-  double *joined =
-      held + 2 * sw_scene_hold_slots(s) + joins; /* read before they are written over */
-  sw_scene_join_places(s, wire, joined);
-  SW_EACH(hold, h, s)
-    if (h->alive && h->wire == wire) held[count++] = h->s1, held[count++] = h->s2;
-  for (size_t k = 0; k < joins; k++) {
-    const double at = joined[k];
-    held[count++] = at, held[count++] = at;
-  }
-  for (size_t i = 0; i < to->n; i++)
-    for (size_t k = 0; k < count; k++)
-      if (fabs(to->s[i] - held[k]) <= near) to->s[i] = held[k];
-  SW_TRY(sw_mesh_resample(from, to->s, to->n, held, count / 2, &fresh));
-  fresh.spacing = to->spacing;
-  sw_mesh_free(to);
-  *to = fresh;
-  return SW_OK;
-}
-
 /* Replaces the wire. A rod that becomes a rod with other edges keeps its bends beside holds. */
 static sw_status exchange(sw_scene *s, size_t wire, sw_scene_wire *next, sw_error *err) {
   const sw_scene_wire *w = sw_scene_wire_in(s, wire);
   const int rods = !w->strand.web && !next->strand.web && w->beam.EI > 0;
   sw_wire_bends bends = {0};
   sw_status kept = rods ? sw_scene_read_bends(s, wire, &bends) : SW_OK;
-  if (kept == SW_OK && rods) kept = carry_line(s, wire, &next->mesh);
+  if (kept == SW_OK && rods) kept = sw_line_carry(s, wire, &next->mesh);
   sw_status status = kept == SW_OK ? sw_scene_replace_wire(s, wire, next, err) : kept;
   if (status == SW_OK && rods) kept = sw_scene_give_all_bends(s, wire, &bends);
   sw_wire_bends_free(&bends);
@@ -231,15 +203,21 @@ static sw_status change(sw_scene *s, sw_handle h, const sw_strand_plan *plan, co
   out->about = about;
   out->energy_before = sw_scene_total_energy(s, err);
   SW_TRY(make(s, h.slot, plan, l, next, err));
-  const sw_status thawed = sw_scene_unbuild(s);
+  sw_borne borne = {0};
+  sw_status thawed = sw_borne_read(s, h.slot, &borne);
+  if (thawed == SW_OK) thawed = sw_scene_unbuild(s);
   if (thawed != SW_OK) {
+    sw_borne_free(&borne);
     sw_mesh_free(&next->mesh);
     sw_strand_free(&next->strand);
     sw_free(next->twisted);
     return sw_fail(err, thawed, "remodel: out of memory");
   }
-  SW_TRY(exchange(s, h.slot, next, err));
-  SW_TRY(sw_scene_build(s, err));
+  sw_status status = exchange(s, h.slot, next, err);
+  if (status == SW_OK) status = sw_scene_build(s, err);
+  if (status == SW_OK) status = sw_borne_exchange(s, h.slot, &borne, err);
+  sw_borne_free(&borne);
+  if (status != SW_OK) return status;
   if (sw_momentum_match(s, h.slot, about, out->before) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "remodel: out of memory");
   sw_momentum_about(s, h.slot, about, out->after);

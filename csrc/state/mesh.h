@@ -63,6 +63,11 @@ sw_status sw_mesh_like(const sw_mesh *other, size_t n, sw_mesh *to);
 sw_status sw_mesh_resample(const sw_mesh *from, const double *s, size_t count, const double *held,
                            size_t held_count, sw_mesh *out);
 
+/* Returns an edge quantity (edges) at arc length s, linear between the middles of edges, but not
+ * across the ends of held stretches (held_count x 2: from, to). */
+double sw_mesh_edge_value(const sw_mesh *mesh, const double *values, double s, const double *held,
+                          size_t held_count);
+
 /* Gives edges of a stretch that a hold keeps rigid the tension that their chords have, which they
  * cannot leave. */
 void sw_mesh_strain_as_held(sw_mesh *mesh, double from, double to);

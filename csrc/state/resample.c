@@ -100,6 +100,12 @@ static double edge_value_at(const resample *p, const double *values, double s) {
   return values[e] + share * (values[other] - values[e]);
 }
 
+double sw_mesh_edge_value(const sw_mesh *m, const double *values, double s, const double *held,
+                          size_t held_count) {
+  const resample p = {.old = m, .held = held, .held_count = held_count};
+  return edge_value_at(&p, values, s);
+}
+
 /* --- strains --------------------------------------------------------------------- */
 
 static sw_vec edge_vector(const double *x, size_t e) {
