@@ -67,6 +67,9 @@ void sw_scene_watch_squeezed(sw_scene *scene, size_t wire);
 /* Logs "pressed" where pads that hold a rod press it into an obstacle. */
 void sw_scene_watch_pads_press(sw_scene *scene, size_t wire);
 
+/* Reports a wire or object whose solid elements a damping's stiffness does not damp. */
+void sw_scene_watch_undamped(sw_scene *scene, size_t wire);
+
 /* Reports an end of a rod that is pushed onto an obstacle and nearly slips, or hardly does. */
 void sw_scene_watch_poke(sw_scene *scene, size_t wire);
 

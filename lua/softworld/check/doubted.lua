@@ -27,6 +27,7 @@ local kinds = {
   walls = { "walls of a mesh meet, which its springs do not feel", own = true, always = true },
   kink = { "the walls of a fold do not touch each other: forces are too low", own = true, always = true },
   clip = { "the clip's model does not cover this", always = true, unless = "OVERLOADED" },
+  undamped = { "damping of solid elements is missing", own = true, always = true },
   unbalanced = { "forces after a change of model may be too large", own = true, always = true },
   grasp = { "a gripper held another wire than the one to grasp", places = true, always = true },
   held = { "a feed without its force at rest was let go", always = true },
