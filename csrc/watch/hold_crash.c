@@ -28,6 +28,15 @@ static double skin_of(const sw_scene *s, const sw_hold *h) {
   return sw_plan_skin(sw_scene_system(s)->bodies[h->wire].plan, h->particle ? h->particle[0] : 0);
 }
 
+/* Returns how far the wire's surface is from the places, as obstacles feel it (contact/sunk.c) [m].
+ */
+static double surface_of(const sw_scene *s, const sw_hold *h) {
+  const sw_web *web = sw_scene_system(s)->bodies[h->wire].plan->web;
+  const int ring =
+      web && web->rings && h->particle && sw_web_is_ring(web, sw_web_ring_of(web, h->particle[0]));
+  return skin_of(s, h) - (ring ? web->proud : 0.0);
+}
+
 static double reach_of(const sw_hold *h) {
   double far = 0;
   for (size_t i = 0; i < h->count; i++) far = fmax(far, sw_norm(sw_vec_at(h->local, i)));
@@ -78,7 +87,8 @@ static double depth_on_way(const sw_hold *h, const sw_shape *shape, sw_pose from
 
 /* Finds the obstacle that the hold is deepest in. */
 static sw_status find_crash(sw_scene *s, const sw_hold *h, sw_crash *out, sw_error *err) {
-  const double skin = skin_of(s, h), before = h->watch.looking ? h->watch.looked : sw_scene_time(s);
+  const double skin = surface_of(s, h),
+               before = h->watch.looking ? h->watch.looked : sw_scene_time(s);
   sw_motion_state to, from, there, was;
   *out = (sw_crash){.time = sw_scene_time(s)};
   SW_TRY(sw_drive_eval(s, &h->drive, sw_scene_time(s), &to, err));

@@ -3,7 +3,8 @@
  * start on or later, or point the wire into it. The section of a rod does not yield, so the wire
  * beside the hold must bend out of the obstacle within its first edge: with the force 3 EI d/h^3
  * for the depth d and the edge h. A tenth of a millimetre gives 0.2 to 20 N, as the edges have it.
- * A direction that tilts by a into the obstacle has d = a h. */
+ * A direction that tilts by a into the obstacle has d = a h. The held sections of a mesh do not
+ * yield either, and those beside them hardly; so 0.1 mm there gives 10 to 100 weights. */
 #include <math.h>
 #include <stdio.h>
 
@@ -20,13 +21,20 @@
 /* The wire is pressed by the hold up to this many edges beside it [-]. */
 static const double BESIDE = 2.0;
 static const size_t ANY = SIZE_MAX; /* of the obstacles */
+/* Forces on a mesh that are told, over usual ones: it is soft beside the hold [-]. */
+static const double ON_MESH = 2.0;
+
+/* Returns the wire's edge, or the distance between a mesh's sections [m]. */
+static double edge_of(const sw_plan *p) {
+  return p->length / (double)(p->web ? p->web->rings - 1 : p->edges);
+}
 
 /* Returns the force of an obstacle on the wire at the hold and beside it [N]. */
 static double force_beside(const sw_scene *s, const sw_hold *h, size_t obstacle) {
   const sw_contact *contact = sw_scene_contact(s);
   const sw_system *system = sw_scene_system((sw_scene *)s);
   const sw_body *b = &system->bodies[h->wire];
-  const double reach = BESIDE * b->plan->length / (double)b->plan->edges;
+  const double reach = BESIDE * edge_of(b->plan);
   double force = 0;
   size_t k, end;
   sw_contact_push p;
@@ -49,13 +57,28 @@ static void tell(sw_scene *s, const sw_hold *h, size_t obstacle, double force, c
                 sw_scene_obstacle_in(s, obstacle)->name, force, mend);
 }
 
+static void tell_mesh(sw_scene *s, const sw_hold *h, size_t obstacle, double force, double depth) {
+  const sw_plan *plan = sw_scene_system(s)->bodies[h->wire].plan;
+  sw_scene_tell(s, "pressed", h->name, 0.5 * (h->s1 + h->s2) - plan->s[0], force,
+                "%s '%s' presses wire '%s' %.3g mm into '%s' with %.3g N; held sections keep their "
+                "shape, so this depth decides the force: lift the hold. A mesh may be wider than "
+                "its radius says: wire:width(s, direction)",
+                h->cls->name, h->name, sw_scene_wire_in(s, h->wire)->name, 1e3 * depth,
+                sw_scene_obstacle_in(s, obstacle)->name, force);
+}
+
 void sw_hold_watch_press(sw_scene *s, const sw_hold *h, size_t obstacle, double depth) {
   const sw_system *system = sw_scene_system(s);
   const sw_plan *plan = system->bodies[h->wire].plan;
   char how[64];
-  if (!sw_scene_contact(s) || plan->web) return;
+  if (!sw_scene_contact(s) || (plan->web && plan->web->rings < 2)) return; /* no wire */
   const double force = force_beside(s, h, obstacle);
-  if (!(force > sw_contact_usual_force(system, plan))) return;
+  const double told = (plan->web ? ON_MESH : 1.0) * sw_contact_usual_force(system, plan);
+  if (!(force > told)) return;
+  if (plan->web) {
+    tell_mesh(s, h, obstacle, force, depth);
+    return;
+  }
   snprintf(how, sizeof how, "%.3g mm into", 1e3 * depth);
   tell(s, h, obstacle, force, how, "lift");
 }

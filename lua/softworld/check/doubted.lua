@@ -21,7 +21,7 @@ local kinds = {
   buckling = { "a straight or plane wire should have buckled", own = true, places = true, always = true },
   integrator = { "the integrator gains energy in contact; tr-bdf2 would tell", always = true },
   crash = { "forces are wrong after a crash", always = true },
-  pressed = { "a hold presses a rod on something: edges decide the force" },
+  pressed = { "a hold presses a wire into something: depth or edges decide the force" },
   overload = { "a hold overloads a wire: forces are wrong", always = true },
   breaking = { "the wire would have torn; the run goes on with a whole one", always = true },
   walls = { "walls of a mesh meet, which its springs do not feel", own = true, always = true },
