@@ -72,6 +72,13 @@ static void put_mark(sw_window *w, double time) {
   memcpy(mark_of(w, w->marks - 1), sum_of(w), w->edges * sizeof(double));
 }
 
+/* 1 if a window that begins at a mark ends now. */
+static int ends_now(const sw_window *w, double window) {
+  for (size_t k = 0; k < w->marks; k++)
+    if (fabs(w->time[slot(w, k)] + window - w->now) <= SLACK * window) return 1;
+  return 0;
+}
+
 int sw_window_add(sw_window *w, const double *values, double time, double h, double window) {
   if (!w->edges) return 0;
   if (!w->marks) {
@@ -82,18 +89,18 @@ int sw_window_add(sw_window *w, const double *values, double time, double h, dou
   }
   add(w->edges, h, values, sum_of(w));
   w->now = time;
-  if (time - w->time[slot(w, w->marks - 1)] < (1 - SLACK) / SW_WINDOW_PARTS * window) return 0;
+  if (time - w->time[slot(w, w->marks - 1)] < (1 - SLACK) / SW_WINDOW_PARTS * window)
+    return ends_now(w, window); /* too near for a mark */
   put_mark(w, time);
   return sw_window_full(w, window);
 }
 
 double sw_window_cut(const sw_window *w, double time, double window) {
   if (!w->edges || !w->marks) return time;
-  const double part = (1 - SLACK) / SW_WINDOW_PARTS * window;
-  const double least = w->time[slot(w, w->marks - 1)] + part; /* the next mark */
+  const double least = w->now + SLACK * window;
   for (size_t k = 0; k < w->marks; k++) {
     const double at = w->time[slot(w, k)] + window;
-    if (at > w->now && at >= least && at <= time - SLACK * window) return at;
+    if (at > least && at <= time - SLACK * window) return at;
   }
   return time;
 }

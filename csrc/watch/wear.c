@@ -183,15 +183,21 @@ static sw_status fit_pressed(sw_wear *w) {
   return sw_window_fit(&w->pressed, w->nodes, s);
 }
 
+static void keep_mean(sw_wear *w, double window) {
+  double mean;
+  const size_t i = sw_window_largest(&w->pressed, window, &mean);
+  keep(&w->sidewall, mean, w->places[i].s, w->pressed.now);
+}
+
 /* A single step of an impact does not tell how long it lasts. So means over the window count, as
  * for other peaks. */
 static sw_status press(sw_scene *s, const sw_plan *p, sw_wear *w) {
   sw_course *c = sw_scene_course(s);
   const int averaged = sw_scene_is_averaged(s);
-  double mean;
+  const double end = sw_scene_time(s);
   press_sides(p, w);
   for (size_t i = 0; i < w->nodes && !averaged; i++)
-    keep(&w->sidewall, pressure_at(w, i), w->places[i].s, sw_scene_time(s));
+    keep(&w->sidewall, pressure_at(w, i), w->places[i].s, end);
   if (!averaged && !w->pressed.marks && !(c->span > 0)) return SW_OK;
   SW_TRY(fit_pressed(w));
   if (!(c->span > 0)) {
@@ -200,10 +206,12 @@ static sw_status press(sw_scene *s, const sw_plan *p, sw_wear *w) {
   }
   double *values = sw_window_values(&w->pressed);
   for (size_t i = 0; i < w->nodes; i++) values[i] = pressure_at(w, i);
-  if (!sw_window_add(&w->pressed, values, sw_scene_time(s), c->span, c->window) || !averaged)
-    return SW_OK;
-  const size_t i = sw_window_largest(&w->pressed, c->window, &mean);
-  keep(&w->sidewall, mean, w->places[i].s, sw_scene_time(s));
+  double from = end - c->span;
+  /* NOLINTNEXTLINE(cert-flp30-c): from cut to cut, which are found anew each time */
+  for (double at; (at = sw_window_cut(&w->pressed, end, c->window)) < end; from = at)
+    if (sw_window_add(&w->pressed, values, at, at - from, c->window)) keep_mean(w, c->window);
+  if (sw_window_add(&w->pressed, values, end, end - from, c->window) && averaged)
+    keep_mean(w, c->window);
   return SW_OK;
 }
 
