@@ -63,6 +63,9 @@ int sw_contact_turned(const sw_contact *c, const sw_system *s) {
   return against < KEPT * most;
 }
 
+/* A touch that goes less in its first step does not slide [m]. */
+static const double LANDS = 1e-9;
+
 static double most_of(const sw_touch *t) {
   return t->held ? 0.0 : t->friction * fmax(0.0, t->press.normal_force);
 }
@@ -81,4 +84,17 @@ double sw_contact_friction(const sw_contact *c) {
   double most = 0;
   for (size_t i = 0; i < c->touch_count; i++) most += most_of(&c->touches[i]);
   return most;
+}
+
+double sw_contact_landed(const sw_contact *c, const sw_system *s) {
+  double most = 0, wire = 0;
+  int held = 0;
+  for (size_t i = 0; i < c->touch_count; i++) { /* in the order of wires */
+    const sw_touch *t = &c->touches[i];
+    if (i && t->body != c->touches[i - 1].body) most += held ? wire : 0.0, wire = 0, held = 0;
+    const int begins = !t->held && !(t->slid > 0) && sw_norm(t->press.slip) > LANDS;
+    held |= t->held;
+    if (begins && !s->bodies[t->body].plan->web) wire += most_of(t);
+  }
+  return most + (held ? wire : 0.0);
 }

@@ -14,6 +14,9 @@ int sw_contact_turned(const sw_contact *contact, const sw_system *system);
  * most friction of those that were faster than `still` along their obstacle [m/s], [N]. */
 double sw_contact_halt(sw_contact *contact, sw_system *system, double still);
 
+/* Before sw_contact_commit: most friction of the touches of lines that began to press in this step
+ * and slide, of those that a hold holds down on an obstacle: others hang from it, and swing [N]. */
+double sw_contact_landed(const sw_contact *contact, const sw_system *system);
 /* Most friction of all touches together [N]. */
 double sw_contact_friction(const sw_contact *contact);
 
