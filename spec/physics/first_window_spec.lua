@@ -40,9 +40,9 @@ describe("a wire that a hold draws along at once", function()
           for _, duration in ipairs(dt > 1e-3 and { 0.1, 0.109, 0.501 } or { 0.1 }) do
             local share, peak, at = start(case, dt, duration, waits)
             local what = ("%g ms, %g s: "):format(1e3 * dt, duration)
-            -- The window of the blow has m v; up to 0.006 of it are still in waves. A window with the begin
-            -- of the blow alone may have more: dashpots' first step may be too hard by a tenth. The hold, which
-            -- draws half an edge more, 0.017, has that too.
+            -- The window of the blow has m v; up to 0.006 of it are still in waves. One with the begin
+            -- of the blow alone may have more: dashpots' first step may be too hard by a tenth. The hold, that
+            -- draws half an edge more, 0.017, has it too.
             t.above(0.985, share, what .. "largest tension over m v/window")
             t.below(peak, share, what .. "largest tension over m v/window")
             -- a mark may be 1/16 of the window before the blow or after it
