@@ -41,8 +41,8 @@ describe("a wire that a hold draws along at once", function()
             local share, peak, at = start(case, dt, duration, waits)
             local what = ("%g ms, %g s: "):format(1e3 * dt, duration)
             -- The window of the blow has m v; up to 0.006 of it are still in waves. One with the begin
-            -- of the blow alone may have more: dashpots' first step may be too hard by a tenth. The hold, that
-            -- draws half an edge more, 0.017, has it too.
+            -- of the blow alone may have more: dashpots' first step may be too hard by a tenth. The hold
+            -- draws half an edge more, 0.017, and has it too.
             t.above(0.985, share, what .. "largest tension over m v/window")
             t.below(peak, share, what .. "largest tension over m v/window")
             -- a mark may be 1/16 of the window before the blow or after it
