@@ -264,10 +264,10 @@ static sw_status stop_at_once(const sw_motion *m, double t, double h, double *at
   const double after = function ? ASIDE_OF_FUNCTION * h + sw_motion_step(m) : ASIDE;
   const double before = function ? after : ASIDE + NEAR * h;
   sw_motion_state was, is;
+  SW_TRY(eval(m, t + after, &is, err)); /* first: wires slide while drives move, mostly */
+  if (!(speed(&is) < STILL)) return SW_OK;
   SW_TRY(eval(m, t - before, &was, err));
-  if (!(speed(&was) > CREEPS)) return SW_OK;
-  SW_TRY(eval(m, t + after, &is, err));
-  if (speed(&is) < STILL && jumps(&was, &is, before + after)) *at = 0;
+  if (speed(&was) > CREEPS && jumps(&was, &is, before + after)) *at = 0;
   return SW_OK;
 }
 
