@@ -10,8 +10,8 @@
  * rest. */
 int sw_contact_turned(const sw_contact *contact, const sw_system *system);
 /* When it is the state of the system, before sw_contact_commit: sets friction at places that come
- * to rest to the force that keeps them there, and stops them. Returns the
- * most friction of those that were faster than `still` along their obstacle [m/s], [N]. */
+ * to rest to the force that keeps them there, and stops them. Returns the most friction of those
+ * that were faster than `still` along their obstacle [m/s], [N]. */
 double sw_contact_halt(sw_contact *contact, sw_system *system, double still);
 
 /* Before sw_contact_commit: most friction of the touches of lines that began to press in this step

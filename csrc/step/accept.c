@@ -36,14 +36,19 @@ static const double TREMBLE = 1e-6, FINE = 5.5e-4;
 /* The part of the friction that is told [-]. */
 static const double TOLD = 0.1;
 
+/* what: wires that may be left with other forces, up to `friction` [N]; h: step or part [s]. */
+static void tell_rest(sw_scene *s, const char *what, double h, double friction) {
+  sw_scene_tell(
+      s, "coarse", "", NAN, friction,
+      "a drive stops %s %.3g ms: forces at rest may be others, by up to their friction of "
+      "%.3g N; run again with dt = 0.0005 s and compare them",
+      what, 1e3 * h, friction);
+}
+
 /* moving: most friction of the wires that tremble [N]. */
 static void tell_trembling(sw_scene *s, double h, double moving) {
-  if (!(h > FINE) || !(moving > TOLD * sw_contact_friction(sw_scene_contact(s)))) return;
-  sw_scene_tell(s, "coarse", "", NAN, moving,
-                "a drive stops while wires still tremble on what they slide on, in a part of %.3g "
-                "ms: forces at rest may be others, by up to their friction of %.3g N; run again "
-                "with dt = 0.0005 s and compare them",
-                1e3 * h, moving);
+  if (h > FINE && moving > TOLD * sw_contact_friction(sw_scene_contact(s)))
+    tell_rest(s, "while wires still tremble on what they slide on, in a part of", h, moving);
 }
 
 /* A drive has stopped at once, and wires that slid with it land: blows, friction that turns round
@@ -56,12 +61,8 @@ static const double LANDED = 0.03;
 
 static void tell_landing(sw_scene *s, double dt, double landed) {
   const double all = sw_contact_friction(sw_scene_contact(s));
-  if (!(dt > AT_ONCE_FINE) || !(landed > LANDED * all)) return;
-  sw_scene_tell(s, "coarse", "", NAN, all,
-                "a drive has stopped at once, and wires that slid with it land in steps of %.3g "
-                "ms: forces at rest may be others, by up to their friction of %.3g N; run again "
-                "with dt = 0.0005 s and compare them",
-                1e3 * dt, all);
+  if (dt > AT_ONCE_FINE && landed > LANDED * all)
+    tell_rest(s, "at once, and wires that slid with it land in steps of", dt, all);
 }
 
 void sw_ladder_accept(sw_ladder *p, double h, double t) {

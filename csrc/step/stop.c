@@ -250,7 +250,7 @@ sw_status sw_restart_until_break(sw_scene *s, double *h, sw_error *err) {
  * g. Whole steps of 5 to 20 ms left 0.45 to 0.95 of that. Parts up to STOPS leave it within a
  * hundredth, of steps of 20 ms within 0.06; those of 2 ms do so for stiff cables only. Parts go on
  * until no wire slides, for FOLLOWED at most and LEAST at least: after 20 ms a rubber wire (3 MPa)
- * still swings (spec/contact/halt_spec) [s]. */
+ * still swings (spec/contact/stop_at_once_spec) [s]. */
 static const double STOPS = 5e-4, FOLLOWED = 5e-2, LEAST = 1e-2;
 /* The stop may be so far from the start of a part, and is not asked for nearer to one: jumps that
  * near to the end of a part do not end it; share of the step [s], [-]. */

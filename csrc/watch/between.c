@@ -72,10 +72,10 @@ void sw_scene_watch_between(sw_scene *s, size_t wire, const sw_wire_extremes *no
   if (!(p->s[j] - p->s[i] < NEAR * edge)) return;
   const sw_hold *one = hold_at(s, wire, p->s[i]), *two = hold_at(s, wire, p->s[j]);
   if (!one || !two || one == two) return;
+  if (one->cls->hold->direction && two->cls->hold->direction) return;
   double bend = 0;
   for (size_t k = i > BESIDE ? i - BESIDE : 0; k <= j + BESIDE && k < p->nodes; k++)
     bend = fmax(bend, bend_at(b, system->x, k));
-  if (one->cls->hold->direction && two->cls->hold->direction) return;
   const double beside = beside_of(sw_system_pull(system, b), p, i, j);
   const double error = fmin(FALSE_PART * p->beam.EI * bend * bend, T - beside);
   if (!(error > TOLD * T)) return;

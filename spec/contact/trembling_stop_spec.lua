@@ -2,28 +2,12 @@
 -- A cable is laid down by its end and has just landed when the hold stops softly. It still trembles, and the
 -- last milliseconds decide which friction is left at rest: steps of 2 to 20 ms leave -0.33 to 0.95 of mu m g
 -- for 0.36 to 0.57. Steps of 0.5 ms are right. An event tells it wherever the force at rest is off.
-local sw = require "softworld"
+local lay = require "contact.laid_down"
 local t = require "physics.tools"
 
-local LENGTH = 0.4 -- [m]
-
--- Returns the pull at rest over mu m g, and whether it was told.
 local function laid(cable, mu, turn, height, dt)
-  local scene, r = sw.scene{}, sw.cable(cable).outer_diameter.value / 2
-  local c, s = math.cos(turn), math.sin(turn)
-  scene:obstacle{ shape = "plane", friction = mu }
-  local wire = scene:wire{ cable = cable, from = { 0, 0, r }, to = { -LENGTH * c, -LENGTH * s, r },
-    segments = 40 }
-  scene:force{ kind = "damping", mass = 0, stiffness = 1e-3 }
-  local hold = scene:clamp(wire, { s = 0 })
-  hold:follow{ relative = true, duration = 0.6, law = "trapezoidal",
-    points = { { 0, 0, 0 }, { 0.05 * c, 0.05 * s, height }, { 0.1 * c, 0.1 * s, 0 } } }
-  local told = false
-  for _, e in ipairs(t.fine(scene:run{ dt = dt, duration = 1 }).events) do
-    told = told or e.kind == "coarse" and e.text:find("forces at rest", 1, true) ~= nil
-  end
-  local f = hold:force()
-  return (f[1] * c + f[2] * s) / (mu * 9.81 * wire.beam.mass_per_length * LENGTH), told
+  return lay({ cable = cable, mu = mu, turn = turn, height = height, length = 0.4, segments = 40,
+    duration = 0.6, way = 0.1, damping = 1e-3, law = "trapezoidal", rest = 0.4 }, dt)
 end
 
 describe("a cable that has just landed when its hold stops", function()
