@@ -8,9 +8,9 @@
 
 /* How the next step begins. SW_AS_BEFORE: with the state's accelerations. SW_ANEW: without, because
  * the scene was changed and they are stale. SW_FROM_REST: anew, from an equilibrium that was found
- * and not changed since. SW_GOES_ON: with the accelerations although the system is new, because
- * they fit its forces. */
-enum { SW_GOES_ON = -1, SW_AS_BEFORE = 0, SW_ANEW = 1, SW_FROM_REST = 2 };
+ * and not changed since. SW_SET_OFF: the same, but drives have got motions that begin now.
+ * SW_GOES_ON: with the accelerations although the system is new, because they fit its forces. */
+enum { SW_GOES_ON = -1, SW_AS_BEFORE = 0, SW_ANEW = 1, SW_FROM_REST = 2, SW_SET_OFF = 3 };
 
 typedef struct sw_course {
   int next;        /* SW_AS_BEFORE, ...: how the next step begins */
@@ -41,6 +41,14 @@ static inline void sw_course_jump(sw_course *course) { course->next = SW_ANEW; }
 /* Call when the scene came to rest. */
 static inline void sw_course_rest(sw_course *course) { course->next = SW_FROM_REST; }
 static inline int sw_course_rests(const sw_course *course) { return course->next == SW_FROM_REST; }
+/* 1 if the state is an equilibrium that was found, and only motions were changed since. */
+static inline int sw_course_is_still(const sw_course *course) {
+  return course->next == SW_FROM_REST || course->next == SW_SET_OFF;
+}
+/* Call when a drive has got another motion. */
+static inline void sw_course_set_off(sw_course *course) {
+  course->next = sw_course_is_still(course) ? SW_SET_OFF : SW_ANEW;
+}
 /* Call when the scene was changed, but the next step goes on as if it were not. */
 static inline void sw_course_go_on(sw_course *course) { course->next = SW_GOES_ON; }
 

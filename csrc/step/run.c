@@ -112,6 +112,17 @@ sw_status sw_scene_begin_run(sw_scene *s, int wear, sw_error *err) {
   return SW_OK;
 }
 
+/* Slow handling passes through the equilibrium that it starts from: the largest tension and the
+ * sharpest bend of two clamps that approach are there. */
+static sw_status note_start(sw_scene *s, sw_error *err) {
+  sw_wire_extremes now;
+  sw_scene_course(s)->span = 0;
+  sw_system_refresh(sw_scene_system(s));
+  for (size_t w = 0; w < sw_scene_wire_slots(s); w++)
+    SW_TRY(sw_scene_note_extremes(s, w, &now, err));
+  return SW_OK;
+}
+
 /* Builds the scene and checks that it can be run like this. */
 static sw_status prepare(sw_scene *s, const sw_run_args *args, double until, sw_error *err) {
   SW_TRY(sw_scene_ready(s, err));
@@ -148,6 +159,8 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   if (status == SW_OK && (sw_scene_wears(s) || sw_scene_zones_of(s)->count))
     status = sw_scene_begin_watching(s, &why);
   if (sw_course_rests(sw_scene_course(s))) sw_yield_tell(s);
+  if (status == SW_OK && args->quasistatic && sw_course_is_still(sw_scene_course(s)))
+    status = note_start(s, &why);
   if (status == SW_OK) status = run_loop(&p, until, interrupted, &why);
   sw_scene_enter(s, -1);
   sw_scene_system(s)->judged = NULL;
