@@ -128,7 +128,7 @@ static sw_status new_blocks(lua_State *L, sw_blocks **out) {
     luaL_argcheck(L, list[2 * k] >= 0 && list[2 * k + 1] >= 0, 1, "no such node");
     pairs[k] = (sw_couple){(uint32_t)list[2 * k], (uint32_t)list[2 * k + 1]};
   }
-  return sw_blocks_new_sparse(nodes, pairs, count, NULL, out);
+  return sw_blocks_new_sparse(nodes, pairs, count, NULL, NULL, out);
 }
 
 /* Writes the existing blocks from a dense matrix (row by row); returns their number. */

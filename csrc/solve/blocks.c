@@ -27,10 +27,12 @@ sw_status sw_blocks_new_rings(size_t rings, size_t per_ring, sw_blocks **out) {
 }
 
 sw_status sw_blocks_new_sparse(size_t nodes, const sw_couple *pairs, size_t count,
-                               const int32_t *order, sw_blocks **out) {
+                               const int32_t *order, sw_blocks *old, sw_blocks **out) {
   sw_blocks *b = sw_alloc(1, sizeof *b);
   if (!b) return SW_ENOMEM;
-  return finish(sw_blocks_sparse_new(nodes, pairs, count, order, &b->sparse), b, out);
+  return finish(
+      sw_blocks_sparse_new(nodes, pairs, count, order, old ? old->sparse : NULL, &b->sparse), b,
+      out);
 }
 
 void sw_blocks_free(sw_blocks *b) {

@@ -20,10 +20,11 @@ typedef struct sw_blocks sw_blocks;
 sw_status sw_blocks_new_rings(size_t rings, size_t per_ring, sw_blocks **out);
 
 /* Makes a matrix with blocks for the nodes themselves and for these pairs, which may repeat. order
- * (nodes): of the elimination; NULL: an order is found. SW_EINVAL for no nodes or an invalid pair,
+ * (nodes): of the elimination; NULL: an order is found. old: NULL, or a matrix whose work space it
+ * takes over; old may only be freed then. SW_EINVAL for no nodes or an invalid pair,
  * SW_ELIMIT for too many, SW_ENOMEM. */
 sw_status sw_blocks_new_sparse(size_t nodes, const sw_couple *pairs, size_t count,
-                               const int32_t *order, sw_blocks **out);
+                               const int32_t *order, sw_blocks *old, sw_blocks **out);
 void sw_blocks_free(sw_blocks *blocks); /* NULL is allowed */
 
 size_t sw_blocks_nodes(const sw_blocks *blocks);

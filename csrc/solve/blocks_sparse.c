@@ -94,16 +94,17 @@ static sw_status find_below(sw_blocks_sparse *s) {
 }
 
 static sw_status analyse(sw_blocks_sparse *s, const sw_couple *pairs, size_t count,
-                         const int32_t *order) {
+                         const int32_t *order, sw_blocks_sparse *old) {
   SW_TRY(find_pattern(s, pairs, count));
   SW_TRY(find_below(s));
   s->values = sw_alloc(BLOCK * (size_t)s->first[s->nodes], sizeof *s->values);
   if (!s->values) return SW_ENOMEM;
-  return sw_tree_new(s->nodes, s->first, s->column, order, &s->tree);
+  return sw_tree_new(s->nodes, s->first, s->column, order, old ? old->tree : NULL, &s->tree);
 }
 
 sw_status sw_blocks_sparse_new(size_t nodes, const sw_couple *pairs, size_t count,
-                               const int32_t *order, sw_blocks_sparse **out) {
+                               const int32_t *order, sw_blocks_sparse *old,
+                               sw_blocks_sparse **out) {
   if (nodes < 1) return SW_EINVAL;
   if (nodes > INT32_MAX / 32 || count > INT32_MAX / 32) return SW_ELIMIT;
   for (size_t k = 0; k < count; k++)
@@ -111,7 +112,7 @@ sw_status sw_blocks_sparse_new(size_t nodes, const sw_couple *pairs, size_t coun
   sw_blocks_sparse *s = sw_alloc(1, sizeof *s);
   if (!s) return SW_ENOMEM;
   s->nodes = nodes;
-  const sw_status status = analyse(s, pairs, count, order);
+  const sw_status status = analyse(s, pairs, count, order, old);
   if (status == SW_OK)
     *out = s;
   else

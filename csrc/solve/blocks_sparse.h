@@ -22,7 +22,7 @@ typedef struct sw_blocks_sparse {
 } sw_blocks_sparse;
 
 sw_status sw_blocks_sparse_new(size_t nodes, const sw_couple *pairs, size_t count,
-                               const int32_t *order, sw_blocks_sparse **out);
+                               const int32_t *order, sw_blocks_sparse *old, sw_blocks_sparse **out);
 void sw_blocks_sparse_free(sw_blocks_sparse *s); /* NULL is allowed */
 size_t sw_blocks_sparse_slot(const sw_blocks_sparse *s, size_t i, size_t j);
 void sw_blocks_sparse_clear(sw_blocks_sparse *s);

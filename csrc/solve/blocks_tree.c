@@ -37,7 +37,10 @@ struct sw_tree {
   uint32_t *entries; /* (nodes + 1) a number's first entry */
   entry *entry;      /* (blocks) */
   uint32_t *place;   /* (nodes) work: columns of a front by number */
-  double *factor, *kept, *scaled, *left, *x, *before;
+  /* Numbers written before they are read, so that another tree can take the lists over. */
+  double *factor, *scaled, *left, *x;
+  size_t factor_room, scaled_room, left_room, x_room; /* their sizes [doubles] */
+  double *kept, *before;                              /* in factor, in x */
 };
 
 void sw_tree_free(sw_tree *t) {
@@ -120,7 +123,41 @@ static void lay_out(sw_tree *t, sizes *size) {
   size->left = most[0] + most[1];
 }
 
-static sw_status build(sw_tree *t, const sw_cholmod_plan *plan) {
+/* Makes room for `need` numbers: in old's list, if it is large enough. Bundles of wires get another
+ * pattern in every third iteration; new memory for each would cost a fifth of their time. */
+static sw_status make_room(double **list, size_t *room, double **old, size_t *old_room,
+                           size_t need) {
+  if (old && *old_room >= need) {
+    *list = *old, *room = *old_room;
+    *old = NULL, *old_room = 0;
+    return SW_OK;
+  }
+  if (old) sw_free(*old), *old = NULL, *old_room = 0; /* else both would be in use at once */
+  const size_t most = old ? need + need / 4 : need;   /* further patterns will come */
+  *list = sw_alloc(most, sizeof **list);
+  *room = *list ? most : 0;
+  return *list ? SW_OK : SW_ENOMEM;
+}
+
+static sw_status make_rooms(sw_tree *t, const sizes *size, sw_tree *old) {
+  const size_t n = t->nodes;
+#define ROOM(list, need)                                                                        \
+  make_room(&t->list, &t->list##_room, old ? &old->list : NULL, old ? &old->list##_room : NULL, \
+            need)
+  /* tiles may be read beyond the last row */
+  SW_TRY(ROOM(factor, size->factor + SW_FRONT_TILE + 3 * n * SW_FRONT_KEPT));
+  SW_TRY(ROOM(scaled, size->scaled + SW_FRONT_TILE));
+  SW_TRY(ROOM(left, size->left));
+  SW_TRY(ROOM(x, 3 * n + SW_FRONT_TILE + size->before));
+#undef ROOM
+  t->kept = t->factor + size->factor + SW_FRONT_TILE;
+  t->before = t->x + 3 * n + SW_FRONT_TILE;
+  memset(t->factor + size->factor, 0, SW_FRONT_TILE * sizeof *t->factor);
+  memset(t->scaled + size->scaled, 0, SW_FRONT_TILE * sizeof *t->scaled);
+  return SW_OK;
+}
+
+static sw_status build(sw_tree *t, const sw_cholmod_plan *plan, sw_tree *old) {
   const size_t n = t->nodes;
   sizes size = {0, 0, 0, 0};
   t->pieces = plan->fronts;
@@ -131,24 +168,18 @@ static sw_status build(sw_tree *t, const sw_cholmod_plan *plan) {
   find_entries(t);
   memset(t->place, 0, n * sizeof *t->place);
   lay_out(t, &size);
-  /* tiles may be read beyond the last row */
-  SW_TRY(SW_ALLOC_ALL(SW_ROOM(t->factor, size.factor + SW_FRONT_TILE + 3 * n * SW_FRONT_KEPT),
-                      SW_ROOM(t->scaled, size.scaled + SW_FRONT_TILE), SW_ROOM(t->left, size.left),
-                      SW_ROOM(t->x, 3 * n + SW_FRONT_TILE + size.before)));
-  t->kept = t->factor + size.factor + SW_FRONT_TILE;
-  t->before = t->x + 3 * n + SW_FRONT_TILE;
-  return SW_OK;
+  return make_rooms(t, &size, old);
 }
 
 sw_status sw_tree_new(size_t nodes, const uint32_t *first, const uint32_t *column,
-                      const int32_t *order, sw_tree **out) {
+                      const int32_t *order, sw_tree *old, sw_tree **out) {
   sw_cholmod_plan plan = {0};
   SW_TRY(sw_cholmod_analyse(nodes, first, column, order, &plan));
   sw_tree *t = sw_alloc(1, sizeof *t);
   sw_status status = SW_ENOMEM;
   if (t) {
     t->nodes = nodes, t->first = first, t->column = column;
-    status = build(t, &plan);
+    status = build(t, &plan, old);
   }
   sw_cholmod_free_plan(&plan);
   if (status == SW_OK)

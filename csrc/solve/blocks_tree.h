@@ -15,9 +15,10 @@ typedef struct sw_tree sw_tree;
 
 /* Makes a tree. Node i has the blocks first[i] .. first[i + 1] - 1, with ascending columns
  * column[..], its own block last. Both lists must outlive the tree. order: of the elimination, or
- * NULL. SW_ENOMEM, SW_ELIMIT. */
+ * NULL. old: NULL, or a tree whose work space it takes over; old may only be freed then. SW_ENOMEM,
+ * SW_ELIMIT. */
 sw_status sw_tree_new(size_t nodes, const uint32_t *first, const uint32_t *column,
-                      const int32_t *order, sw_tree **out);
+                      const int32_t *order, sw_tree *old, sw_tree **out);
 void sw_tree_free(sw_tree *tree); /* NULL is allowed */
 
 /* values: 9 per block, row by row. Otherwise like sw_blocks_factor. */

@@ -123,8 +123,9 @@ static sw_status analyse(sw_sparse *s, const sw_couple *pairs, size_t count) {
 /* Makes the fronts. slot[k]: where the block of pair k begins in their values, times 2, + 1 if
  * given transposed. */
 static sw_status use_fronts(sw_sparse *s, const sw_couple *pairs, size_t count,
-                            const int32_t *order) {
-  const sw_status status = sw_blocks_new_sparse(s->n, pairs, count, order, &s->fronts);
+                            const int32_t *order, sw_sparse *old) {
+  sw_blocks *room = old ? old->fronts : NULL;
+  const sw_status status = sw_blocks_new_sparse(s->n, pairs, count, order, room, &s->fronts);
   for (size_t k = 0; k < count && status == SW_OK; k++) {
     const uint32_t i = pairs[k].i, j = pairs[k].j;
     const size_t at = i > j ? sw_blocks_slot(s->fronts, i, j) : sw_blocks_slot(s->fronts, j, i);
@@ -144,13 +145,13 @@ static double work_of(const sw_sparse *s) {
 }
 
 /* Makes fronts for the pattern, eliminated from end to end if that is less work. */
-static sw_status choose_fronts(sw_sparse *s, const sw_couple *pairs, size_t count) {
+static sw_status choose_fronts(sw_sparse *s, const sw_couple *pairs, size_t count, sw_sparse *old) {
   int32_t *order SW_LOCAL = sw_alloc(s->n, sizeof *order);
   double work;
   if (!order) return SW_ENOMEM;
   SW_TRY(sw_sparse_order_along(s->n, pairs, count, order, &work));
   s->along = s->along || work < work_of(s);
-  return use_fronts(s, pairs, count, s->along ? order : NULL);
+  return use_fronts(s, pairs, count, s->along ? order : NULL, old);
 }
 
 /* Allocates the values, if there are no fronts. */
@@ -166,17 +167,18 @@ static sw_status make_room(sw_sparse *s) {
 }
 
 sw_status sw_sparse_new(size_t nodes, size_t block, const sw_couple *pairs, size_t count,
-                        const sw_sparse *like, sw_sparse **out) {
+                        sw_sparse *old, sw_sparse **out) {
   sw_sparse *s = sw_alloc(1, sizeof *s);
   if (!s) return SW_ENOMEM;
   s->n = nodes, s->block = block, s->pairs = count;
-  s->along = like && like->along && block == like->block;
+  s->along = old && old->along && block == old->block;
   s->slot = sw_alloc(count, sizeof *s->slot);
   sw_status status = s->slot && nodes < INT32_MAX / 4 && count < INT32_MAX / 4 ? SW_OK : SW_ENOMEM;
   if (status == SW_OK && !s->along) status = analyse(s, pairs, count);
   if (status == SW_OK)
-    status = s->along || (block == 3 && s->fill > DENSE * nodes) ? choose_fronts(s, pairs, count)
-                                                                 : make_room(s);
+    status = s->along || (block == 3 && s->fill > DENSE * nodes)
+                 ? choose_fronts(s, pairs, count, old)
+                 : make_room(s);
   if (status == SW_OK)
     *out = s;
   else

@@ -17,10 +17,11 @@ typedef struct sw_sparse sw_sparse;
 enum { SW_SPARSE_BLOCK_MAX = 4 };
 
 /* Makes a matrix of nodes x nodes blocks of block x block values (3 or 4), zero except for the
- * diagonal and the given pairs, which may repeat. like: a matrix of the same block with some pairs
- * fewer, which saves part of the search for an order; or NULL. SW_ENOMEM. */
+ * diagonal and the given pairs, which may repeat. old: NULL, or a matrix of the same block with
+ * some pairs fewer: it saves part of the search for an order, the new one takes over its work
+ * space, and it may only be freed then. SW_ENOMEM. */
 sw_status sw_sparse_new(size_t nodes, size_t block, const sw_couple *pairs, size_t count,
-                        const sw_sparse *like, sw_sparse **out);
+                        sw_sparse *old, sw_sparse **out);
 void sw_sparse_free(sw_sparse *sparse); /* NULL is allowed */
 
 /* Sets all values to zero. */

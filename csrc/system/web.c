@@ -66,7 +66,7 @@ static sw_status new_sparse(const sw_web *w, const uint32_t *others, size_t more
   if (!pairs) return SW_ENOMEM;
   size_t count = join_all(w, (sink){.list = pairs});
   for (size_t i = 0; i < more; i++) pairs[count++] = (sw_couple){others[2 * i], others[2 * i + 1]};
-  return sw_blocks_new_sparse(w->particles, pairs, count, NULL, out);
+  return sw_blocks_new_sparse(w->particles, pairs, count, NULL, NULL, out);
 }
 
 /* Rings are full blocks, although a particle of a large ring is joined to few others. From this
