@@ -46,7 +46,9 @@ size_t sw_blocks_nodes(const sw_blocks *b) {
   return b->rings ? b->rings->rings * b->rings->per_ring : b->sparse->nodes;
 }
 
-double *sw_blocks_values(sw_blocks *b) { return b->rings ? b->rings->values : b->sparse->values; }
+double *sw_blocks_values(sw_blocks *b) {
+  return b->rings ? b->rings->values : b->sparse->values.at;
+}
 
 size_t sw_blocks_stride(const sw_blocks *b) { return b->rings ? b->rings->stride : 3; }
 

@@ -13,7 +13,7 @@ enum { BLOCK = 9 };
 void sw_blocks_sparse_free(sw_blocks_sparse *s) {
   if (!s) return;
   sw_tree_free(s->tree);
-  SW_FREE_ALL(s->first, s->column, s->under, s->values, s);
+  SW_FREE_ALL(s->first, s->column, s->under, s->values.at, s);
 }
 
 /* Sorts the blocks of the lower half into columns and then these into rows, so that both lists
@@ -97,8 +97,8 @@ static sw_status analyse(sw_blocks_sparse *s, const sw_couple *pairs, size_t cou
                          const int32_t *order, sw_blocks_sparse *old) {
   SW_TRY(find_pattern(s, pairs, count));
   SW_TRY(find_below(s));
-  s->values = sw_alloc(BLOCK * (size_t)s->first[s->nodes], sizeof *s->values);
-  if (!s->values) return SW_ENOMEM;
+  SW_TRY(
+      sw_numbers_make(&s->values, old ? &old->values : NULL, BLOCK * (size_t)s->first[s->nodes]));
   return sw_tree_new(s->nodes, s->first, s->column, order, old ? old->tree : NULL, &s->tree);
 }
 
@@ -128,12 +128,12 @@ size_t sw_blocks_sparse_slot(const sw_blocks_sparse *s, size_t i, size_t j) {
 }
 
 void sw_blocks_sparse_clear(sw_blocks_sparse *s) {
-  sw_clear(s->values, BLOCK * (size_t)s->first[s->nodes]);
+  sw_clear(s->values.at, BLOCK * (size_t)s->first[s->nodes]);
 }
 
 sw_status sw_blocks_sparse_factor(sw_blocks_sparse *s, const unsigned char *fixed,
                                   size_t *negative) {
-  return sw_tree_factor(s->tree, s->values, fixed, negative);
+  return sw_tree_factor(s->tree, s->values.at, fixed, negative);
 }
 
 void sw_blocks_sparse_solve(const sw_blocks_sparse *s, double *x) { sw_tree_solve(s->tree, x); }
@@ -158,7 +158,7 @@ static inline void add_own(const double *a, const double *x, double *y) {
 void sw_blocks_sparse_multiply(const sw_blocks_sparse *s, const double *x, double *y) {
   memset(y, 0, 3 * s->nodes * sizeof *y);
   for (size_t i = 0; i < s->nodes; i++) {
-    const double *a = s->values + BLOCK * (size_t)s->first[i];
+    const double *a = s->values.at + BLOCK * (size_t)s->first[i];
     uint32_t k = s->first[i];
     for (; s->column[k] < i; k++, a += BLOCK) {
       const size_t j = s->column[k];
@@ -171,14 +171,14 @@ void sw_blocks_sparse_multiply(const sw_blocks_sparse *s, const double *x, doubl
 
 void sw_blocks_sparse_row_times(const sw_blocks_sparse *s, size_t node, const double *x,
                                 double y[3]) {
-  const double *a = s->values + BLOCK * (size_t)s->first[node];
+  const double *a = s->values.at + BLOCK * (size_t)s->first[node];
   double sum[3] = {0, 0, 0};
   for (uint32_t k = s->first[node]; s->column[k] < node; k++, a += BLOCK)
     add(a, x + 3 * (size_t)s->column[k], sum);
   add_own(a, x + 3 * node, sum);
   for (uint32_t e = s->under[node]; e < s->under[node + 1]; e++) {
     const uint32_t *at = s->below + 2 * (size_t)e;
-    add_mirrored(s->values + BLOCK * (size_t)at[1], x + 3 * (size_t)at[0], sum);
+    add_mirrored(s->values.at + BLOCK * (size_t)at[1], x + 3 * (size_t)at[0], sum);
   }
   memcpy(y, sum, sizeof sum);
 }

@@ -8,16 +8,17 @@
 #include <stdint.h>
 
 #include "solve/blocks.h"
+#include "solve/numbers.h"
 
 typedef struct sw_tree sw_tree;
 
 typedef struct sw_blocks_sparse {
   size_t nodes;
-  uint32_t *first;  /* (nodes + 1) a node's first block; its own block is the last one */
-  uint32_t *column; /* (blocks) nodes, ascending in each row */
-  uint32_t *under;  /* (nodes + 1) index in below of a node's first block in later rows */
-  uint32_t *below;  /* (blocks x 2) row and number of these blocks */
-  double *values;   /* (blocks x 9) */
+  uint32_t *first;   /* (nodes + 1) a node's first block; its own block is the last one */
+  uint32_t *column;  /* (blocks) nodes, ascending in each row */
+  uint32_t *under;   /* (nodes + 1) index in below of a node's first block in later rows */
+  uint32_t *below;   /* (blocks x 2) row and number of these blocks */
+  sw_numbers values; /* (blocks x 9) */
   sw_tree *tree;
 } sw_blocks_sparse;
 

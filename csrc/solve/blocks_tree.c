@@ -7,6 +7,7 @@
 #include "base/interrupt.h"
 #include "solve/blocks_front.h"
 #include "solve/cholmod_adapter.h"
+#include "solve/numbers.h"
 
 /* A front. Its rows are nodes, ascending: those that it leaves (rest), then its own. */
 typedef struct piece {
@@ -38,14 +39,14 @@ struct sw_tree {
   entry *entry;      /* (blocks) */
   uint32_t *place;   /* (nodes) work: columns of a front by number */
   /* Numbers written before they are read, so that another tree can take the lists over. */
-  double *factor, *scaled, *left, *x;
-  size_t factor_room, scaled_room, left_room, x_room; /* their sizes [doubles] */
-  double *kept, *before;                              /* in factor, in x */
+  sw_numbers factor, scaled, left, x;
+  double *kept, *before; /* in factor, in x */
 };
 
 void sw_tree_free(sw_tree *t) {
   if (!t) return;
-  SW_FREE_ALL(t->number, t->piece, t->row, t->entry, t->factor, t->scaled, t->left, t->x, t);
+  SW_FREE_ALL(t->number, t->piece, t->row, t->entry, t->factor.at, t->scaled.at, t->left.at,
+              t->x.at, t);
 }
 
 /* --- analysis ------------------------------------------------------------------- */
@@ -123,37 +124,18 @@ static void lay_out(sw_tree *t, sizes *size) {
   size->left = most[0] + most[1];
 }
 
-/* Makes room for `need` numbers: in old's list, if it is large enough. Bundles of wires get another
- * pattern in every third iteration; new memory for each would cost a fifth of their time. */
-static sw_status make_room(double **list, size_t *room, double **old, size_t *old_room,
-                           size_t need) {
-  if (old && *old_room >= need) {
-    *list = *old, *room = *old_room;
-    *old = NULL, *old_room = 0;
-    return SW_OK;
-  }
-  if (old) sw_free(*old), *old = NULL, *old_room = 0; /* else both would be in use at once */
-  const size_t most = old ? need + need / 4 : need;   /* further patterns will come */
-  *list = sw_alloc(most, sizeof **list);
-  *room = *list ? most : 0;
-  return *list ? SW_OK : SW_ENOMEM;
-}
-
 static sw_status make_rooms(sw_tree *t, const sizes *size, sw_tree *old) {
   const size_t n = t->nodes;
-#define ROOM(list, need)                                                                        \
-  make_room(&t->list, &t->list##_room, old ? &old->list : NULL, old ? &old->list##_room : NULL, \
-            need)
   /* tiles may be read beyond the last row */
-  SW_TRY(ROOM(factor, size->factor + SW_FRONT_TILE + 3 * n * SW_FRONT_KEPT));
-  SW_TRY(ROOM(scaled, size->scaled + SW_FRONT_TILE));
-  SW_TRY(ROOM(left, size->left));
-  SW_TRY(ROOM(x, 3 * n + SW_FRONT_TILE + size->before));
-#undef ROOM
-  t->kept = t->factor + size->factor + SW_FRONT_TILE;
-  t->before = t->x + 3 * n + SW_FRONT_TILE;
-  memset(t->factor + size->factor, 0, SW_FRONT_TILE * sizeof *t->factor);
-  memset(t->scaled + size->scaled, 0, SW_FRONT_TILE * sizeof *t->scaled);
+  SW_TRY(sw_numbers_make(&t->factor, old ? &old->factor : NULL,
+                         size->factor + SW_FRONT_TILE + 3 * n * SW_FRONT_KEPT));
+  SW_TRY(sw_numbers_make(&t->scaled, old ? &old->scaled : NULL, size->scaled + SW_FRONT_TILE));
+  SW_TRY(sw_numbers_make(&t->left, old ? &old->left : NULL, size->left));
+  SW_TRY(sw_numbers_make(&t->x, old ? &old->x : NULL, 3 * n + SW_FRONT_TILE + size->before));
+  t->kept = t->factor.at + size->factor + SW_FRONT_TILE;
+  t->before = t->x.at + 3 * n + SW_FRONT_TILE;
+  memset(t->factor.at + size->factor, 0, SW_FRONT_TILE * sizeof *t->factor.at);
+  memset(t->scaled.at + size->scaled, 0, SW_FRONT_TILE * sizeof *t->scaled.at);
   return SW_OK;
 }
 
@@ -196,9 +178,9 @@ static sw_front front_of(const sw_tree *t, const piece *p) {
                     .before = p->before,
                     .place = p->before,
                     .stride = p->stride,
-                    .factor = t->factor + p->factor,
+                    .factor = t->factor.at + p->factor,
                     .kept = t->kept + 3 * (size_t)t->row[p->row + p->rest] * SW_FRONT_KEPT,
-                    .scaled = t->scaled};
+                    .scaled = t->scaled.at};
 }
 
 /* Finds the columns of a front's nodes. */
@@ -213,7 +195,7 @@ static void add_entries(const sw_tree *t, const piece *p, const double *values,
                         const unsigned char *fixed) {
   for (uint32_t k = 0; k < p->own; k++) {
     const uint32_t number = t->row[p->row + p->rest + k], node = t->node[number];
-    double *row = t->factor + p->factor + 3 * (size_t)k * p->stride;
+    double *row = t->factor.at + p->factor + 3 * (size_t)k * p->stride;
     const int out = fixed && fixed[node];
     for (uint32_t e = t->entries[number]; e < t->entries[number + 1]; e++) {
       const entry *at = t->entry + e;
@@ -243,13 +225,13 @@ static inline void add_row(const uint32_t *places, uint32_t k, const double *fro
 /* places: work space, one column per node. */
 static void add_child(const sw_tree *t, const piece *p, const piece *child, uint32_t *places) {
   const uint32_t *row = t->row + child->row;
-  const double *from = t->left + child->left;
+  const double *from = t->left.at + child->left;
   for (uint32_t k = 0; k < child->rest; k++) places[k] = t->place[row[k]];
   for (uint32_t k = 0; k < child->rest; k++) {
     const int own = places[k] >= p->before;
     const size_t stride = own ? p->stride : p->before;
-    double *to = own ? t->factor + p->factor + (places[k] - p->before) * stride
-                     : t->left + p->left + places[k] * stride;
+    double *to = own ? t->factor.at + p->factor + (places[k] - p->before) * stride
+                     : t->left.at + p->left + places[k] * stride;
     for (int i = 0; i < 3; i++, from += child->before, to += stride) add_row(places, k, from, to);
   }
 }
@@ -269,13 +251,13 @@ sw_status sw_tree_factor(sw_tree *t, const double *values, const unsigned char *
   for (size_t s = 0; s < t->pieces && !bad; s++) {
     const piece *p = t->piece + s;
     sw_front f = front_of(t, p);
-    double *left = t->left + p->left;
+    double *left = t->left.at + p->left;
     memset(f.factor, 0, f.n * f.stride * sizeof *f.factor);
     clear_left(p, left);
     find_places(t, p);
     add_entries(t, p, values, fixed);
     for (uint32_t c = p->child; c != NONE; c = t->piece[c].other)
-      add_child(t, p, t->piece + c, (uint32_t *)(void *)t->scaled);
+      add_child(t, p, t->piece + c, (uint32_t *)(void *)t->scaled.at);
     sw_front_reduce(&f, left, 3 * (size_t)p->rest);
     if (sw_interrupted()) return SW_EINTR;
     count += f.negative, bad += f.bad;
@@ -294,7 +276,7 @@ double sw_tree_work(const sw_tree *t) {
 }
 
 void sw_tree_solve(const sw_tree *t, double *x) {
-  double *z = t->x, *before = t->before;
+  double *z = t->x.at, *before = t->before;
   memset(z + 3 * t->nodes, 0, SW_FRONT_TILE * sizeof *z); /* else a NaN would stay for good */
   for (size_t k = 0; k < t->nodes; k++)
     memcpy(z + 3 * k, x + 3 * (size_t)t->node[k], 3 * sizeof *x);

@@ -18,6 +18,8 @@ void sw_sparse_free(sw_sparse *s) {
   SW_FREE_ALL(s->place, s->start, s->row, s->slot, s->target, s->x, s);
 }
 
+void sw_sparse_forget_order(sw_sparse *s) { s->along = 0; }
+
 size_t sw_sparse_fill(const sw_sparse *s) { return s->fill; }
 
 /* --- analysis ------------------------------------------------------------------- */

@@ -22,6 +22,8 @@ enum { SW_SPARSE_BLOCK_MAX = 4 };
  * space, and it may only be freed then. SW_ENOMEM. */
 sw_status sw_sparse_new(size_t nodes, size_t block, const sw_couple *pairs, size_t count,
                         sw_sparse *old, sw_sparse **out);
+/* A matrix that is made with this one as `old` will take over its work space only. */
+void sw_sparse_forget_order(sw_sparse *sparse);
 void sw_sparse_free(sw_sparse *sparse); /* NULL is allowed */
 
 /* Sets all values to zero. */

@@ -13,6 +13,7 @@ void sw_bridges_free(sw_system *s) {
   struct sw_bridges *l = s->bridges;
   if (!l) return;
   sw_sparse_free(l->matrix);
+  sw_sparse_free(l->spare);
   SW_FREE_ALL(l->list, l->pairs, l->known, l->planned, l->taken, l->table, l->number, l->first,
               l->x, l->right, l->spans, l);
   s->bridges = NULL;
@@ -119,8 +120,12 @@ static sw_status take_plan(struct sw_bridges *l) {
   if (l->table_size) memset(l->table, 0, l->table_size * sizeof *l->table);
   for (size_t k = 0; k < n; k++) SW_TRY(add_known(l, l->planned[k].i, l->planned[k].j));
   l->from_plan = l->known_count;
-  sw_sparse_free(l->matrix);
-  l->matrix = NULL;
+  if (l->matrix) {
+    sw_sparse_free(l->spare);
+    l->spare = l->matrix;
+    l->matrix = NULL;
+    sw_sparse_forget_order(l->spare);
+  }
   return SW_OK;
 }
 
@@ -199,8 +204,8 @@ sw_status sw_bridges_prepare(sw_system *s) {
   const size_t before = l->known_count;
   for (size_t k = 0; k < l->count; k++) SW_TRY(add_known(l, l->list[k].i, l->list[k].j));
   if (l->matrix && l->known_count == before && !replanned(s)) return SW_OK;
-  sw_sparse *old = l->matrix;
-  l->matrix = NULL;
+  sw_sparse *old = l->matrix ? l->matrix : l->spare;
+  l->matrix = l->spare = NULL;
   sw_status status = number_nodes(s);
   if (status == SW_OK) status = list_pairs(s);
   if (status == SW_OK)

@@ -20,7 +20,7 @@ struct sw_bridges {
   size_t count, capacity;
 
   /* the pattern for which the sparse matrix was analysed */
-  sw_sparse *matrix;
+  sw_sparse *matrix, *spare; /* spare: of an earlier plan, kept for its work space */
   sw_couple *pairs; /* of the bodies' chains, then of the bridges; in the matrix' numbers */
   size_t pair_capacity, chain_pairs, pair_count;
   sw_couple *known; /* bridges of the pattern: planned ones, then those added in the step */
