@@ -4,11 +4,15 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 
 enum { ALIGNMENT = 64 }; /* one cache line and the widest vector [B] */
 /* Blocks of at least this size come zeroed from the system, which zeroes each page at its first
  * use. So a large block does not delay the answer to Ctrl-C [B]. */
 enum { LARGE = 1 << 20 };
+/* Blocks of at least this size ask for pages of 2 MB: 100,000 nodes that land at once write 300 MB
+ * for the first time, in small pages 70,000 interrupts. Smaller blocks would waste too much [B]. */
+enum { HUGE_BLOCK = 8 << 20, PAGE = 4096 };
 
 /* Stored in the 64 bytes before the block, so that sw_free knows its size. */
 typedef struct header {
@@ -30,6 +34,16 @@ void sw_alloc_passed(size_t count) {
     fail_countdown -= count < (size_t)fail_countdown ? (long)count : fail_countdown;
 }
 
+/* A hint: it does not matter whether the system follows it. */
+static void use_large_pages(char *raw, size_t bytes) {
+#ifdef MADV_HUGEPAGE
+  const size_t aside = (PAGE - (uintptr_t)raw % PAGE) % PAGE;
+  (void)madvise(raw + aside, (bytes - aside) / PAGE * PAGE, MADV_HUGEPAGE);
+#else
+  (void)raw, (void)bytes;
+#endif
+}
+
 static void *make(size_t count, size_t size, int zero) {
   requests++;
   if (fail_countdown > 0 && --fail_countdown == 0) return NULL;
@@ -39,6 +53,7 @@ static void *make(size_t count, size_t size, int zero) {
   char *raw =
       total < LARGE || !zero ? aligned_alloc(ALIGNMENT, total) : calloc(1, total + ALIGNMENT);
   if (!raw) return NULL;
+  if (total >= HUGE_BLOCK) use_large_pages(raw, total);
   if (total < LARGE && zero) memset(raw, 0, total);
   char *start = raw + (ALIGNMENT - (uintptr_t)raw % ALIGNMENT) % ALIGNMENT;
   *(header *)(void *)start = (header){bytes, raw};
