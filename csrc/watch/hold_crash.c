@@ -133,11 +133,11 @@ sw_status sw_hold_look_out(sw_scene *s, sw_hold *h, sw_error *err) {
   const int crashing = now.depth > most;
   if (crashing && !h->watch.crashing) h->watch.crash = now; /* a new one */
   h->watch.crashing = crashing;
-  if (!crashing && now.depth > NOTICED) /* perhaps from the start on */
-    sw_hold_watch_press(s, h, now.obstacle, now.depth);
-  else if (!crashing)
-    SW_TRY(sw_hold_watch_tilt(s, h, NOTICED, err));
-  if (!crashing) return SW_OK;
+  if (!crashing) { /* it may press from the start on */
+    if (!sw_hold_watch_press(s, h, now.obstacle, now.depth, NOTICED) && !(now.depth > NOTICED))
+      SW_TRY(sw_hold_watch_tilt(s, h, NOTICED, err));
+    return SW_OK;
+  }
   sw_scene_tell(s, "crash", h->name, arc, now.depth,
                 "%s '%s' pushes wire '%s' %.3g mm deep into '%s'; no force can stop that",
                 h->cls->name, h->name, sw_scene_wire_in(s, h->wire)->name, 1e3 * now.depth,

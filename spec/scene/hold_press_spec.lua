@@ -79,6 +79,32 @@ describe("a hold that presses a cable a little into a table", function()
     end)
   end
 
+  -- Told by its force, at any depth: 8 um (0.3 % of the radius) gave GXL 10 1.5 to 203 weights. A hold at
+  -- the wire's own height, or above it, leaves the table a little less than the weight.
+  for _, cable in ipairs{ "FLRY-B 0.5", "GXL 1.5", "GXL 10" } do
+    it("is told of wherever the table bears 15 % too much: " .. cable, function()
+      local r, heavy = sw.cable(cable).outer_diameter.value / 2, 0
+      local weight = 9.81 * 0.3 * sw.cable(cable).mass_per_length.value
+      for _, segments in ipairs{ 10, 20, 77 } do
+        for _, share in ipairs{ 0.03, 0.01, 0.003, 0, -0.003 } do
+          for _, dt in ipairs{ 0.02, 0.005 } do
+            local told, _, _, run = pressed(cable, 0, { make = makers.clamp, segments = segments, dt = dt,
+              sunk = share * r, turn = 10 * share })
+            local bears = run.scene:find "table":force()[3] / -weight
+            if bears > 1.15 then
+              heavy = heavy + 1
+              assert.equal(1, #told)
+            elseif share <= 0 then
+              t.below(1.001, bears, "load of the table over the weight")
+              assert.equal(0, #told)
+            end
+          end
+        end
+      end
+      t.above(8, heavy, "runs with a force that is false")
+    end)
+  end
+
   it("is not told of where it does not press", function()
     for _, make in pairs(makers) do
       for _, down in ipairs{ 0, -1e-3, 1e-6 } do
