@@ -354,6 +354,14 @@ void sw_kept_harden(sw_kept *kept, double axial, double deepest) {
   kept->k *= times, kept->depth = depth;
 }
 
+void sw_kept_firm(sw_kept *kept, double k) {
+  if (!(kept->k < k)) return;
+  const double less = kept->k / k;
+  kept->k = k;
+  kept->depth *= less;
+  kept->elastic = sw_scale(kept->elastic, less);
+}
+
 double sw_kept_hardened(const sw_kept *kept, double k, int mesh) {
   const double depth = kept->depth, force = kept->normal_force, harder = k * depth - force;
   if (!(harder > 0)) return 0;

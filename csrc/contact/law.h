@@ -89,6 +89,8 @@ int sw_press_eases(const sw_press *press, double usual, double stiffer, double d
  * the next step on. The rest of its depth stays (left). axial: stiffness of the wire's edge, the
  * upper limit: between rigid things no force could be set [N/m]. */
 void sw_kept_harden(sw_kept *kept, double axial, double deepest);
+/* Makes a touch at least as stiff as k [N/m]. Its force and that of its friction stay. */
+void sw_kept_firm(sw_kept *kept, double k);
 /* Energy that a touch gains if its stiffness rises to k [J]. A mesh keeps its depth, and its spring
  * then stores more. A line is light: it comes out, at constant force, to the depth that belongs to
  * k. */

@@ -23,6 +23,7 @@ typedef struct sw_candidate {
   size_t memory, memory_end; /* its range of the memory */
   size_t last, last_end;     /* its range of the previous iterate's touches */
   double usual;              /* stiffness of a new touch [N/m] */
+  double least;              /* least stiffness of one that goes on; 0: any [N/m] */
   int given;                 /* 1: it keeps this stiffness, however deep it gets */
   int smooth;                /* 1: the wire touches by its smooth curve there, not by its chords */
   int round;                 /* 1: by its curve at a thin round obstacle, elsewhere by chords */
