@@ -63,11 +63,13 @@ static int any_jaw_works(const sw_scene *s) {
 /* Not divided, but told if too long: meshes between jaws that close, hold or let go, because their
  * section shakes the axis. In whole steps the squeeze and the work of friction are the same, in a
  * half to a fifth of the time (bench case=grip, spec/check/worn_mesh_spec). */
-static int any_mesh_in_jaws(const sw_scene *s) {
+int sw_coarse_has_mesh_in_jaws(const sw_scene *s) {
   return any_jaw_works(s) && any_mesh(sw_scene_system(s));
 }
 
-int sw_coarse_applies(const sw_scene *s) { return !any_mesh_in_jaws(s) && !sw_coarse_is_crowd(s); }
+int sw_coarse_applies(const sw_scene *s) {
+  return !sw_coarse_has_mesh_in_jaws(s) && !sw_coarse_is_crowd(s);
+}
 
 int sw_coarse_is_bundle(const sw_scene *s) {
   const sw_mutual *pairs = sw_scene_pairs(s);
@@ -166,7 +168,8 @@ void sw_coarse_tell(sw_scene *s, double h) {
     snprintf(of, sizeof of, "the motion of a wire (steps are not divided while %d wires move)",
              SW_MOST_MOVING + 1);
     tell(s, h, over_of(s, HUGE_VAL), of);
-  } else if (any_mesh_in_jaws(s) && over_of(s, HUGE_VAL) > 0) { /* 0: there is no estimate */
+  } else if (sw_coarse_has_mesh_in_jaws(s) &&
+             over_of(s, HUGE_VAL) > 0) { /* 0: there is no estimate */
     snprintf(of, sizeof of, "the motion of a mesh between pads (its steps are not divided)");
     tell(s, h, over_of(s, HUGE_VAL), of);
   } else {

@@ -20,6 +20,8 @@ int sw_coarse_applies(const sw_scene *scene);
 int sw_coarse_is_crowd(const sw_scene *scene);
 /* 1 if so many wires touch each other that their steps are taken whole. */
 int sw_coarse_is_bundle(const sw_scene *scene);
+/* 1 if a mesh may be between jaws that close, hold or open: its steps are taken whole. */
+int sw_coarse_has_mesh_in_jaws(const sw_scene *scene);
 /* Returns the error of the last trial over the allowed error [-]. The error is the method's
  * estimate; the allowed error is that of a wire, at most the tolerance [m]. Up to 1 is fine; 0: the
  * method has no estimate, or the wires are a bundle, which is not judged. */

@@ -317,6 +317,12 @@ void sw_jaw_follow(sw_scene *s) {
       follow(s, t);
 }
 
+size_t sw_jaw_moving(const sw_scene *s) {
+  size_t moving = 0;
+  SW_EACH(tool, t, s) moving += works(t) && t->pads && t->jaw.status == SW_JAW_MOVES;
+  return moving;
+}
+
 /* Pads that are turned against a wire bend it while they close, and it slides between them until
  * friction locks. How far it slid decides what force along the wire is locked in: a micrometre of a
  * stiff cable is a tenth of a newton. In a step in which the pads' force grows from little to the

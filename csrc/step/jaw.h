@@ -18,6 +18,8 @@ double sw_jaw_off(sw_scene *scene);
 int sw_jaw_again(sw_scene *scene);
 /* After an accepted state, or a step that was given up: openings and status follow. */
 void sw_jaw_follow(sw_scene *scene);
+/* Returns the number of tools whose jaws are on their way to what they were told [-]. */
+size_t sw_jaw_moving(const sw_scene *scene);
 /* As sw_jaw_begin, for an equilibrium at the scene's time: jaws that hold with a force open or
  * close at once, by a small part of the wires' thickness. */
 int sw_jaw_begin_rest(sw_scene *scene);

@@ -61,9 +61,10 @@ static sw_status run_loop(sw_ladder *p, double until, int (*interrupted)(void), 
     int cut = 0;
     if (p->args->quasistatic && sw_scene_wire_slots(s))
       SW_TRY(sw_scene_cut_pose(s, &t1, &cut, err));
-    if (!cut) k++;
     began = sw_scene_time(s);
     SW_TRY(one_step(p, t1, until, err));
+    const int early = !p->args->quasistatic && sw_scene_time(s) < t1 - slack; /* jaws arrived */
+    if (!cut && !early) k++;
     if (isfinite(p->args->frame) && sw_scene_time(s) >= sw_scene_frames_of(s)->next - slack)
       SW_TRY(sw_scene_store_frame(s, err));
     if (isfinite(p->args->frame)) next_frame(s, p->args->frame, sw_scene_time(s) + slack);
