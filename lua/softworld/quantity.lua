@@ -65,7 +65,7 @@ quantity.known = {
   obstacle = {
     force = { unit = "N", of = function(o) return o:force() end },
     peak_force = { unit = "N", plain = true, named = true, of = over_at "peak_force" },
-    mean_force = { unit = "N", named = true, of = over "mean_force" },
+    mean_force = { unit = "N", named = true, of = window.mean_force },
     impulse = { unit = "N s", named = true, of = over "impulse" },
   },
   tie = {

@@ -5,6 +5,7 @@ package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local core = sw.core
 local t = require "spec.physics.tools"
+local window = require "softworld.run.window"
 
 local G = 9.81
 local soft = { E = 1e6, density = 1200, radius = 0.003 }
@@ -187,6 +188,17 @@ describe("an obstacle's force", function()
     for k = 1, 3 do t.near(all.impulse[k], one.impulse[k] + two.impulse[k], 1e-15, "impulse") end
     t.near(0.2, one.duration + two.duration, 1e-12, "duration")
     t.near(all.mean_force * 0.2, one.mean_force * one.duration + two.mean_force * two.duration, 1e-12, "mean")
+  end)
+
+  -- The mean is the same sum, and so has the same bits.
+  it("has the same mean where only that is read", function()
+    local scene, _, parts = thrown{ e = 0.8 }
+    t.fine(scene:run{ duration = 0.1, dt = 0.004 })
+    for _, part in ipairs(parts) do
+      for _, start in ipairs{ 0, 0.0313 } do
+        assert.equal(part:over(start).mean_force, window.mean_force(part, start))
+      end
+    end
   end)
 
   it("is that of the equilibrium after settling", function()

@@ -210,21 +210,11 @@ end
 
 local over_keys = { window = true }
 
---- obstacle:over(t1, t2, { window = [s] }): force of wires on the obstacle over [t1, t2] [s], blows included.
--- Returns a table with peak_force, mean_force [N] (of the magnitude), impulse (vector), impulse_size [N s],
--- duration [s], the times of the peaks, and raw_peak_force, that of a single step of raw_peak_force_span.
-function core.class.obstacle.over(obstacle, t1, t2, options)
-  if core.type(obstacle) ~= "obstacle" then
-    error("obstacle:over is a method: call it with a colon", 2)
-  end
-  build.call(3, core.window, obstacle) -- raises if it does not exist any more
-  options = options or {}
-  checks.keys("obstacle:over", options, over_keys, 3)
-  t1 = t1 == nil and -math.huge or checks.number("obstacle:over: t1", t1, -math.huge, " s", 3)
-  t2 = t2 == nil and math.huge or checks.number("obstacle:over: t2", t2, -math.huge, " s", 3)
-  local width = window.of(obstacle, options.window, "obstacle:over", 3)
-  local rows, count = build.call(3, obstacle.log, obstacle, t1, t2)
-  local m, steps = { impulse = { 0, 0, 0 }, duration = 0, window = width }, {}
+-- Returns impulse and duration of the force on an obstacle over [t1, t2] [s], the integral of its magnitude
+-- [N s], and its steps.
+local function sum_over(obstacle, t1, t2)
+  local rows, count = obstacle:log(t1, t2)
+  local m, steps = { impulse = { 0, 0, 0 }, duration = 0 }, {}
   local sum, before = 0, nil
   local function add(h, s)
     if h <= 0 then return end
@@ -246,6 +236,31 @@ function core.class.obstacle.over(obstacle, t1, t2, options)
     end
     before = s
   end
+  return m, sum, steps
+end
+
+--- Returns the mean magnitude of the force on an obstacle from a time on [N], as obstacle:over does. Peaks,
+-- which take most of the time, are not looked for.
+function window.mean_force(obstacle, start)
+  local m, sum, steps = sum_over(obstacle, start, math.huge)
+  return m.duration > 0 and sum / m.duration or window.peak(steps, core.window(obstacle)).value
+end
+
+--- obstacle:over(t1, t2, { window = [s] }): force of wires on the obstacle over [t1, t2] [s], blows included.
+-- Returns a table with peak_force, mean_force [N] (of the magnitude), impulse (vector), impulse_size [N s],
+-- duration [s], the times of the peaks, and raw_peak_force, that of a single step of raw_peak_force_span.
+function core.class.obstacle.over(obstacle, t1, t2, options)
+  if core.type(obstacle) ~= "obstacle" then
+    error("obstacle:over is a method: call it with a colon", 2)
+  end
+  build.call(3, core.window, obstacle) -- raises if it does not exist any more
+  options = options or {}
+  checks.keys("obstacle:over", options, over_keys, 3)
+  t1 = t1 == nil and -math.huge or checks.number("obstacle:over: t1", t1, -math.huge, " s", 3)
+  t2 = t2 == nil and math.huge or checks.number("obstacle:over: t2", t2, -math.huge, " s", 3)
+  local width = window.of(obstacle, options.window, "obstacle:over", 3)
+  local m, sum, steps = build.call(3, sum_over, obstacle, t1, t2)
+  m.window = width
   window.fill(m, "peak_force", window.peak(steps, width), "N")
   m.mean_force = m.duration > 0 and sum / m.duration or m.peak_force
   m.impulse_size = size(m.impulse[1], m.impulse[2], m.impulse[3])
