@@ -72,6 +72,19 @@ describe("model = 'auto', where a wire without weight is drawn round a peg,", fu
     end)
   end
 
+  -- EA and EI fit no material here. On the coarsest edges nothing presses on the wire.
+  it("does not begin again where the stiffness of the pressed section is not known, and says so", function()
+    for _, row in ipairs { { T = 1.32, R = 0.042, mu = 0.252, turns = 1.11, lasts = 5, segments = 32 },
+      { T = 1.75, R = 0.0315, mu = 0.255, turns = 1.112, lasts = 5, segments = 32 } } do
+      local run = capstan(row, force(0.1))
+      local why = tostring(run:why())
+      assert.equal(1, run.model.probes, why)
+      assert.is_nil(why:find("began again", 1, true), why)
+      assert.truthy(why:find("not checked: section: how stiff the section of 'w' is", 1, true), why)
+      assert.is_true(run.met)
+    end
+  end)
+
   -- A hundred times heavier and five times faster: inertia, 2500 times as large, is no small part of the
   -- force.
   it("compares with dynamics if the wire is heavy and quick", function()

@@ -14,6 +14,7 @@ local checks = require "softworld.checks"
 local core = require "softworld.core"
 local decide = require "softworld.model.decide"
 local facts = require "softworld.model.facts"
+local finest = require "softworld.model.finest"
 local guard = require "softworld.model.guard"
 local mesh = require "softworld.model.mesh"
 local number = require "softworld.output.number"
@@ -29,11 +30,9 @@ local trust = require "softworld.run.trust"
 local choose = {}
 
 local LEAST = 1 - change.MODEL -- share of a tolerance that edges and steps always get [-]
-local HOPELESS = 50 -- bar over tolerance that no other rung can mend [-]
 local NONE = 0 / 0 -- value of a check's row that a computation lacks
 local LONGEST = 300 -- longest expected time of a level [s]
 local OWN = 4      -- a bar shortens by at most this times what the next rung changes [-]
-local SLACK = 2    -- on the limits of free checks, when the finest run must confirm them [-]
 
 -- True if the values of k levels already have short enough bars.
 local function suffices(job, k, known)
@@ -101,7 +100,7 @@ local function guarded(context, steps)
   return function(k)
     local options = steps(k)
     if context.guard then context.guard:close() end
-    context.guard = share and not context.unwatched and guard.new(context, SLACK * share) or nil
+    context.guard = share and not context.unwatched and guard.new(context, finest.SLACK * share) or nil
     options.guard = context.guard
     return options
   end
@@ -167,81 +166,6 @@ local function refined(context)
   return result
 end
 
--- Drops a free check that the finest run contradicts: its choice is decided again, by comparing. The other
--- choices follow, because it may leave out more now, or less. time: when this was seen [s].
-local function given_up(context, state, time)
-  local was, rung = state.choice.rungs[state.rung].as, state.rung
-  state.lost = ("in the fine run this is no longer true: %s"):format(state.known)
-  if state.no_way then
-    state.lost = ("%s; by %s %s, and the run began again, because %s"):format(state.lost,
-      number.text(time, "s"), state.broke, state.no_way)
-  end
-  state.checked, state.by, state.known = true, nil, nil
-  repeat until decide.look(context, state)
-  if state.rung ~= rung then
-    context.given_up[#context.given_up + 1] = { kind = "model", time = time, count = 1,
-      text = ("%s: %s given up; %s"):format(state.choice.name, was, state.why) }
-  end
-  decide.settle(context)
-end
-
--- True if the finest run can contradict the free check of a choice.
-local function is_checked(state) return state.by == "free" and not state.went_on end
-
--- Returns what the finest run tells of choices with a free check to confirm, or with a `short`. For facts
--- that do not depend on the tolerance, only from frames that the guard has not seen.
-local function last_facts(context, result)
-  local seen, unseen = {}, {}
-  for _, state in ipairs(context.states) do
-    local asked = is_checked(state) or state.choice.short ~= nil
-    local set = state.choice.by_itself and context.guard and unseen or seen
-    set[state.choice.name] = asked
-  end
-  context.watching = true
-  local found = probe.facts(context, result, seen)
-  local late = next(unseen) and probe.facts(context, result, unseen, context.guard.from)
-  context.watching = nil
-  for name in pairs(unseen) do found[name] = late[name] end
-  return found
-end
-
--- Compares a choice on finer edges as long as the edges it was compared on show another state than the finest
--- run. Returns true if another rung is chosen.
-local function compared_finer(context, state, fine)
-  local rung, as = state.rung, state.choice.rungs[state.rung].as
-  while change.is_elsewhere(context, state, fine) and state.compared.k < decide.levels do
-    state.from, state.by = state.compared.k + 1, nil
-    repeat until decide.look(context, state)
-    if state.rung ~= rung then
-      context.given_up[#context.given_up + 1] = { kind = "model", time = context.scene.time, count = 1,
-        text = ("%s: %s given up; on coarse edges the wire is in another place: %s"):format(
-          state.choice.name, as, state.why) }
-      decide.settle(context)
-      return true
-    end
-  end
-  return false
-end
-
--- Checks the finest run; true if it must be computed again.
-local function broken(context, result)
-  local values = {}
-  for name, q in pairs(result.quantities) do values[name] = q.value end
-  local found, share = last_facts(context, result), change.tightest(context, values)
-  local fine = { values = values, shape = facts.shape(context.scene) }
-  local again, ran = false, decide.rungs(context)
-  for _, state in ipairs(context.states) do
-    local f, same = found[state.choice.name], state.rung == ran[state.choice.name]
-    if same and is_checked(state) and state.choice.broken(f, SLACK * share, state.rung) then
-      given_up(context, state, context.scene.time)
-      again = true
-    end
-    again = again or same and state.choice.by_state and compared_finer(context, state, fine)
-    state.short = state.choice.short and state.choice.short(context, f, share, state)
-  end
-  return again
-end
-
 -- True if the next rung of a choice may shorten the bar of a quantity enough. over: excess of the bar, with
 -- what the rungs leave out. The next rung removes what this one leaves out, and it shortens a bar, which is
 -- made of changes between levels, by at most OWN times its own change. Rough choices may always mend:
@@ -260,7 +184,7 @@ local function shorter(context, result)
   end
   for _, q in ipairs(result:error_bars()) do
     local least = context.job.read[q.name].least -- coarse levels of a motion make a bar longer
-    local hopeless = least > HOPELESS * q.tolerance or q.error <= context.spread:floor(q)
+    local hopeless = least > finest.HOPELESS * q.tolerance or q.error <= context.spread:floor(q)
     local all = q.error + change.left_out(context, q.name)
     local over = all - q.tolerance
     for _, state in ipairs(over > 0 and not hopeless and context.states or {}) do
@@ -282,7 +206,7 @@ local function watched(context)
   if fine then return result end
   local found = guard.found(result)
   if not found then error(result, 0) end
-  given_up(context, found.state, found.time)
+  finest.given_up(context, found.state, found.time)
 end
 
 -- If a fine run failed by a rung that coarse runs could be computed with, raises its choice.
@@ -307,7 +231,7 @@ end
 
 local function is_good(context, result)
   if goes_on_above(context, result) or spares(context) then return false end
-  return result.refused or not broken(context, result) and not shorter(context, result)
+  return result.refused or not finest.broken(context, result) and not shorter(context, result)
 end
 
 local function compute(context)

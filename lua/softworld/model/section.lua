@@ -167,12 +167,11 @@ function section.free(context, rung, f, share)
     f.wire, number.text(f.q, "N/m"), facts.percent(f.share), f.of, facts.percent(share))
 end
 
---- Returns why the rung no longer suffices, by what the run showed so far, or nil.
+--- Returns why the rung no longer suffices, by what the run showed so far, or nil. A section of unknown
+-- stiffness is no reason: no mesh of it can be made.
 function section.broken(f, share, rung)
   local left = section.left(rung, f)
-  if rung == 1 and f.unknown then
-    return ("the stiffness of the section of '%s', which was pressed, is not known"):format(f.unknown)
-  elseif rung == 1 and f.share > share then
+  if rung == 1 and f.share > share then
     return ("'%s' was pressed by %s and flattened by %s of its width (limit %s)"):format(f.wire,
       number.text(f.q, "N/m"), facts.percent(f.share), facts.percent(share))
   elseif left and left > LEFT * share then

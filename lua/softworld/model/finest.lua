@@ -1,0 +1,110 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Checks the finest run: whether it confirms the free checks, and whether the edges on which choices were
+-- compared show the same state.
+-- @module softworld.model.finest
+local change = require "softworld.model.change"
+local decide = require "softworld.model.decide"
+local facts = require "softworld.model.facts"
+local number = require "softworld.output.number"
+local probe = require "softworld.model.probe"
+local quantity = require "softworld.quantity"
+
+local finest = {
+  SLACK = 2,     -- on the limits of free checks, when the finest run must confirm them [-]
+  HOPELESS = 50, -- bar over tolerance that no other rung can mend [-]
+}
+
+--- Drops a free check that the finest run contradicts: its choice is decided again, by comparing. The other
+-- choices follow, because it may leave out more now, or less. time: when this was seen [s].
+function finest.given_up(context, state, time)
+  local was, rung = state.choice.rungs[state.rung].as, state.rung
+  state.lost = ("in the fine run this is no longer true: %s"):format(state.known)
+  if state.no_way then
+    state.lost = ("%s; by %s %s, and the run began again, because %s"):format(state.lost,
+      number.text(time, "s"), state.broke, state.no_way)
+  end
+  state.checked, state.by, state.known = true, nil, nil
+  repeat until decide.look(context, state)
+  if state.rung ~= rung then
+    context.given_up[#context.given_up + 1] = { kind = "model", time = time, count = 1,
+      text = ("%s: %s given up; %s"):format(state.choice.name, was, state.why) }
+  end
+  decide.settle(context)
+end
+
+-- True if the finest run can contradict the free check of a choice.
+local function is_checked(state) return state.by == "free" and not state.went_on end
+
+-- Returns what the finest run tells of choices with a free check to confirm, or with a `short`. For facts
+-- that do not depend on the tolerance, only from frames that the guard has not seen.
+local function last_facts(context, result)
+  local seen, unseen = {}, {}
+  for _, state in ipairs(context.states) do
+    local asked = is_checked(state) or state.choice.short ~= nil
+    local set = state.choice.by_itself and context.guard and unseen or seen
+    set[state.choice.name] = asked
+  end
+  context.watching = true
+  local found = probe.facts(context, result, seen)
+  local late = next(unseen) and probe.facts(context, result, unseen, context.guard.from)
+  context.watching = nil
+  for name in pairs(unseen) do found[name] = late[name] end
+  return found
+end
+
+-- True if a bar is so long that no other rung can mend it: the run is not met then, whatever it leaves out.
+local function is_hopeless(context)
+  for _, q in ipairs(context.job.quantities) do
+    local now = context.job.read[q.name]
+    if not q.row and now.least > finest.HOPELESS * quantity.asked(q, now.value) then return true end
+  end
+  return false
+end
+
+-- Compares a choice on finer edges as long as the edges it was compared on show another state than the finest
+-- run. Returns true if another rung is chosen.
+local function compared_finer(context, state, fine)
+  local rung, as = state.rung, state.choice.rungs[state.rung].as
+  if is_hopeless(context) then return false end
+  while change.is_elsewhere(context, state, fine) and state.compared.k < decide.levels do
+    state.from, state.by = state.compared.k + 1, nil
+    repeat until decide.look(context, state)
+    if state.rung ~= rung then
+      context.given_up[#context.given_up + 1] = { kind = "model", time = context.scene.time, count = 1,
+        text = ("%s: %s given up; on coarse edges the wire is in another place: %s"):format(
+          state.choice.name, as, state.why) }
+      decide.settle(context)
+      return true
+    end
+  end
+  return false
+end
+
+-- Settles a choice anew if the finest run shows that its free check tells nothing, nor would the next rung.
+local function not_checked(context, state, f, share)
+  local why = state.choice.skip and state.choice.skip(context, state.rung, f, share)
+  if why then state.by, state.why, state.known, state.doubt = "skipped", nil, nil, why end
+end
+
+--- Checks the finest run; true if it must be computed again.
+function finest.broken(context, result)
+  local values = {}
+  for name, q in pairs(result.quantities) do values[name] = q.value end
+  local found, share = last_facts(context, result), change.tightest(context, values)
+  local fine = { values = values, shape = facts.shape(context.scene) }
+  local again, ran = false, decide.rungs(context)
+  for _, state in ipairs(context.states) do
+    local f, same = found[state.choice.name], state.rung == ran[state.choice.name]
+    if same and is_checked(state) and state.choice.broken(f, finest.SLACK * share, state.rung) then
+      finest.given_up(context, state, context.scene.time)
+      again = true
+    elseif same and is_checked(state) then
+      not_checked(context, state, f, finest.SLACK * share)
+    end
+    again = again or same and state.choice.by_state and compared_finer(context, state, fine)
+    state.short = state.choice.short and state.choice.short(context, f, share, state)
+  end
+  return again
+end
+
+return finest
