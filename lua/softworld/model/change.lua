@@ -7,10 +7,10 @@ local quantity = require "softworld.quantity"
 local change = {}
 
 change.MODEL = 0.875 -- share of a tolerance that the rungs may leave out [-]
+change.FAINT = 1 / 64 -- change over the allowed one that finer edges hardly bring up to it [-]
 
 local SAFETY = 1.5 -- on estimates for finer levels [-]
 local ELSEWHERE = 1 / 4 -- error of a coarse value, over the value, up to which a comparison counts [-]
-local FAINT = 1 / 64 -- change over the allowed one that finer edges hardly bring up to it [-]
 local NONE = 0 / 0 -- value of a check's row that a computation lacks
 
 local function is_finite(v) return v ~= nil and quantity.size(v) < math.huge end
@@ -127,7 +127,7 @@ function change.is_elsewhere(context, state, fine)
     if quantity.alike(coarse, value) then
       local off = quantity.distance(coarse, value)
       if off > ELSEWHERE * quantity.size(value) and off > quantity.asked(q, value) then
-        return not (there.worst < FAINT and is_there(context, there, fine.shape))
+        return not (there.worst < change.FAINT and is_there(context, there, fine.shape))
       end
     end
   end

@@ -11,6 +11,8 @@ local compare = {}
 
 local DOUBT = 2 -- changes above the allowed one over this are compared on a finer mesh too [-]
 local MOMENT = 1e5 -- iterations times nodes that cost nothing worth saving: about 70 ms [-]
+local LITTLE = 2 -- work or time of the next rung over that of a rung that costs little less [-]
+local GROWS = 4  -- work of a level over that of the level before [-]
 local FAR = 100    -- change over the allowed one that cannot come from coarse edges [-]
 local HOPE = 4     -- a change shrinks at most by this factor from level to level [-]
 local FEIGNED = 16 -- change over the allowed one that coarse edges cause only if poses jump elsewhere [-]
@@ -22,11 +24,15 @@ local NONE = 0 / 0 -- value of a check's row that a computation lacks
 compare.levels = 3 -- coarse levels on which rungs are compared [-]
 compare.BRIEF = 3e3 -- iterations times nodes beside which the next rung costs little: about 2 ms [-]
 
--- True if the next rung's run would need only one more level. Comparing there saves nothing, so the
--- comparison ends if it takes more than a moment. above: the next rung on level k - 1, before: on k - 2.
-local function saves_nothing(context, above, before, k)
+-- True if comparing on level k saves nothing and takes more than a moment: the next rung's run would need
+-- only this level more; or the next rung takes little more than the rung, so that computing both here costs
+-- what the cheaper one might save on a finer level. last: both rungs on level k - 1, before: the next rung on
+-- k - 2.
+local function saves_nothing(context, last, before, k)
+  local above = last.above
   local growth = above.work / math.max(1, before.work)
   if k < compare.levels or growth * above.work < MOMENT then return false end
+  if above.work < LITTLE * last.here.work then return true end
   for _, q in ipairs(context.job.quantities) do
     local value = above.values[q.name] or NONE
     local bar, rate = estimate.bar(q, { before.values[q.name] or NONE, value }, above.contact)
@@ -97,7 +103,7 @@ function compare.rungs(context, state, rungs, above)
   local c, before
   for k = first, levels do
     local again = before and before.before and before.before.above
-    if again and saves_nothing(context, before.above, again, k) then return c end
+    if again and saves_nothing(context, before, again, k) then return c end
     local here, there = probe.of(context, rungs, k), probe.of(context, above, k)
     if k > 1 and not (here.ok and there.ok) then return c, not there.ok and rung.own and there.reason end
     local now = { k = k, here = here, above = there, before = before }
@@ -115,6 +121,24 @@ function compare.rungs(context, state, rungs, above)
     if c.worst > 1 and costly and costly(state.rung, here, there, depth, true) then return c end
   end
   return c
+end
+
+--- Returns true if a rung that would stay leaves so little of a tolerance to edges and steps that it costs
+-- more than the next rung. Errors shrink at best with the square of edges and steps, and work grows with that
+-- square, so a share x of the tolerance takes 1 / x of the work. An iteration of the next rung may take more
+-- time, up to LITTLE times. c: the change from compare.rungs.
+function compare.is_narrow(context, state, c)
+  local k, choice = state.compared.k, state.choice
+  local here, above = state.compared.here, state.compared.above
+  if choice.costly or choice.steady or GROWS ^ (compare.levels - k) * here.work < MOMENT then return false end
+  local rest = 1
+  for _, q in ipairs(context.job.quantities) do
+    local asked = quantity.asked(q, change.known(context, q.name, k, above.values[q.name] or NONE))
+    local left = change.left_by_others(context, q.name, state)
+    local part = 1 - c.all[q.name] / (asked - left)
+    rest = part < rest and part or rest -- NaN does not count
+  end
+  return LITTLE * above.work * rest < here.work
 end
 
 return compare

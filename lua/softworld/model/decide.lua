@@ -159,11 +159,22 @@ local function known_in_vain(context, rungs, up)
   return known[key]
 end
 
--- Settles a choice by what the next rung changes.
-local function stays(state, c, next_as)
+-- Settles a choice by what the next rung changes. here: the computation of its rung on the coarsest level.
+local function stays(state, c, next_as, here)
   local why = ("with %s %s"):format(next_as, changed_by(c))
-  state.change, state.found = c.all, { rung = state.rung, all = c.all, why = why }
+  state.change, state.found = c.all, { rung = state.rung, all = c.all, why = why,
+    faint = c.worst < change.FAINT and here.facts[state.choice.name] or nil }
   return stay(state, "compared", why)
+end
+
+-- Settles a choice again, after others have risen, if its next rung changed next to nothing before and the
+-- rung acts as it did then. Returns nil if it must be compared again.
+local function stays_faint(state, here)
+  local found, alike = state.found, state.choice.alike
+  if not found or found.rung ~= state.rung or not found.faint or not alike then return nil end
+  if not alike(found.faint, here.facts[state.choice.name]) then return nil end
+  state.change = found.all
+  return stay(state, "compared", found.why)
 end
 
 -- Settles a choice by what was found before, with cheaper rungs of later choices, if the next rung cannot be
@@ -189,6 +200,7 @@ local function climb(context, state, rungs, here)
   local name, f = choice.name, here.facts[choice.name]
   local up = with(rungs, name, rung + 1)
   local next_as = choice.rungs[rung + 1].as
+  if not state.from and stays_faint(state, here) then return true end -- from: finer edges are asked for
   if choice.rungs[rung].own and probe.expected(context, up, 2) == math.huge then -- one level tells nothing
     return unknown(context, state, f, here,
       ("%s cannot be computed on finer edges: there is no such mesh"):format(next_as))
@@ -199,7 +211,7 @@ local function climb(context, state, rungs, here)
     return stay(state, "skipped", vain)
   end
   local seen = compare.glance(context, state, rungs, up)
-  if seen then return stays(state, seen, next_as) end
+  if seen then return stays(state, seen, next_as, here) end
   local above = probe.of(context, up, 1)
   if not above.ok then
     local why = ("%s cannot be computed: %s"):format(next_as, above.reason)
@@ -219,7 +231,12 @@ local function climb(context, state, rungs, here)
     state.rose = probe.key(rungs, 1)
     return false
   end
-  return stays(state, c, next_as)
+  if compare.is_narrow(context, state, c) then
+    decide.raise(context, state, ("with %s %s, and finer edges and steps for the rest of the tolerance would "
+      .. "cost more than %s"):format(next_as, changed_by(c), next_as))
+    return false
+  end
+  return stays(state, c, next_as, here)
 end
 
 -- If no motion can be computed on the coarsest edges, begins again on finer ones. True if there are such.

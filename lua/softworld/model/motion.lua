@@ -13,6 +13,7 @@ local PERIODS = 10    -- motions of at least this many first periods are slow [-
 local INERTIA = 0.1   -- largest inertia over weight or forces, over the tolerance, that poses may omit [-]
 local SAFETY = 3     -- on changes: coarse steps do not show all of a swing [-]
 local SMALL = 0.1    -- acceleration over weight below which wires hardly swing [-]
+local GROWN = 2      -- acceleration over an earlier one up to which inertia acts as it did [-]
 local TINY = 1e-9    -- over the time, or 1 s: frames this near count as one [-]
 local COSTLY = 2     -- iterations of poses over those of dynamics, on level ENDS, that are no saving [-]
 local ENDS = 3       -- level on which poses mostly end [-]
@@ -164,6 +165,13 @@ local function jumps_of(context, run)
   local first = run.start + 1.5 * (run.time - run.start) / math.max(1, run.steps)
   local alone = run.jumps == 1 and context.job.rests and (run.last_jump or math.huge) <= first
   return alone and 0 or run.jumps
+end
+
+--- True if poses now, with other rungs of other choices, act as they did before: none jumps, and inertia has
+-- not grown much.
+function motion.alike(before, now)
+  if before.jumps + now.jumps > 0 then return false end
+  return (now.acceleration or math.huge) <= GROWN * (before.acceleration or 0)
 end
 
 --- True if poses need so many iterations each that they may cost more than dynamics.

@@ -171,7 +171,8 @@ local function compute(context, rungs, k, factors, choice)
     return result
   end
   result.work = run.iterations * nodes_of(scene)
-  result.facts, result.contact = probe.facts(context, run), trust.touches(scene)
+  local asked = choice and { [choice.name] = true } or nil -- wide steps tell about their choice only
+  result.facts, result.contact = probe.facts(context, run, asked), trust.touches(scene)
   result.moves, result.shape = job.moves, facts.shape(scene)
   result.values = {}
   for name, read in pairs(trust.read(job, run)) do result.values[name] = read.value end

@@ -32,6 +32,8 @@
 --   left(rung, facts): share of a value left out according to a rule, if the next rung is not known
 --   skip(context, rung, facts, share): a sentence if the next rung is not tried, as it would tell nothing
 --   mends(context, rung, result): a sentence if a computation failed because of this rung, or tells nothing
+--   alike(before, now): true if, by facts, the rung acts as it did before with other rungs of other choices;
+--     then a change that was found to be next to nothing is not computed again
 --   toils(rung, run): true if, judged by a run, the rung may cost more than the next; then costly is asked
 --   costly(rung, here, above, k, in_doubt): a sentence if the rung costs no less than the next one, which
 --     is in doubt or not; here and above: computations by both on level k, with iterations =

@@ -1,0 +1,137 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- What choosing a model leaves out because it can no longer change much, or costs more than it may save. Each
+-- count of computations is that of the rungs and levels named beside it.
+local contact = require "softworld.model.contact"
+local motion = require "softworld.model.motion"
+local rod = require "spec.model.rod"
+local sw = require "softworld"
+
+local function speed(wire)
+  local most = 0
+  for _, v in ipairs(wire:velocities()) do most = math.max(most, math.abs(v)) end
+  return most
+end
+
+-- Two wires hang one above the other, by `gap` over the radius. value(touching, moving, level) is the
+-- quantity, asked for to 0.03: true if touches of wires are computed, true for dynamics, and the level of
+-- edges from 1.
+local function beside(value, args, gap)
+  local scene, a = sw.scene { name = "beside" }, nil
+  scene:force { kind = "damping", mass = 5 }
+  for _, z in ipairs { 0, gap * rod.radius } do
+    local w = rod.wire(scene, { name = z > 0 and "b" or "a", from = { 0, 0, z }, to = { 0.6, 0, z } })
+    scene:clamp(w, { s = 0 })
+    scene:clamp(w, { s = 0.6 }):follow { relative = true, points = { { 0, 0, 0 }, { -0.1, 0, 0 } },
+      duration = 0.5 }
+    a = a or w
+  end
+  local function odd()
+    local level = 1 + math.tointeger(math.log(sw.core.segments(a) / 6, 2) // 1)
+    return value(sw.core.data(scene).touching ~= nil, speed(a) > 0, level)
+  end
+  args.duration, args.model, args.levels = 0.5, "auto", 3
+  args.tolerance = { { name = "odd", value = 0.03, unit = "-", of = odd } }
+  return scene:run(args)
+end
+
+local NEAR, FAR = 2.2, 40 -- gaps over the radius: the wires touch; they do not [-]
+local LONG, SHORT = 1e-4, 0.01 -- steps of runs that take more than a moment, and less [s]
+
+describe("choosing a model, where touches of wires change a value,", function()
+  -- The change is d, less `less` for each level. The second level allows up to 0.875 of the tolerance,
+  -- 0.02625. more: error of edges on level 0, a quarter of it on the next.
+  local function changed(d, dt, less, more)
+    local function value(touching, _, k)
+      return 1 + (more or 0) / 4 ^ k + (touching and d - k * (less or 0) or 0)
+    end
+    return beside(value, { quasistatic = true, dt = dt }, NEAR)
+  end
+
+  -- By the second level, the bar of the third will be 1.5 (0.1 - 0.025) / 2 = 0.056: a fourth may be needed.
+  it("compares no third level of rungs that cost nearly the same, unless it takes a moment only", function()
+    local long, short = changed(0.05, LONG, 0.004, 0.4), changed(0.05, SHORT, 0.004, 0.4)
+    assert.equal("wires", long.model.contact)
+    assert.equal("wires", short.model.contact)
+    assert.equal(4, long.model.probes, tostring(long:why())) -- two rungs on two levels
+    assert.equal(6, short.model.probes, tostring(short:why()))
+  end)
+
+  it("takes touches if what they change leaves too little to edges and steps", function()
+    local run = changed(0.0227, LONG) -- 0.243 of the tolerance is left: edges and steps of a quarter
+    assert.equal("wires", run.model.contact)
+    local why = tostring(run:why())
+    assert.truthy(why:find("finer edges and steps for the rest", 1, true), why)
+    assert.equal(0, run.quantities.odd.model_error)
+  end)
+
+  it("does not if more is left, or a run takes a moment only", function()
+    for _, row in ipairs { { d = 0.014, dt = LONG }, { d = 0.0227, dt = SHORT } } do
+      local run = changed(row.d, row.dt)
+      assert.equal("none", run.model.contact, tostring(run:why()))
+      assert.is_true(run.quantities.odd.model_error >= row.d * (1 - 1e-9)) -- 1 + d is rounded
+    end
+  end)
+end)
+
+describe("choosing a model, where dynamics change next to nothing and another choice rises,", function()
+  local alike, free = motion.alike, contact.free
+  after_each(function() motion.alike, contact.free = alike, free end)
+
+  local function risen()
+    function contact.free() return nil end -- as if it were not known that the wires are apart
+    return beside(function(on, moving) return 1 + (on and 0.5 or 0) + (moving and 1e-5 or 0) end,
+      { dt = 2e-4 }, FAR)
+  end
+
+  it("does not compute dynamics again", function()
+    local run = risen()
+    function motion.alike() return false end
+    local other = risen()
+    assert.equal("wires", run.model.contact)
+    assert.equal("poses", run.model.motion, tostring(run:why()))
+    assert.equal("poses", other.model.motion)
+    assert.equal(other.model.probes - 1, run.model.probes)
+    assert.is_true(run.quantities.odd.model_error >= 1e-5)
+  end)
+
+  it("is not so if poses jump, or inertia has grown", function()
+    local calm = { jumps = 0, acceleration = 1 }
+    assert.is_true(alike(calm, { jumps = 0, acceleration = 1.9 }))
+    assert.is_false(alike(calm, { jumps = 0, acceleration = 2.1 }))
+    assert.is_false(alike(calm, { jumps = 1, acceleration = 1 }))
+    assert.is_false(alike({ jumps = 1, acceleration = 1 }, calm))
+    assert.is_false(alike(calm, { jumps = 0 }))
+  end)
+end)
+
+-- Poses end at another value on each level, as if the wire were at another place.
+describe("choosing a model, where coarse edges show another state,", function()
+  local function elsewhere(per_level)
+    return beside(function(_, moving, level) return per_level ^ level + (moving and 0.005 or 0) end, {}, FAR)
+  end
+
+  it("compares finer edges only if the bar may become short enough", function()
+    local some, far = elsewhere(1.35), elsewhere(3) -- bars of 32 and of 900 tolerances
+    assert.is_false(some.met)
+    assert.is_false(far.met)
+    assert.is_true(far.model.probes < some.model.probes, ("%d and %d"):format(far.model.probes,
+      some.model.probes))
+  end)
+end)
+
+-- On finer edges too, dynamics change nothing: the moment is 0 but for rounding.
+describe("choosing a model, where finer edges are asked for and tell the same,", function()
+  it("ends", function()
+    local scene, r = sw.scene { name = "turned" }, 0.0025
+    scene:obstacle { name = "table", shape = "plane", friction = 0 }
+    local w = scene:wire { name = "w", E = 5e6, density = 1500, radius = r, from = { 0, 0, r },
+      to = { 0.4, 0, r }, segments = 24 }
+    scene:clamp(w, { s = 0, name = "hand" }):follow { relative = true, duration = 4,
+      points = { { 0, 0, 0 }, { 0, 0, 0 } }, turn = { axis = { 1, 0, 0 }, angle = 1 } }
+    scene:force { kind = "damping", mass = 5 }
+    scene:settle()
+    local run = scene:run { duration = 4, model = "auto",
+      tolerance = { ["hand.moment"] = { relative = 0.03 }, tip = { relative = 0.03 } } }
+    assert.is_true(run.ok)
+  end)
+end)
