@@ -3,7 +3,9 @@
 -- count of computations is that of the rungs and levels named beside it.
 local contact = require "softworld.model.contact"
 local motion = require "softworld.model.motion"
+local refine = require "softworld.run.refine"
 local rod = require "spec.model.rod"
+local sealed = require "softworld.sealed"
 local sw = require "softworld"
 
 local function speed(wire)
@@ -104,18 +106,33 @@ describe("choosing a model, where dynamics change next to nothing and another ch
   end)
 end)
 
--- Poses end at another value on each level, as if the wire were at another place.
+-- Poses end at another value on each level, three times as large, as if the wire were at another place: a bar
+-- of 900 tolerances. On the third level they jump, if this spec has it so.
 describe("choosing a model, where coarse edges show another state,", function()
-  local function elsewhere(per_level)
-    return beside(function(_, moving, level) return per_level ^ level + (moving and 0.005 or 0) end, {}, FAR)
+  local computer = refine.computer
+  after_each(function() refine.computer = computer end)
+
+  local function elsewhere(jumps)
+    function refine.computer(job, steps, run_once, total)
+      return computer(job, steps, function(scene, options, ...)
+        local run = run_once(scene, options, ...)
+        local fine = jumps and options.quasistatic and sw.core.segments(scene:find "a") >= 24
+        if fine then rawset(sealed.fields(run), "jumps", 1) end
+        return run
+      end, total)
+    end
+    return beside(function(_, moving, level) return 3 ^ level + (moving and 0.005 or 0) end, {}, FAR)
   end
 
-  it("compares finer edges only if the bar may become short enough", function()
-    local some, far = elsewhere(1.35), elsewhere(3) -- bars of 32 and of 900 tolerances
-    assert.is_false(some.met)
-    assert.is_false(far.met)
-    assert.is_true(far.model.probes < some.model.probes, ("%d and %d"):format(far.model.probes,
-      some.model.probes))
+  it("takes dynamics at once if poses jump on fine edges and their bar is hopeless", function()
+    local jump, calm = elsewhere(true), elsewhere(false)
+    assert.equal("dynamic", jump.model.motion)
+    local why = tostring(jump:why())
+    local words = "poses jump on fine edges, which leaves an error bar of more than 50 times"
+    assert.truthy(why:find(words, 1, true), why)
+    assert.equal("poses", calm.model.motion) -- dynamics of the third level agree with poses
+    assert.is_true(jump.model.probes < calm.model.probes, ("%d and %d"):format(jump.model.probes,
+      calm.model.probes))
   end)
 end)
 

@@ -52,30 +52,38 @@ local function last_facts(context, result)
   return found
 end
 
--- True if a bar is so long that no other rung can mend it: the run is not met then, whatever it leaves out.
-local function is_hopeless(context)
-  for _, q in ipairs(context.job.quantities) do
+-- True if poses jumped on the finest edges and left a bar too long for any finer ones.
+local function is_lost(context, result)
+  for _, q in ipairs(result.jumps > 0 and context.job.quantities or {}) do
     local now = context.job.read[q.name]
     if not q.row and now.least > finest.HOPELESS * quantity.asked(q, now.value) then return true end
   end
   return false
 end
 
+-- Gives up a rung whose edges of a comparison show another state than the finest run. was: the rung's words.
+local function moved_on(context, state, was)
+  context.given_up[#context.given_up + 1] = { kind = "model", time = context.scene.time, count = 1,
+    text = ("%s: %s given up; on coarse edges the wire is in another place: %s"):format(state.choice.name,
+      was, state.why) }
+  decide.settle(context)
+  return true
+end
+
 -- Compares a choice on finer edges as long as the edges it was compared on show another state than the finest
--- run. Returns true if another rung is chosen.
-local function compared_finer(context, state, fine)
+-- run. Nothing is compared if its rung cannot meet the tolerance there: then the next rung is taken. Returns
+-- true if another rung is chosen.
+local function compared_finer(context, state, fine, result)
   local rung, as = state.rung, state.choice.rungs[state.rung].as
-  if is_hopeless(context) then return false end
   while change.is_elsewhere(context, state, fine) and state.compared.k < decide.levels do
+    if state.rung < state.last and is_lost(context, result) then
+      decide.raise(context, state, ("%s jump on fine edges, which leaves an error bar of more than %d times "
+        .. "the tolerance"):format(as, finest.HOPELESS))
+      return moved_on(context, state, as)
+    end
     state.from, state.by = state.compared.k + 1, nil
     repeat until decide.look(context, state)
-    if state.rung ~= rung then
-      context.given_up[#context.given_up + 1] = { kind = "model", time = context.scene.time, count = 1,
-        text = ("%s: %s given up; on coarse edges the wire is in another place: %s"):format(
-          state.choice.name, as, state.why) }
-      decide.settle(context)
-      return true
-    end
+    if state.rung ~= rung then return moved_on(context, state, as) end
   end
   return false
 end
@@ -101,7 +109,7 @@ function finest.broken(context, result)
     elseif same and is_checked(state) then
       not_checked(context, state, f, finest.SLACK * share)
     end
-    again = again or same and state.choice.by_state and compared_finer(context, state, fine)
+    again = again or same and state.choice.by_state and compared_finer(context, state, fine, result)
     state.short = state.choice.short and state.choice.short(context, f, share, state)
   end
   return again
