@@ -48,6 +48,10 @@ void sw_scene_forget_contact(sw_scene *s) {
   memset(&s->kept, 0, sizeof s->kept);
 }
 
+void sw_scene_let_out(sw_scene *s) {
+  if (s->kept.memory && !s->kept.fresh) s->kept.fresh = SW_CONTACT_EMERGING;
+}
+
 /* Keeps friction anchors and sides for the next system. */
 static sw_status keep_contact(sw_scene *s) {
   sw_scene_forget_contact(s);

@@ -43,6 +43,7 @@ sw_status sw_scene_add_obstacle(sw_scene *s, sw_shape *shape, const sw_obstacle_
   sw_scene_give_name(o.name, args->name, sw_shape_kind(shape), sw_scene_obstacle_slots(s));
   sw_obstacle_log_begin(s, &o);
   SW_TRY(sw_scene_add(s, SW_OF_OBSTACLE, &o, out));
+  sw_scene_let_out(s);
   sw_shape_retain(shape);
   return SW_OK;
 }

@@ -361,6 +361,7 @@ sw_status sw_scene_add_particles(sw_scene *s, const sw_particles_args *args,
   if (status == SW_OK) status = sw_scene_check_rules(s, sw_scene_wire_slots(s), &w, &text);
   w.number = sw_scene_bodies_made(s);
   if (status == SW_OK) status = sw_scene_add(s, SW_OF_BODY, &w, out);
+  if (status == SW_OK) sw_scene_let_out(s);
   if (status == SW_OK) {
     status = add_yield(s, m.web, *out, &text);
     if (status != SW_OK) sw_scene_unmake_body(s);
