@@ -37,8 +37,7 @@ static void drop(sw_scene *s) {
   s->grains = NULL;
   sw_crowd_free(s->crowd);
   s->crowd = NULL;
-  sw_free(s->hold_slot);
-  sw_free(s->hold_loads);
+  SW_FREE_ALL(s->hold_slot, s->hold_loads);
   s->hold_slot = NULL, s->hold_loads = NULL;
   s->built = s->waiting = 0;
 }
