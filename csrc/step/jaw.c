@@ -14,6 +14,9 @@
 #include "step/obey.h"
 
 static const double PRECISION = 1e-3; /* of the wanted force [-] */
+/* The same in scene:settle, where a repeated search would go on: with PRECISION the jaws moved by
+ * 12 nm more (spec/physics/gripper_still_spec) [-]. */
+static const double EXACT = 1e-5;
 static const double ROUGHLY = 0.015;  /* the same in the step that first reaches it [-] */
 static const double REACHED = 0.02;   /* the force counts as reached from this share below it [-] */
 enum { MOST_TRIALS = 10 };            /* the last one is taken as it is [-] */
@@ -188,7 +191,7 @@ static int improve(sw_jaw *j, double off, int rests) {
     b->off[0] = NAN, j->guessed = 0; /* wrong, because a wire moves */
     return go_beyond(j, off);
   }
-  if (gap * j->step < (rests ? TELLS : SAME_OPENING)) return 1;
+  if (gap * j->step < (rests == SW_JAW_POSES ? TELLS : SAME_OPENING)) return 1;
   const int tells = gap * j->step > TELLS && (!rests || j->trials <= BEFORE_JUMPS);
   if (j->trials > 1 && tells) j->stiffness = (b->off[1] - b->off[0]) / (gap * j->step);
   sw_bracket_weigh(b, side);
@@ -216,7 +219,8 @@ static int most_trials(const sw_jaw *j, int rests) {
 static int correct(sw_scene *s, sw_tool *t, int rests) {
   sw_jaw *j = &t->jaw;
   const double off = sw_tool_squeeze(s, t, j->since + j->step) - j->force;
-  const double allowed = rests || j->status == SW_JAW_HOLDS ? PRECISION : ROUGHLY;
+  const double usual = rests || j->status == SW_JAW_HOLDS ? PRECISION : ROUGHLY;
+  const double allowed = rests == SW_JAW_SETTLES ? EXACT : usual;
   if (fabs(off) <= allowed * j->force) return 1;
   if (++j->trials >= most_trials(j, rests)) return give_up(j, off, rests);
   const int approaches = j->status != SW_JAW_HOLDS && j->trials == 1;

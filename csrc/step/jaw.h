@@ -9,7 +9,9 @@
 int sw_jaw_begin(sw_scene *scene, double h);
 /* After a trial: returns 1 if the jaws' forces are as wanted or cannot be; 0 if speeds were changed
  * for another trial. */
-int sw_jaw_correct(sw_scene *scene, int rests); /* rests: trials are equilibria */
+/* rests: 0, or trials are equilibria: of a pose, or of scene:settle. */
+enum { SW_JAW_POSES = 1, SW_JAW_SETTLES = 2 };
+int sw_jaw_correct(sw_scene *scene, int rests);
 /* Returns the largest deviation of a trial's forces from the wanted ones, over the wanted force
  * [-]. */
 double sw_jaw_off(sw_scene *scene);

@@ -22,6 +22,7 @@ typedef struct poser {
   int next;       /* course->next at that state */
   sw_jaw *before; /* (tools) at the start of the pose */
   double *speed;  /* (tools) speeds of jaws in the trial that came nearest [m/s] */
+  int rests;      /* see sw_jaw_correct */
   double nearest; /* deviation of its force; INFINITY = no trial converged [-] */
 } poser;
 
@@ -56,7 +57,7 @@ static sw_status search(poser *p, double since, int *too_far, sw_error *err) {
   p->nearest = HUGE_VAL;
   for (;;) {
     sw_status status = try(p, since, too_far, &why);
-    if (status == SW_OK && sw_jaw_correct(p->s, 1)) return SW_OK;
+    if (status == SW_OK && sw_jaw_correct(p->s, p->rests)) return SW_OK;
     if (status == SW_ENOCONV && p->nearest < HUGE_VAL) {
       status = fall_back(p, since, &why);
       if (status == SW_OK) return SW_OK;
@@ -95,7 +96,11 @@ static sw_status prepare(poser *p) {
 sw_status sw_scene_squeezed_rest(sw_scene *s, double since, int *too_far,
                                  const sw_settle_args *args, int (*interrupted)(void),
                                  sw_settle_report *report, sw_error *err) {
-  poser p = {.s = s, .args = args, .interrupted = interrupted, .report = report};
+  poser p = {.s = s,
+             .args = args,
+             .interrupted = interrupted,
+             .report = report,
+             .rests = too_far ? SW_JAW_POSES : SW_JAW_SETTLES};
   sw_status status = prepare(&p);
   if (status != SW_OK) sw_fail(err, status, "scene '%s': out of memory", sw_scene_name(s));
   if (status == SW_OK) status = search(&p, since, too_far, err);
