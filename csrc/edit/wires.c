@@ -240,8 +240,10 @@ sw_status sw_scene_add_wire(sw_scene *s, const sw_wire_args *args, const sw_beam
     w.number = sw_scene_bodies_made(s);
     status = sw_scene_add(s, SW_OF_BODY, &w, out);
   }
-  if (status == SW_OK) sw_scene_let_out(s);
-  if (status != SW_OK) sw_scene_clear_body(&w);
+  if (status == SW_OK)
+    sw_scene_let_out(s);
+  else
+    sw_scene_clear_body(&w);
   return status;
 }
 

@@ -185,10 +185,10 @@ static const double LEAST_REST = 0.01;
  * waits for them goes on at the end of a step. Pads that squeeze a mesh on a table push it down by
  * its widening sides until they lift it, with 0.24 N for 0.02 N of weight. They did so to the end
  * of the step: in steps of 10 ms that was the peak over the window, in steps of 0.5 ms it was 0.03
- * N (spec/physics/grasp_ends_spec). moving: number of jaws on their way before the part [-]. */
+ * N (spec/physics/grasp_ends_spec). moving: number of jaws on their way to a mesh before the part
+ * [-]. */
 static int jaws_arrive(const sw_scene *s, const parts *k, size_t moving) {
-  return moving > sw_jaw_moving(s) && sw_coarse_has_mesh_in_jaws(s) &&
-         k->h - k->done > LEAST_REST * k->h;
+  return moving > sw_jaw_moving(s) && k->h - k->done > LEAST_REST * k->h;
 }
 
 sw_status sw_step_fixed(sw_ladder *p, double h, double t1, sw_error *err) {
@@ -204,7 +204,7 @@ sw_status sw_step_fixed(sw_ladder *p, double h, double t1, sw_error *err) {
     int may_grow = 1;
     SW_TRY(begin(p, &k, err));
     const int smallest = 0.5 * k.part < k.least;
-    const size_t moving = sw_jaw_moving(p->s);
+    const size_t moving = sw_coarse_has_mesh_in_jaws(p->s) ? sw_jaw_moving(p->s) : 0;
     const sw_retries redone = sw_scene_books(p->s)->sums.redone;
     const sw_status status = sw_ladder_try(p, k.part, smallest, err);
     if (status == SW_OK && is_too_long(p, &k, &may_grow)) {

@@ -115,7 +115,7 @@ static sw_status rest_again(sw_scene *s, const sw_settle_args *args, int (*inter
  * size of the pose step does not matter; with friction halving it shows how much it does. */
 static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_args *how,
                           sw_run_report *report, kept *start, sw_error *err) {
-  sw_settle_args args = {.tolerance = 1e-9, .max_iterations = 4000};
+  sw_settle_args args = {.tolerance = 1e-9, .max_iterations = 4000, .poses = 1};
   sw_settle_report rest = {0};
   sw_error why;
   const double t0 = sw_scene_time(s);

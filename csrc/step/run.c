@@ -120,7 +120,8 @@ static sw_status note_start(sw_scene *s, sw_error *err) {
   sw_scene_course(s)->span = 0;
   sw_system_refresh(sw_scene_system(s));
   for (size_t w = 0; w < sw_scene_wire_slots(s); w++)
-    SW_TRY(sw_scene_note_extremes(s, w, &now, err));
+    if (!isfinite(sw_scene_wire_in(s, w)->extremes.raw.value)) /* nothing is noted in this run */
+      SW_TRY(sw_scene_note_extremes(s, w, &now, err));
   return SW_OK;
 }
 

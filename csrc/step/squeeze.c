@@ -100,7 +100,7 @@ sw_status sw_scene_squeezed_rest(sw_scene *s, double since, int *too_far,
              .args = args,
              .interrupted = interrupted,
              .report = report,
-             .rests = too_far ? SW_JAW_POSES : SW_JAW_SETTLES};
+             .rests = args->poses ? SW_JAW_POSES : SW_JAW_SETTLES};
   sw_status status = prepare(&p);
   if (status != SW_OK) sw_fail(err, status, "scene '%s': out of memory", sw_scene_name(s));
   if (status == SW_OK) status = search(&p, since, too_far, err);

@@ -70,6 +70,7 @@ typedef struct sw_settle_args {
                   way may have one */
   int relaxes; /* 1: stiff modes come to rest first, and stay so if the full equilibrium is not
                   found */
+  int poses;   /* 1: one of many equilibria, between which jaws need not be exact */
   double farthest; /* largest shift of a node that counts as coming to rest; 0: any [m] */
 } sw_settle_args;
 extern const sw_params sw_settle_params;
