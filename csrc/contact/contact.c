@@ -94,7 +94,7 @@ sw_status sw_contact_open(sw_contact *c, double t, double h, sw_error *err) {
 
 sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime regime,
                                 double nominal, sw_error *err) {
-  c->nominal = c->asked = nominal;
+  c->nominal = c->asked = nominal, c->brakes = 0;
   c->regime = regime;
   c->pressed_count = 0;
   c->plastic = c->hasty = c->careful = 0;
@@ -288,6 +288,7 @@ int sw_contact_steady(const sw_contact *c) {
 }
 
 void sw_contact_cut(sw_contact *c, double least) { c->least = least; }
+void sw_contact_brake(sw_contact *c) { c->brakes = 1; }
 void sw_contact_ask(sw_contact *c, double part) { c->asked = fmin(c->nominal, part); }
 double sw_contact_soonest(const sw_contact *c) { return c->soonest; }
 size_t sw_contact_impacts(const sw_contact *c) { return c->impact_count; }

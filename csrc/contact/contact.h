@@ -138,6 +138,8 @@ sw_contact_verdict sw_contact_review(sw_contact *contact, sw_system *system, con
 double sw_contact_soonest(const sw_contact *contact); /* of a rebound, after the step's start [s] */
 /* Sets the shortest time at which the begun step may be cut at a rebound [s]. */
 void sw_contact_cut(sw_contact *contact, double least);
+/* Tells that a drive that slides wires comes to rest soon: friction is then as stiff as a wire. */
+void sw_contact_brake(sw_contact *contact);
 /* Sets the part (substep) that the step was meant to have. Touches that slowly get deeper in parts
  * of this size are made stiffer as in whole steps [s]. */
 void sw_contact_ask(sw_contact *contact, double part);

@@ -9,6 +9,7 @@
 
 #include <math.h>
 
+#include "contact/same.h"
 #include "contact/touch.h"
 
 /* A place rests if its speed is below what it loses in this share of the step [-], or in LATE [s].
@@ -97,4 +98,21 @@ double sw_contact_landed(const sw_contact *c, const sw_system *s) {
     if (begins && !s->bodies[t->body].plan->web) wire += most_of(t);
   }
   return most + (held ? wire : 0.0);
+}
+
+/* In steps of 10 ms touches on cables are a thousand times softer than the cable. At rest their
+ * springs moved by as much as the cable had stretched, and its hold pulled with 0.72 for -0.44 of
+ * mu N. A tenth of the edge's stiffness, or ten times as much, is as exact
+ * (spec/contact/soft_landing_spec). With it at all times a cable that sinks onto a table beside a
+ * grip would keep a pull of 0.04 of its weight for none (spec/contact/first_step_pull_spec). */
+double sw_contact_softness(const sw_contact *c, const sw_system *s, const sw_memory *m,
+                           const sw_touch *t) {
+  const sw_web *web = s->bodies[t->body].plan->web;
+  if (web) return web->per_ring ? 0.0 : fmin(SW_SOFTEST, (double)web->particles);
+  if (c->regime != SW_CONTACT_IMPLICIT) return 0.0;
+  const int sticks = m && m->kept.normal_force > 0 && !m->kept.sliding;
+  const double grip = c->brakes ? sw_contact_edge_stiffness(s, t->body, t->node)
+                      : sticks  ? m->kept.grip
+                                : 0.0;
+  return grip > t->press.k ? t->press.k / grip : 0.0;
 }

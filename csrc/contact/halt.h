@@ -5,6 +5,9 @@
 
 #include "contact/contact.h"
 
+struct sw_memory;
+struct sw_touch;
+
 /* For a trial at whose end a drive comes to rest. While the system is still at the step's start: 1
  * if friction turned round in it, because the method's error carried wires past their place of
  * rest. */
@@ -19,5 +22,11 @@ double sw_contact_halt(sw_contact *contact, sw_system *system, double still);
 double sw_contact_landed(const sw_contact *contact, const sw_system *system);
 /* Most friction of all touches together [N]. */
 double sw_contact_friction(const sw_contact *contact);
+
+/* As soft of sw_press; memory: the touch's, or NULL. On a rod whose drive comes to rest
+ * (sw_contact_brake) friction's spring is as stiff as the rod's edge, and stays so while it sticks
+ * [-]. */
+double sw_contact_softness(const sw_contact *contact, const sw_system *system,
+                           const struct sw_memory *memory, const struct sw_touch *touch);
 
 #endif

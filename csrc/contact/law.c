@@ -332,6 +332,10 @@ static double eased(const sw_press *p, double usual, double k, double deepest) {
   return fmax(usual, EASING * k);
 }
 
+sw_vec sw_press_stretch(const sw_press *p, const sw_kept *kept) {
+  return sw_scale(kept->elastic, kept->grip / sw_press_grip(p));
+}
+
 int sw_press_eases(const sw_press *p, double usual, double stiffer, double deepest) {
   return eased(p, usual, stiffer, deepest) < stiffer;
 }
@@ -341,9 +345,9 @@ sw_kept sw_press_keep(const sw_press *p, double usual, double stiffer, double de
                  .depth = p->normal_force / p->k,
                  .k = eased(p, usual, stiffer, deepest),
                  .steady = p->normal_force,
-                 .soft = p->soft,
+                 .grip = sw_press_grip(p),
                  .sliding = p->next_sliding};
-  if (p->normal_force > 0) out.elastic = sw_scale(p->tangential, -1.0 / sw_press_grip(p));
+  if (p->normal_force > 0) out.elastic = sw_scale(p->tangential, -1.0 / out.grip);
   return out;
 }
 
@@ -359,7 +363,6 @@ void sw_kept_firm(sw_kept *kept, double k) {
   const double less = kept->k / k;
   kept->k = k;
   kept->depth *= less;
-  kept->elastic = sw_scale(kept->elastic, less);
 }
 
 double sw_kept_hardened(const sw_kept *kept, double k, int mesh) {
@@ -375,7 +378,8 @@ void sw_kept_as_felt(sw_kept *k) {
 sw_press sw_press_felt(const sw_kept *kept) {
   sw_kept k = *kept;
   sw_kept_as_felt(&k);
-  sw_press p = {.k = k.k, .soft = k.soft, .normal_force = k.normal_force, .gap_after = -k.depth};
-  p.tangential = sw_scale(k.elastic, -sw_press_grip(&p));
+  sw_press p = {.k = k.k, .normal_force = k.normal_force, .gap_after = -k.depth};
+  p.soft = k.grip > 0 ? k.k / k.grip : 0.0;
+  p.tangential = sw_scale(k.elastic, -k.grip);
   return p;
 }

@@ -9,11 +9,12 @@
 #include "base/vec.h"
 
 typedef struct sw_press {
-  double gap;          /* gap of the surfaces at this iterate [m] */
-  double gap_after;    /* gap after the last solve [m] */
-  double k;            /* stiffness, normal and tangential [N/m] */
-  double soft;         /* friction's spring is softer than k by this factor; 0 = as stiff [-] */
-  double lag;          /* normal force that friction takes as given [N] */
+  double gap;       /* gap of the surfaces at this iterate [m] */
+  double gap_after; /* gap after the last solve [m] */
+  double k;         /* stiffness, normal and tangential [N/m] */
+  double soft; /* friction's spring is softer than k by this factor (may be below 1); 0 = as stiff
+                  [-] */
+  double lag;  /* normal force that friction takes as given [N] */
   double lag_at_first; /* lag in the iterate's first solve [N] */
   double turning; /* while sliding: stiffness of friction against a turn of its direction [N/m] */
   double normal_force;             /* normal force after the last solve [N] */
@@ -54,9 +55,9 @@ typedef struct sw_kept {
   double depth;        /* depth at that force [m] */
   double k;            /* stiffness at the next step's start [N/m] */
   double steady; /* mean normal force of the last steps; when just kept, that at the end [N] */
-  double soft;   /* as in sw_press [-] */
+  double grip;   /* stiffness of friction's spring [N/m] */
   double left;   /* further depth, left from when it was made stiffer because it was squeezed [m] */
-  sw_vec elastic; /* displacement of friction's spring [m] */
+  sw_vec elastic; /* displacement of friction's spring, with that stiffness [m] */
   int sliding;
 } sw_kept;
 
@@ -82,6 +83,10 @@ static inline double sw_depth_for(double depth, double radius) {
  * from the next iterate on [N/m]. A touch keeps its stiffness, because a change would be a kick. A
  * needlessly high stiffness falls slowly. */
 sw_kept sw_press_keep(const sw_press *press, double usual, double stiffer, double deepest);
+/* Displacement of friction's spring at the force of the memory: that stays, whatever the stiffness
+ * becomes, as a cable moves less than a spring would lose. Only on obstacles: a tight pair of
+ * cables would gain energy [m]. */
+sw_vec sw_press_stretch(const sw_press *press, const sw_kept *kept);
 /* 1 if it falls in this step. */
 int sw_press_eases(const sw_press *press, double usual, double stiffer, double deepest);
 /* Hardens a squeezed touch. A squeezed wire cannot come out: letting it out would create energy,
@@ -89,7 +94,7 @@ int sw_press_eases(const sw_press *press, double usual, double stiffer, double d
  * the next step on. The rest of its depth stays (left). axial: stiffness of the wire's edge, the
  * upper limit: between rigid things no force could be set [N/m]. */
 void sw_kept_harden(sw_kept *kept, double axial, double deepest);
-/* Makes a touch at least as stiff as k [N/m]. Its force and that of its friction stay. */
+/* Makes a touch at least as stiff as k [N/m]. Its force stays. */
 void sw_kept_firm(sw_kept *kept, double k);
 /* Energy that a touch gains if its stiffness rises to k [J]. A mesh keeps its depth, and its spring
  * then stores more. A line is light: it comes out, at constant force, to the depth that belongs to

@@ -9,6 +9,7 @@
 #include "contact/arc.h"
 #include "contact/curve.h"
 #include "contact/depth.h"
+#include "contact/halt.h"
 #include "contact/same.h"
 #include "system/part.h"
 
@@ -257,7 +258,7 @@ static void begin_friction(const sw_contact *c, const sw_system *s, const sw_mem
   sw_press *press = &t->press;
   sw_vec u = shift_since(c, s, t, y);
   if (m)
-    u = sw_add(u, sw_rotate(c->now[t->obstacle].pose.q, m->kept.elastic));
+    u = sw_add(u, sw_rotate(c->now[t->obstacle].pose.q, sw_press_stretch(press, &m->kept)));
   else if (closed_here(s->bodies[t->body].plan->web, press, last))
     u = sw_v(0, 0, 0);
   else
@@ -383,8 +384,7 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
   press->k = t->share * (c->softer ? sw_contact_softer(c, s, k, t->stiffer) : t->stiffer);
   press->by_place = goes_by_place(c, s, k);
   press->gap += sw_contact_aslant(c, k->node, k->other, at, press->normal);
-  if (plan->web && !plan->web->per_ring)
-    press->soft = fmin(SW_SOFTEST, (double)plan->web->particles);
+  press->soft = sw_contact_softness(c, s, m, t);
   const sw_kept *const kept = m ? &m->kept : NULL;
   t->squeezed = sw_contact_is_squeezed(c, s, k, kept, t);
   sw_contact_forgive(c, s, k, kept, y, t);

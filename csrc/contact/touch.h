@@ -72,6 +72,7 @@ struct sw_contact {
   double time, h, stage_time; /* the step's start and size; when obstacles were placed last [s] */
   double nominal;             /* the run's full step [s] */
   double asked;               /* part (substep) that was first tried, before any was refused [s] */
+  int brakes;                 /* 1: a drive that slides wires comes to rest soon */
   sw_contact_regime regime;
   int plastic;     /* 1: nothing rebounds in this step */
   int hasty;       /* 1: this trial ends before friction of a striking wire is settled */
@@ -104,7 +105,6 @@ void sw_contact_conclude(sw_contact *c, const sw_system *s);
 void sw_contact_expect(sw_contact *c, int obstacle);
 /* Clears impacts and barriers at a step's start, for this many nodes. SW_ENOMEM. */
 sw_status sw_contact_calm(sw_contact *c, size_t nodes);
-
 sw_pressed sw_contact_pressed(const sw_touch *t);
 /* Changes the velocities at the step's start so that the wire reaches the touch but does not pass
  * it. Returns 1 if something changed. */

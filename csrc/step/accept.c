@@ -29,10 +29,12 @@ static int is_followed(const sw_ladder *p) { return sw_blow_part(p->s, p->args->
 
 /* A drive comes to rest while wires slide. If they only slide, friction at rest is known. Wires
  * that have just landed or swing still have a speed of their own, which decides in the last
- * milliseconds what is left. Speeds above TREMBLE, in longer parts than FINE, are told: at rest
- * such wires pulled with -0.33 to 0.95 of their friction for 0.36 to 0.57; those below it, and
- * finer parts, were right within 0.02 (spec/contact/trembling_stop_spec) [m/s], [s]. */
-static const double TREMBLE = 1e-6, FINE = 5.5e-4;
+ * milliseconds what is left. Speeds above TREMBLE are told in longer parts than FINE, such as those
+ * of drives that are functions: at rest such wires pulled with -0.33 to 0.95 of their friction for
+ * 0.36 to 0.57 (spec/contact/trembling_stop_spec). In finer parts they are right, but for one in
+ * twenty in steps longer than LONG: those are told too (spec/contact/soft_landing_spec)
+ * [m/s], [s]. */
+static const double TREMBLE = 1e-6, FINE = 5.5e-4, LONG = 0.0105;
 /* The part of the friction that is told [-]. */
 static const double TOLD = 0.1;
 
@@ -46,9 +48,10 @@ static void tell_rest(sw_scene *s, const char *what, double h, double friction) 
 }
 
 /* moving: most friction of the wires that tremble [N]. */
-static void tell_trembling(sw_scene *s, double h, double moving) {
-  if (h > FINE && moving > TOLD * sw_contact_friction(sw_scene_contact(s)))
-    tell_rest(s, "while wires still tremble on what they slide on, in a part of", h, moving);
+static void tell_trembling(sw_scene *s, double h, double dt, double moving) {
+  if ((h > FINE || dt > LONG) && moving > TOLD * sw_contact_friction(sw_scene_contact(s)))
+    tell_rest(s, "while wires still tremble on what they slide on, in steps of", dt > LONG ? dt : h,
+              moving);
 }
 
 /* A drive has stopped at once, and wires that slid with it land: blows, friction that turns round
@@ -87,7 +90,7 @@ void sw_ladder_accept(sw_ladder *p, double h, double t) {
   p->report->steps++;
   if (h < p->report->smallest_dt) p->report->smallest_dt = h;
   sw_scene_set_time(s, t);
-  if (moving > 0 && !isfinite(p->args->tolerance)) tell_trembling(s, h, moving);
+  if (moving > 0 && !isfinite(p->args->tolerance)) tell_trembling(s, h, p->args->dt, moving);
   if (landed > 0 && !isfinite(p->args->tolerance)) tell_landing(s, p->args->dt, landed);
 }
 

@@ -23,6 +23,7 @@ typedef struct sw_ladder {
   double soonest;  /* a rebound asks the step to end this long after its start; 0 = none [s] */
   int halts;       /* 1: a drive comes to rest with a deceleration while wires slide */
   int turned;      /* 1: so did one, but the method carried wires past their place of rest */
+  int brakes;      /* 1: a drive that slides wires comes to rest soon */
   int cuts;        /* cuts at rebounds in this step [-] */
   double asked;    /* part (substep) that was first tried; shorter parts come from refusals or from
                       the end of the step; 0: dt [s] */

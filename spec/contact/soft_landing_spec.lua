@@ -1,0 +1,85 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- A cable is laid down by its end, and its drive stops softly or with an even deceleration. It still trembles
+-- then: the last milliseconds decide which friction is left at rest. Whole steps of 10 ms left 0.72 of mu N
+-- for -0.44, 0.79 for 0.97. And the friction that is left stays, whatever the steps after it are.
+local sw = require "softworld"
+local lay = require "contact.laid_down"
+local t = require "physics.tools"
+
+local CABLES = { "GXL 1.5", "FLRY-B 2.5", "FLRY-B 10", "H07V-K 10", "GXL 0.5", "H07V-K 4", "FLRY-B 0.5" }
+local FINE, STEPS = 5e-4, { 0.02, 0.01, 0.005, 0.002 } -- [s]
+
+local function case_of(k, law)
+  local random, one_of = t.choices(7919 * k, 3)
+  local function between(a, b) return a + (b - a) * random() end
+  return { cable = one_of(CABLES), mu = between(0.15, 0.5),
+    length = between(0.25, 0.6), segments = math.floor(between(28, 57)), height = between(0.01, 0.04),
+    duration = between(0.35, 0.8), way = between(0.03, 0.13), damping = between(5e-4, 2e-3),
+    turn = between(0, 6), law = law }
+end
+
+-- Returns the mean and the largest difference from fine steps of the pull over mu N, and how many runs of
+-- steps up to 10 ms had an event.
+local function differences(law)
+  local sum, most, count, told = 0, 0, 0, 0
+  for k = 1, 14 do
+    local case = case_of(k, law)
+    local fine = lay(case, FINE, k % 2 == 0)
+    for _, dt in ipairs(STEPS) do
+      local share, event = lay(case, dt, k % 2 == 0)
+      if event and dt < 0.015 then told = told + 1 end
+      local off = math.abs(share - fine)
+      if not event then sum, most, count = sum + off, math.max(most, off), count + 1 end
+    end
+  end
+  return sum / count, most, told
+end
+
+describe("a cable that is laid down", function()
+  -- Fine steps of 0.5 and 0.2 ms differ by up to 0.01 themselves, with an even deceleration by up to 0.04.
+  it("keeps the friction of fine steps if its drive stops softly", function()
+    local mean, most, told = differences "minimum-jerk"
+    print(("measured: mean %.3f, largest %.3f"):format(mean, most))
+    t.below(0.01, mean, "mean difference of the pull over mu N")
+    t.below(0.04, most, "largest difference of the pull over mu N")
+    assert.equal(0, told)
+  end)
+
+  it("does so, or has an event, if it stops with an even deceleration", function()
+    local mean, most, told = differences "trapezoidal"
+    print(("measured: mean %.3f, largest %.3f"):format(mean, most))
+    t.below(0.02, mean, "mean difference of the pull over mu N")
+    t.below(0.1, most, "largest difference of the pull over mu N")
+    assert.equal(0, told)
+  end)
+end)
+
+describe("friction at rest", function()
+  -- Steps of each size leave it within 2 % of the weight, so steps of two sizes do.
+  for k, cable in ipairs{ "GXL 1.5", "H07V-K 4", "FLRY-B 10" } do
+    it("stays if the steps after a stop are longer or shorter: " .. cable, function()
+      for _, law in ipairs{ "minimum-jerk", "trapezoidal" } do
+        local first
+        for _, dt in ipairs{ { 5e-4, 5e-4 }, { 5e-4, 0.01 }, { 0.002, 0.01 }, { 5e-4, 0.02 }, { 0.01, 5e-4 },
+          { 0.01, 0.02 } } do
+          local c, s = math.cos(0.7 * k), math.sin(0.7 * k)
+          local scene, r = sw.scene{}, sw.cable(cable).outer_diameter.value / 2
+          scene:obstacle{ shape = "plane", friction = 0.3 }
+          local wire = scene:wire{ cable = cable, segments = 32 + k, from = { 0, 0, r },
+            to = { -0.4 * c, -0.4 * s, r } }
+          scene:force{ kind = "damping", mass = 0, stiffness = 1e-3 }
+          local hold = scene:clamp(wire, { s = 0 })
+          hold:follow{ relative = true, duration = 0.4, law = law, points = { { 0, 0, 0 }, { 0.1 * c, 0.1 * s,
+            0 } } }
+          t.fine(scene:run{ dt = dt[1], duration = 0.4 })
+          t.fine(scene:run{ dt = dt[2], duration = 0.4 })
+          local f = hold:force()
+          local share = (f[1] * c + f[2] * s) / (0.3 * 9.81 * wire.beam.mass_per_length * 0.4)
+          first = first or share
+          t.near(first, share, 0.02, ("%s, %g, then %g ms"):format(law, 1e3 * dt[1], 1e3 * dt[2]))
+          scene:close()
+        end
+      end
+    end)
+  end
+end)
