@@ -56,6 +56,7 @@ sw_status sw_step_adaptive(sw_ladder *p, double left, double t1, sw_error *err) 
   double h = course->next_dt > 0 ? fmin(course->next_dt, most) : 0.1 * most;
   if (p->args->parts) SW_TRY(sw_restart_after_stop(s, most, err));
   h = fmin(sw_blow_part(s, h), sw_restart_part(s));
+  if (p->args->parts) SW_TRY(sw_restart_before_stop(p, &h, err));
   SW_TRY(sw_restart_until_break(s, &h, err));
   SW_TRY(sw_ladder_make_room(p, &h, err));
   SW_TRY(sw_restart_at_jerk(s, h, err));

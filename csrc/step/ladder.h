@@ -17,6 +17,7 @@ typedef struct sw_ladder {
   sw_scene *s;
   const sw_run_args *args;
   sw_run_report *report;
+  double until;    /* end of the run [s] */
   double *v_start; /* velocities at the step's start, which impacts change */
   int smallest;    /* 1: no smaller step will be tried */
   int redo;        /* SW_AS_IS, or how the step is redone because it made energy */

@@ -35,9 +35,9 @@ sw_status sw_restart_halts(const sw_scene *scene, double h, int *halts, sw_error
  * notes whether a drive stops at once now, in steps of h, while wires slide. Fails as above. */
 double sw_restart_part(const sw_scene *scene);
 sw_status sw_restart_after_stop(sw_scene *scene, double h, sw_error *err);
-/* Shortens *h if a drive comes softly to rest soon, while wires slide [s]. *brakes: 1
+/* Shortens *h if a drive comes softly to rest soon, while wires slide [s]. p->brakes: 1
  * if it does so within these parts. Fails as above. */
-sw_status sw_restart_before_stop(const sw_scene *scene, double *h, int *brakes, sw_error *err);
+sw_status sw_restart_before_stop(sw_ladder *p, double *h, sw_error *err);
 /* Call when the part was refused. cut: only because it has to end sooner. */
 void sw_restart_refused(sw_ladder *p, int cut);
 

@@ -144,8 +144,12 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   *report = (sw_run_report){.smallest_dt = HUGE_VAL, .time = sw_scene_time(s)};
   SW_TRY(prepare(s, args, until, err));
   const sw_counters before = sw_scene_system(s)->counters;
-  sw_ladder p = {
-      .s = s, .args = args, .report = report, .interrupted = interrupted, .observer = observer};
+  sw_ladder p = {.s = s,
+                 .args = args,
+                 .report = report,
+                 .interrupted = interrupted,
+                 .observer = observer,
+                 .until = until};
   p.v_start = sw_alloc(sw_scene_has_contact(s) ? sw_scene_system(s)->freedoms : 1, sizeof(double));
   if (!p.v_start) return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", sw_scene_name(s));
   sw_scene_enter(s, 1);

@@ -213,20 +213,21 @@ static sw_status first(const sw_scene *s, double h, asked which, when of, double
   return SW_OK;
 }
 
-/* rod: 1 for rods and strings only. */
-static int slides(const sw_scene *s, int rod) {
+/* 1 if a touch slides that has slid less than `way` since it began to press [m]. rod: 1 for rods
+ * and strings only. */
+static int slides(const sw_scene *s, int rod, double way) {
   const sw_contact *contact = sw_scene_contact(s);
   const sw_system *system = sw_scene_system(s);
   const size_t count = contact ? sw_contact_touches(contact) : 0;
   sw_contact_push p;
   for (size_t k = 0; k < count; k++)
     if (sw_contact_push_at(contact, system, k, &p) && p.friction > 0 && sw_norm(p.slip) > SLID &&
-        !(rod && system->bodies[sw_system_body_of(system, p.node)].plan->web))
+        p.slid < way && !(rod && system->bodies[sw_system_body_of(system, p.node)].plan->web))
       return 1;
   return 0;
 }
 
-static int any_slides(const sw_scene *s) { return slides(s, 0); }
+static int any_slides(const sw_scene *s) { return slides(s, 0, HUGE_VAL); }
 
 /* *at: 0 if the velocity of a function may jump. */
 static sw_status rough_of(const sw_motion *m, double t, double h, double *at, sw_error *err) {
@@ -332,16 +333,47 @@ static sw_status leads_of(const sw_motion *m, double t, double h, double *at, sw
   return SW_OK;
 }
 
+/* What landed so long ago has ceased to tremble [s]. */
+static const double LATELY = 0.2;
+
+/* *at: minus the way since LATELY [m]. */
+static sw_status went_of(const sw_motion *m, double t, double h, double *at, sw_error *err) {
+  sw_motion_state now, before;
+  (void)h;
+  SW_TRY(eval(m, t, &now, err));
+  SW_TRY(eval(m, t - LATELY, &before, err));
+  *at = -sw_dist(now.pose.p, before.pose.p);
+  return SW_OK;
+}
+
+/* The same for functions, where a rod has landed lately: velocities of a function are a little
+ * late, by which a cable that was only drawn would lose 0.1 of mu N in short parts. A function is
+ * asked for no time behind the run. */
+static sw_status function_leads(const sw_ladder *p, double h, double *at, sw_error *err) {
+  const double most = fmin(h, p->until - sw_scene_time(p->s) - LEAD);
+  double back;
+  SW_TRY(first(p->s, most, FUNCTIONS, leads_of, at, err));
+  if (!(*at < h)) return SW_OK;
+  SW_TRY(first(p->s, h, FUNCTIONS, went_of, &back, err));
+  if (!slides(p->s, 1, -back)) *at = HUGE_VAL;
+  return SW_OK;
+}
+
 /* A rest below this share of a part is no part of its own [-]. */
 static const double NO_PART = 0.01;
 
-sw_status sw_restart_before_stop(const sw_scene *s, double *h, int *brakes, sw_error *err) {
-  double at;
-  *brakes = 0;
+sw_status sw_restart_before_stop(sw_ladder *p, double *h, sw_error *err) {
+  const sw_scene *s = p->s;
+  double at, any, later = HUGE_VAL;
+  p->brakes = 0;
   if (!sw_scene_contact(s)) return SW_OK;
   SW_TRY(first(s, *h, LAWS, leads_of, &at, err));
-  if (!(at < *h * (1 - NO_PART)) || !slides(s, 1)) return SW_OK;
-  *brakes = at <= 0;
+  SW_TRY(first(s, *h, FUNCTIONS, at_once, &any, err));
+  if (!(fmin(at, any) < *h * (1 - NO_PART)) || !slides(s, 1, HUGE_VAL)) return SW_OK;
+  if (any < HUGE_VAL) SW_TRY(function_leads(p, *h, &later, err));
+  at = fmin(at, later);
+  if (!(at < *h * (1 - NO_PART))) return SW_OK;
+  p->brakes = at <= 0;
   if (at > 0) {
     *h = fmax(at, STOPS);
     return SW_OK;

@@ -5,8 +5,9 @@ local sw = require "softworld"
 local t = require "physics.tools"
 
 -- case: cable, friction mu, length [m], segments, height [m], duration [s], way [m], damping [s], direction
--- turn [rad], law of the drive, rest [s] after it (0.5); swap: the clamp is at the wire's other end. Returns
--- the pull on the clamp at the end over mu m g, and whether an event said that forces at rest may be others.
+-- turn [rad], law of the drive or the share of its way as a function of the share of the duration, rest [s]
+-- after it (0.5), tolerance of the run; swap: the clamp is at the wire's other end. Returns the pull on the
+-- clamp at the end over mu m g, and whether an event said that forces at rest may be others.
 return function(case, dt, swap)
   local scene, r = sw.scene{}, sw.cable(case.cable).outer_diameter.value / 2
   local c, s, way = math.cos(case.turn), math.sin(case.turn), case.way
@@ -16,10 +17,18 @@ return function(case, dt, swap)
     to = swap and near or far }
   scene:force{ kind = "damping", mass = 0, stiffness = case.damping }
   local hold = scene:clamp(wire, { s = swap and wire.length or 0 })
-  hold:follow{ relative = true, duration = case.duration, law = case.law,
-    points = { { 0, 0, 0 }, { way / 2 * c, way / 2 * s, case.height }, { way * c, way * s, 0 } } }
+  if type(case.law) == "function" then
+    hold:follow(function(time)
+      local share = case.law(math.max(0, math.min(1, time / case.duration)))
+      return { way * share * c, way * share * s, r + case.height * math.sin(math.pi * share) ^ 2 }
+    end)
+  else
+    hold:follow{ relative = true, duration = case.duration, law = case.law,
+      points = { { 0, 0, 0 }, { way / 2 * c, way / 2 * s, case.height }, { way * c, way * s, 0 } } }
+  end
   local told = false
-  for _, e in ipairs(t.fine(scene:run{ dt = dt, duration = case.duration + (case.rest or 0.5) }).events) do
+  for _, e in ipairs(t.fine(scene:run{ dt = dt, tolerance = case.tolerance,
+    duration = case.duration + (case.rest or 0.5) }).events) do
     told = told or e.kind == "coarse" and e.text:find("forces at rest", 1, true) ~= nil
   end
   local f = hold:force()

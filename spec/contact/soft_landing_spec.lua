@@ -52,6 +52,35 @@ describe("a cable that is laid down", function()
     t.below(0.1, most, "largest difference of the pull over mu N")
     assert.equal(0, told)
   end)
+
+  -- A function has no law to ask: stops are found by its values.
+  it("keeps it if its drive is a Lua function", function()
+    for _, law in ipairs{ function(x) return x ^ 3 * (10 - 15 * x + 6 * x * x) end, function(x)
+      return x < 0.25 and x * x / 0.375 or x < 0.75 and (x - 0.125) / 0.75 or 1 - (1 - x) ^ 2 / 0.375
+    end } do
+      for _, k in ipairs{ 3, 5, 7 } do -- 0.56 to 0.67 for 0.91 to 0.96 before, without an event
+        local case = case_of(k, law)
+        local fine = lay(case, FINE, k % 2 == 0)
+        for _, dt in ipairs(STEPS) do
+          t.near(fine, lay(case, dt, k % 2 == 0), 0.05, ("case %d, %g ms"):format(k, 1e3 * dt))
+        end
+      end
+    end
+  end)
+
+  -- Landings in steps by tolerance are coarser: up to 0.06. Without short parts it was off by up to 1.3.
+  it("keeps it in runs by tolerance", function()
+    for k = 1, 6 do
+      for _, law in ipairs{ "minimum-jerk", "trapezoidal" } do
+        local case = case_of(k, law)
+        local fine = lay(case, FINE, k % 2 == 0)
+        for _, tolerance in ipairs{ 1e-3, 1e-5 } do
+          case.tolerance = tolerance
+          t.near(fine, lay(case, 0.02, k % 2 == 1), 0.1, ("%s, tolerance %g"):format(law, tolerance))
+        end
+      end
+    end
+  end)
 end)
 
 describe("friction at rest", function()
