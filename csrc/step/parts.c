@@ -48,10 +48,10 @@ static sw_status begin(sw_ladder *p, parts *k, sw_error *err) {
   const double left = k->h - k->done;
   if (p->args->parts) SW_TRY(sw_restart_after_stop(p->s, k->h, err));
   k->whole = sw_blow_part(p->s, k->part);
-  k->part = fmin(k->whole, sw_restart_part(p->s));
+  k->part = fmin(left, fmin(k->whole, sw_restart_part(p->s)));
   k->least = fmin(k->least, sw_blow_smallest(p->s));
-  if (k->part > left * (1 - ROUNDING)) k->part = left;
   if (p->args->parts) SW_TRY(sw_restart_before_stop(p, &k->part, err));
+  if (k->part > left * (1 - ROUNDING)) k->part = left;
   SW_TRY(sw_restart_until_break(p->s, &k->part, err));
   /* there may be many parts */
   if (k->done > 0 && p->interrupted && p->interrupted()) return SW_EINTR;

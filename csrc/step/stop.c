@@ -375,7 +375,7 @@ sw_status sw_restart_before_stop(sw_ladder *p, double *h, sw_error *err) {
   if (!(at < *h * (1 - NO_PART))) return SW_OK;
   p->brakes = at <= 0;
   if (at > 0) {
-    *h = fmax(at, STOPS);
+    *h = fmin(*h, fmax(at, STOPS));
     return SW_OK;
   }
   const double left = at + LEAD; /* until the stop, which ends a part of full length */
