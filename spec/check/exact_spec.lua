@@ -70,7 +70,7 @@ describe("run:check of the landing error", function()
   -- Nodes are 25 mm apart; the path is 3 mm beside the wire.
   it("is measured between nodes, where the part is shorter than an edge", function()
     local path = { { 0, 0.003, 0 }, { 0.2, 0.003, 0 } }
-    for _, part in ipairs{ { 0.11, 0.115 }, { 0.11, 0.11 }, { 0.2, 0.2 }, { 0, 0 }, { 0.19, 0.5 } } do
+    for _, part in ipairs{ { 0.11, 0.115 }, { 0.11, 0.11 }, { 0.2, 0.2 }, { 0, 0 }, { 0.19, 0.2 } } do
       local r = row{ path = path, from = part[1], to = part[2] }
       assert.is_near(0.003, r.value, 1e-9)
       assert.is_near(part[1], r.s, 1e-8)
@@ -93,9 +93,12 @@ describe("run:check of the landing error", function()
   end)
 
   it("names a part beyond the wire", function()
-    local r = row{ path = { { 0, 0, 0 } }, from = 0.3 }
-    assert.equal("FAIL", r.verdict)
-    assert.truthy(r.note:find("landing.from = 0.3 m is beyond the wire's end at 0.2 m", 1, true), r.note)
+    for _, part in ipairs{ { "from", 0.3 }, { "to", 0.3 } } do
+      local r = row{ path = { { 0, 0, 0 }, { 0.2, 0, 0 } }, [part[1]] = part[2] }
+      assert.equal("FAIL", r.verdict)
+      assert.truthy(r.note:find(("landing.%s = %g m is beyond the wire's end at 0.2 m"):format(part[1],
+        part[2]), 1, true), r.note)
+    end
   end)
 end)
 

@@ -75,9 +75,12 @@ local function value(entry, context)
   if wanted.wire and wanted.wire ~= entry.name then return nil end
   local x, from = wire:positions(), wanted.from or 0
   local long = length_of(x)
-  if from > math.max(long, wire.length) + SLACK then
-    return { value = 0 / 0, note = ("landing.from = %g m is beyond the wire's end at %g m"):format(from,
-      wire.length) }
+  for _, name in ipairs{ "from", "to" } do
+    local at = wanted[name]
+    if at and at > math.max(long, wire.length) + SLACK then
+      return { value = 0 / 0, note = ("landing.%s = %g m is beyond the wire's end at %g m"):format(name, at,
+        wire.length) }
+    end
   end
   local points, places = part_of(x, math.min(from, long - SLACK), wanted.to or math.huge)
   local far, number = farthest(points, wanted.path)
