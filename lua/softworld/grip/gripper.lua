@@ -29,7 +29,7 @@ local process = require "softworld.run.process"
 local remarks = require "softworld.remarks"
 local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
-local trajectory = require "softworld.trajectory"
+local target = require "softworld.grip.target"
 local vec = require "softworld.vec"
 
 local Gripper = { __name = "gripper" }
@@ -133,50 +133,6 @@ local function pose_of(self)
   return { at[1], at[2], at[3] }, self.rotation or not self.solid and self.facing or { 1, 0, 0, 0 }
 end
 
-local move_keys = { path = true, points = true, to = true, by = true, rotation = true, scale = true }
-
--- Returns the trajectory's table for a move from the present pose.
-local function move_table(self, args)
-  local t = {}
-  for k, v in pairs(args) do
-    if not move_keys[k] and k ~= "on_slip" then t[k] = v end
-  end
-  local here, facing = pose_of(self)
-  here.rotation = facing
-  local points = args.points or args.path
-  if type(points) == "string" then points = trajectory.read(points, args.scale) end
-  if args.rotation ~= nil and args.to == nil then
-    error("gripper:move: rotation goes with to; way-points have rotations of their own", 3)
-  end
-  if args.to then
-    local to = args.to
-    to.rotation = args.rotation
-    points = { here, to }
-  elseif args.by then
-    points, t.relative = { { 0, 0, 0 }, args.by }, true
-  elseif not points and t.turn then
-    points, t.relative = { { 0, 0, 0 }, { 0, 0, 0 } }, true
-  elseif type(points) == "table" and type(points[1]) == "table" and not t.relative then
-    local first = points[1]
-    local x, y, z = first.x or first[1], first.y or first[2], first.z or first[3]
-    local numbers = type(x) == "number" and type(y) == "number" and type(z) == "number"
-    local gap = numbers and ((x - here[1]) ^ 2 + (y - here[2]) ^ 2 + (z - here[3]) ^ 2) ^ 0.5 or 0
-    if gap > 1e-9 and not (first.t or t.times) then
-      points = table.move(points, 1, #points, 2, { here }) -- a copy: the caller's table stays as it is
-    end
-  end
-  t.points = points
-  return t
-end
-
--- Returns the trajectory of a move; errors name the move.
-local function motion_of(args)
-  local fine, result = pcall(core.trajectory, args)
-  if fine then return result end
-  if type(result) ~= "string" then error(result, 0) end
-  error((build.plain(result):gsub("^trajectory: ", "gripper:move: ", 1)), 0)
-end
-
 local move = rows.call("gripper:move", "{...}", "moves the tool; in a process it returns at the end of the "
   .. "move", {
   gives = "the gripper", also = "trajectory", example = "hand:move { by = { 0, 0, 0.1 }, speed = 0.2 }",
@@ -201,7 +157,7 @@ function Gripper:move(args)
   if args.func and not args.duration then
     error(("gripper '%s': move: func has no end; give duration [s]"):format(self.name), 2)
   end
-  local motion = build.call(3, motion_of, move_table(self, args))
+  local motion = build.call(3, target.motion, args, pose_of(self))
   remarks.on("move", ("gripper '%s': move"):format(self.name), args)
   local held = make_moved(self)
   if args.on_slip ~= nil then reactions.set_on_slip(self, args.on_slip, 3) end

@@ -169,12 +169,8 @@ end
 -- With pads also peak_squeeze [N] of single steps, peak_margin, raw_peak_margin (while they hold, not
 -- while they close or let go), slip [m].
 function Measures:over(t1, t2, options)
-  t1, t2, options = t1 or -math.huge, t2 or math.huge, over_options(options)
-  for name, time in pairs{ t1 = t1, t2 = t2 } do
-    if type(time) ~= "number" then
-      error(("gripper:over: %s must be a time [s], got %s"):format(name, type(time)), 2)
-    end
-  end
+  options = over_options(options)
+  t1, t2 = window.interval(self.scene, t1, t2, "gripper:over", 3)
   local width = window.of(self.scene, options.window, "gripper:over", 3)
   local margins, squeeze, slip = {}, nil, nil
   local m = loads.over(records(self, t1, t2), { t1 = t1, t2 = t2, width = width, at = options.at,

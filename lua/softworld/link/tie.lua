@@ -140,8 +140,7 @@ function Tie:release() self.object:release() end
 function Tie:over(t1, t2, options)
   fixing.check(self)
   options = options == nil and {} or over:read(options)
-  t1 = t1 == nil and -math.huge or checks.number("tie:over: t1", t1, -math.huge, " s", 2)
-  t2 = t2 == nil and math.huge or checks.number("tie:over: t2", t2, -math.huge, " s", 2)
+  t1, t2 = window.interval(self.scene, t1, t2, "tie:over", 2)
   return loads.over(loads.forces(self.object:log(t1, t2)), { t1 = t1, t2 = t2,
     width = window.of(self.scene, options.window, "tie:over", 2), forces_only = true })
 end

@@ -71,6 +71,19 @@ function runfiles.check_camera(given, what)
   camera:read(given, what .. ": camera", what .. ": camera.")
 end
 
+--- Raises an error unless the run has been at these times [s]; nil: no times. The nearest frame would be
+-- drawn, with its own time: of a time after the run its last frame, which shows something else.
+function runfiles.check_times(self, times, what)
+  for k, t in ipairs(times or {}) do
+    local name = #times > 1 and ("%s: times[%d]"):format(what, k) or what .. ": the time"
+    checks.number(name, t, -math.huge, " s", 0)
+    if t > self.time * (1 + 1e-9) + 1e-12 or t < -1e-12 then
+      error(("%s = %.9g s is not in the run, which goes from %.9g s to %.9g s"):format(name, t, self.start,
+        self.time), 0)
+    end
+  end
+end
+
 -- Checks { width, height }, both above 0.
 local function check_size(given)
   if given == nil then return end
@@ -175,6 +188,7 @@ function Run:pictures(options)
   local o = pictures:read(options or {})
   runfiles.check_camera(o.camera, "run:pictures")
   readable(self, "frames", true)
+  runfiles.check_times(self, o.times, "run:pictures")
   o.run = runfiles.pictured(self)
   return require("softworld.output.povray").strip(o)
 end

@@ -4,7 +4,6 @@
 -- @module softworld.run.loads
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
-local checks = require "softworld.checks"
 local rows = require "softworld.rows"
 local vec = require "softworld.vec"
 local window = require "softworld.run.window"
@@ -117,8 +116,7 @@ function core.class.clamp.over(hold, t1, t2, options)
   if core.type(hold) ~= "clamp" then error("clamp:over is a method: call it with a colon", 2) end
   build.call(3, core.window, hold) -- raises if it does not exist any more
   options = options == nil and {} or over:read(options)
-  t1 = t1 == nil and -math.huge or checks.number("clamp:over: t1", t1, -math.huge, " s", 3)
-  t2 = t2 == nil and math.huge or checks.number("clamp:over: t2", t2, -math.huge, " s", 3)
+  t1, t2 = window.interval(hold, t1, t2, "clamp:over", 3)
   return loads.over(loads.list(build.call(3, hold.log, hold, t1, t2)), { t1 = t1, t2 = t2,
     width = window.of(hold, options.window, "clamp:over", 3), at = options.at })
 end

@@ -208,6 +208,7 @@ local function picture_of_run(self, args)
   check(o, "run:picture")
   check_moments(o)
   runfiles.readable(self, "frames", true)
+  runfiles.check_times(self, o.times or { o.t }, "run:picture")
   local times = core.frame_times(self.scene)
   o.times, o.t, o.count = times_of(self, times, o), nil, nil
   return draw(moments(self, times, o.times), o)
@@ -281,6 +282,7 @@ local function of_one(kind, list)
     check_path(path, "run:" .. kind, kind)
     local o = list:read(args or {})
     runfiles.readable(self, "frames", true)
+    runfiles.check_times(self, { o.t }, "run:" .. kind)
     local times, numbers = core.frame_times(self.scene), {}
     o.t = o.t or times[#times] or 0
     if #times > 0 then numbers = numbers_of(self, times, { nearest(times, o.t) }) end

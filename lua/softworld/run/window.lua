@@ -30,6 +30,29 @@ function window.of(scene, asked, what, level)
   return checks.number(what .. ": window", asked, 0, " s", level + 1)
 end
 
+-- Returns the time `t` [s], or `usual` if it is nil.
+local function time_of(what, t, usual, level)
+  if t == nil then return usual end
+  if type(t) == "number" and t == t then return t end
+  error(("%s must be a time [s], got %s"):format(what, t == t and type(t) or "nan"), level)
+end
+
+--- Returns the ends of an interval of the record of an object, or of a scene [s]; nil: without end. what: the
+-- method that reads loads. An interval that lies ahead, or ends before it begins, has no loads: zeros would
+-- be taken for loads that were measured.
+function window.interval(object, t1, t2, what, level)
+  t1 = time_of(what .. ": t1", t1, -math.huge, level + 1)
+  t2 = time_of(what .. ": t2", t2, math.huge, level + 1)
+  local scene = core.type(object) == "scene" and object or select(4, core.number(object))
+  if t2 < t1 then
+    error(("%s: t2 = %.9g s is before t1 = %.9g s"):format(what, t2, t1), level)
+  elseif t1 > scene.time * (1 + 1e-12) then
+    error(("%s: t1 = %.9g s is not recorded yet; the scene is at t = %.9g s"):format(what, t1, scene.time),
+      level)
+  end
+  return t1, t2
+end
+
 local function size(x, y, z) return (x * x + y * y + z * z) ^ 0.5 end
 
 -- Returns the integral of the steps up to the start of each.
@@ -256,8 +279,7 @@ function core.class.obstacle.over(obstacle, t1, t2, options)
   build.call(3, core.window, obstacle) -- raises if it does not exist any more
   options = options or {}
   checks.keys("obstacle:over", options, over_keys, 3)
-  t1 = t1 == nil and -math.huge or checks.number("obstacle:over: t1", t1, -math.huge, " s", 3)
-  t2 = t2 == nil and math.huge or checks.number("obstacle:over: t2", t2, -math.huge, " s", 3)
+  t1, t2 = window.interval(obstacle, t1, t2, "obstacle:over", 3)
   local width = window.of(obstacle, options.window, "obstacle:over", 3)
   local m, sum, steps = build.call(3, sum_over, obstacle, t1, t2)
   m.window = width
