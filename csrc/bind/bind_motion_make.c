@@ -22,7 +22,10 @@ static const sw_param rows[] = {
     OTHER("scale", "m", "length unit of a CSV file whose columns name no unit"),
     OTHER("func", "-",
           "function(t) returning position [m] and optionally rotation, instead of points"),
-    OTHER("turn", "rad", "{axis=, angle=}: turn over the whole path, any number of revolutions"),
+    OTHER(
+        "turn", "rad",
+        "{axis=, angle=}: turn over the whole path, any number of revolutions; without way-points "
+        "in place"),
     {"law", SW_PARAM_CHOICE, "-", -1, -INFINITY, INFINITY, 0, law_names, AT(law),
      "law of progress; default minimum-jerk, with three or more timed way-points spline"},
     POSITIVE("speed", speed, "m/s", "highest speed along the path; never exceeded"),
@@ -143,6 +146,8 @@ static void push_points(lua_State *L, int table, const char *what) {
   if (given) luaL_error(L, "%s: give points or path, not both", what);
   lua_remove(L, -2);
   if (lua_istable(L, -1)) return;
+  if (lua_isfunction(L, -1))
+    luaL_error(L, "%s: path is a file or way-points; give a function of time as func", what);
   if (lua_rawgetp(L, LUA_REGISTRYINDEX, &reader_key) == LUA_TNIL)
     luaL_error(L, "%s: path needs the module softworld.trajectory to be loaded", what);
   lua_insert(L, -2);
@@ -187,6 +192,7 @@ static sw_status make_path(lua_State *L, int table, const char *what, const lsw_
   plan.acceleration = args->acceleration, plan.angular_acceleration = args->angular_acceleration;
   plan.duration = args->duration, plan.blend = args->blend, plan.stop = args->stop;
   plan.start = args->start, plan.relative = args->relative;
+  if (plan.count == 0 && sw_norm(plan.turn) > 0) plan.relative = 1; /* a turn in place */
   return sw_motion_create(&plan, out, err);
 }
 

@@ -143,7 +143,8 @@ sw_status sw_route_build(const sw_motion_plan *plan, sw_route *route, sw_error *
   if (route->count == 1 && turns) route->count = 2;
   if (route->count < 2)
     return sw_fail(err, SW_EINVAL,
-                   "%s: a path needs at least 2 way-points, got %zu (give points = {{x,y,z}, ...})",
+                   "%s: a path needs at least 2 way-points, got %zu (give points = {{x,y,z}, ...}, "
+                   "or turn to turn in place)",
                    route->name, plan->count);
   SW_TRY(allocate(route));
   SW_TRY(fill(plan, route, implied, err));

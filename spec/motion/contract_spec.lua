@@ -179,3 +179,17 @@ describe("every law", function()
     end
   end)
 end)
+
+describe("a turn without way-points", function()
+  it("is one in place: a displacement by nothing", function()
+    local turn = { axis = { 1, 2, 2 }, angle = 9 }
+    local one = core.trajectory{ turn = turn, duration = 2 }
+    local other = core.trajectory{ turn = turn, duration = 2, points = { { 0, 0, 0 }, { 0, 0, 0 } },
+      relative = true }
+    assert.is_true(one:relative())
+    for k = 0, 8 do
+      assert.same(other:rotation(k / 4), one:rotation(k / 4))
+      assert.same({ 0, 0, 0 }, one:position(k / 4))
+    end
+  end)
+end)
