@@ -34,9 +34,10 @@ h1 { font-size: 1.7rem; line-height: 1.25; margin: 0 0 1rem; }
 h2 { font-size: 1.25rem; margin: 2.2rem 0 .6rem; }
 h3 { font-size: 1.05rem; margin: 1.8rem 0 .4rem; }
 code { font: .9em/1.5 ui-monospace, "DejaVu Sans Mono", monospace; }
-:not(pre) > code { background: var(--soft); padding: .05em .3em; border-radius: .2em; }
-pre { background: var(--soft); border: 1px solid var(--line); border-radius: .4rem; padding: .8rem 1rem;
+:not(pre) > code { background: var(--soft); padding: .05em .15em; border-radius: .2em; }
+pre { background: var(--soft); border: 1px solid var(--line); border-radius: .4rem; padding: .8rem .9rem;
   overflow-x: auto; }
+pre > code { font-size: .81rem; } /* 110 letters fit into the page's width */
 .wide { overflow-x: auto; margin: 1rem 0; }
 table { border-collapse: collapse; font-size: .94rem; }
 th, td { text-align: left; vertical-align: top; padding: .35rem .8rem .35rem 0;

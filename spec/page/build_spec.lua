@@ -100,6 +100,8 @@ describe("a view that starts with an empty scene", function()
     assert.equal("at the start", text "#status")
     assert.truthy(text(".stage > .empty"):find "Nothing is here yet")
     assert.truthy(text "#panel-build":find "Begin with a wire")
+    assert.equal("– –", page:run [[
+      return [...document.querySelectorAll(".legend .end")].map((e) => e.value).join(" ");]])
     for _, line in ipairs(page:console()) do
       assert.is_true(line.level ~= "SEVERE" and line.level ~= "WARNING", line.level .. ": " .. line.message)
     end

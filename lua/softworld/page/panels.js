@@ -90,7 +90,7 @@ export function lookPanel(host, data, state) {
     range.value = v.range;
     range.disabled = !v.quantity;
     thick.value = v.thick;
-    times.textContent = v.thick === 1 ? "true" : `${v.thick} ×`;
+    times.textContent = `${v.thick} ×`;
   });
 }
 
@@ -123,7 +123,7 @@ export class Legend {
     this.name.textContent = `${quantity.label} [${quantity.unit}]`;
     this.bar.style.background = scale.css;
     [scale.low, scale.high].forEach((x, i) => {
-      const digits = Math.abs(x) >= 1e5 || (x !== 0 && Math.abs(x) < 1e-3) ? x.toExponential(2).replace("e+", "e")
+      const digits = !Number.isFinite(x) ? "–" : Math.abs(x) >= 1e5 || (x !== 0 && Math.abs(x) < 1e-3) ? x.toExponential(2).replace("e+", "e")
         : `${Number(x.toPrecision(4))}`;
       if (document.activeElement !== this.ends[i]) this.ends[i].value = digits.replace("-", "−");
     });
