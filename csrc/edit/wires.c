@@ -29,8 +29,9 @@ static const sw_param wire_rows[] = {
     {"path", SW_PARAM_OTHER, "m", 0, 0, 0, 0, NULL, 0,
      "list of points the wire lies along, instead of from and to"},
     {"segments", SW_PARAM_INTEGER, "-", 0, 0, 1e7, 0, NULL, offsetof(sw_wire_args, segments),
-     "number of segments, 2 or more (default 50; of a mesh the number of slices, by their spacing "
-     "gives)"},
+     "number of segments, 2 or more (default 50); of a mesh the number of slices (default: by "
+     "their "
+     "spacing)"},
     {"rest", SW_PARAM_CHOICE, "-", 0, 0, 0, 0, rest_names, offsetof(sw_wire_args, rest),
      "shape without load: 'straight', or the shape of 'path'"},
     {"normal", SW_PARAM_VECTOR, "-", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL,

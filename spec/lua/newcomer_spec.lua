@@ -104,4 +104,15 @@ describe("a first script", function()
     for _, row in ipairs(run:document().summary) do shown[row.label] = row.value end
     assert.equal(hand.peak_margin, shown["hand: largest share of the pads' friction (1: slips)"])
   end)
+
+  it("finds the parameters of a mesh under its name", function()
+    local topics = require "softworld.prompt.topics"
+    for model, words in pairs { tube = "ring_radius", radial = "layers", cubic = "across",
+      composite = "cores" } do
+      assert.is_truthy(topics.text(model):find(words, 1, true))
+      assert.is_truthy(topics.text(model):find("help 'wire_mesh', 'wire' and 'section'", 1, true))
+    end
+    assert.is_truthy(topics.text "rod":find("its parameters: help 'wire' and 'section'", 1, true))
+    assert.matches("\n  segments +number of segments", topics.text "wire")
+  end)
 end)

@@ -97,6 +97,7 @@ end
 
 --- Returns a row's default, as text.
 function topics.default(row)
+  if row.doc and row.doc:find("(default", 1, true) then return "" end -- 0 stands for what the text says
   if row.required then return "required" end
   local usual = row.usual or type(row.default) ~= "number" and row.default
   if type(usual) == "string" then return "= " .. usual end
@@ -130,7 +131,12 @@ local function member(family, entry)
     table.move(how_it_steps(entry), 1, 2, 2, part.lines)
   elseif family[1] == "readout" then
     part.lines[1] = ("wire:%s(%s)   [%s]"):format(entry.name, entry.at_place and "s" or "", entry.unit)
-  elseif family[1] ~= "model" then
+  elseif family[1] == "model" then
+    local own = registered().params["calibrate_" .. entry.name] -- of a mesh
+    part.rows = own
+    part.after = own and "and those of help 'wire_mesh', 'wire' and 'section' (or 'cable')"
+      or "its parameters: help 'wire' and 'section' (or 'cable')"
+  else
     part.rows = entry.params or {}
     part.after = entry.sample and not entry.listed and "such as " .. entry.sample
       or family[1] == "hold" and entry.name ~= "clamp" and "its methods: help 'clamp'" or nil
