@@ -201,12 +201,30 @@ static void hint_about_locals(lua_State *L) {
         stderr);
 }
 
+/* True if the line is exit or quit, with or without brackets, and this is no variable. */
+static int wants_to_leave(lua_State *L) {
+  static const char *const words[] = {"exit", "quit"};
+  const char *line = lua_tostring(L, -1);
+  line += strspn(line, " \t");
+  for (size_t k = 0; k < sizeof words / sizeof words[0]; k++) {
+    const size_t length = strlen(words[k]);
+    if (strncmp(line, words[k], length) != 0) continue;
+    const char *rest = line + length;
+    if (strncmp(rest, "()", 2) == 0) rest += 2;
+    if (rest[strspn(rest, " \t\n")] != '\0') continue;
+    const int unknown = lua_getglobal(L, words[k]) == LUA_TNIL;
+    lua_pop(L, 1);
+    return unknown;
+  }
+  return 0;
+}
+
 /* Reads and runs one chunk; 0 at the end of input. */
 static int round_trip(lua_State *L) {
   const int base = lua_gettop(L);
   const int got = host_line(L, "> ");
   if (got == LINE_CANCELLED) return 1;
-  if (got == LINE_END) return 0;
+  if (got == LINE_END || wants_to_leave(L)) return 0;
   hint_about_locals(L);
   int status = read_rest(L);
   if (status == LUA_OK) status = run_chunk(L, base);

@@ -67,6 +67,22 @@ static int refuse(const char *name, const char *why) {
   return HOST_FAILED;
 }
 
+/* Refuses a script that is not there: it names the script with .lua, or the command that was meant.
+ */
+static int refuse_missing(lua_State *L, const char *name) {
+  static const char *const commands[] = {"doc", "new", "lint"};
+  const char *why = strerror(errno); /* before the next call changes it */
+  const int top = lua_gettop(L);
+  struct stat info;
+  const char *near = lua_pushfstring(L, "%s.lua", name);
+  if (stat(near, &info) != 0)
+    near =
+        sw_nearest_name(name, commands, sizeof commands[0], sizeof commands / sizeof commands[0]);
+  refuse(name, near ? lua_pushfstring(L, "%s; did you mean 'softworld %s'?", why, near) : why);
+  lua_settop(L, top);
+  return HOST_FAILED;
+}
+
 /* Pushes the words after argv[at] and returns their number; at = 0: none. */
 static int push_arguments(lua_State *L, const host_options *o, int at) {
   const int count = at ? o->argc - at - 1 : 0;
@@ -135,7 +151,7 @@ int host_run_script(lua_State *L, const host_options *o) {
   const char *name = o->script ? o->argv[o->script] : "-";
   const char *file = strcmp(name, "-") == 0 ? NULL : name;
   host_ctrl_c_reset();
-  if (file && stat(file, &info) != 0) return refuse(name, strerror(errno));
+  if (file && stat(file, &info) != 0) return refuse_missing(L, name);
   if (file && S_ISDIR(info.st_mode)) return refuse(name, "it is a directory");
   int status = luaL_loadfilex(L, file, "t");
   if (status == LUA_ERRFILE) {

@@ -100,6 +100,16 @@ static int count_levels(lua_State *L) {
   return low + 1;
 }
 
+/* True if these calls are a line typed at the prompt and the C function it calls: the message tells
+ * as much. */
+static int is_typed(lua_State *L, const int *seen, int count) {
+  lua_Debug ar;
+  for (int i = 0; i + 1 < count; i++)
+    if (!get_level(L, seen[i], &ar) || *ar.what != 'C') return 0;
+  return get_level(L, seen[count - 1], &ar) && *ar.what == 'm' &&
+         strcmp(ar.short_src, "input") == 0;
+}
+
 /* Appends the calls to the text on top. */
 static void add_calls(lua_State *L) {
   lua_Debug ar;
@@ -113,7 +123,7 @@ static void add_calls(lua_State *L) {
   const char *text = lua_tolstring(L, top, &length);
   if (count == 1 && get_level(L, seen[0], &ar) && *ar.what == 'm' && position_length(text, &ar))
     return; /* the message has this position already */
-  if (count == 0) return;
+  if (count == 0 || is_typed(L, seen, count)) return;
   luaL_checkstack(L, 2 * SHOWN + 8, NULL);
   lua_pushliteral(L, "\ncalled from:");
   for (int i = 0; i < count; i++) {

@@ -30,6 +30,21 @@ describe("the prompt through a pipe", function()
     prints("", "x = 1\n\n   \n-- a comment\n;\n(function() end)()\nlocal y = 2\n")
   end)
 
+  it("ends at exit and quit, unless these are variables", function()
+    for _, word in ipairs { "exit", "quit()", " exit() ", "quit" } do
+      prints("1\n", ("1\n%s\n2\n"):format(word))
+    end
+    prints("5\n3\n", "exit = 5\nexit\nquit = function() return 3 end\nquit()\n")
+    prints("nil\n1\n", "exits\n1\n")
+  end)
+
+  it("names a wrong call only once", function()
+    local _, err = session "string.rep()\n"
+    assert.matches("^input:1: bad argument #1 to 'rep'[^\n]*\n$", err)
+    _, err = session "function f()\nstring.rep()\nend\nf()\n"
+    assert.matches("called from:\n.*in the function at line 1\n", err)
+  end)
+
   it("waits for the rest of a statement", function()
     prints("1\n2\n", "for i = 1, 2 do\nprint(i)\nend\n")
     prints("a\nb\n", "[[a\nb]]\n")

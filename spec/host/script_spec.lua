@@ -55,6 +55,12 @@ describe("softworld script.lua", function()
     local _, err, code = run { "/no/such.lua" }
     assert.equal("softworld: cannot run '/no/such.lua': No such file or directory\n", err)
     assert.equal(1, code)
+    local name = program.write(program.folder() .. "/cell.lua", "print(1)"):gsub("%.lua$", "")
+    _, err = run { name }
+    assert.equal(("softworld: cannot run '%s': No such file or directory; did you mean 'softworld %s.lua'?\n")
+      :format(name, name), err)
+    _, err = run { "docs" }
+    assert.matches("did you mean 'softworld doc'%?\n$", err)
     _, err, code = run { "/" }
     assert.equal("softworld: cannot run '/': it is a directory\n", err)
     assert.equal(1, code)
