@@ -31,6 +31,29 @@ describe("study:sweep", function()
     assert.equal(0.5, s:sweep { grid = { a = 1, b = 1 } }[1].b)
   end)
 
+  it("takes its kind as method too, for the same points", function()
+    local s = study({ a = { 0, 1 }, b = { 0, 1 } }, nothing)
+    local rows, others = s:sweep { kind = "halton", count = 5 }, s:sweep { method = "halton", count = 5 }
+    assert.same(column(rows, "a"), column(others, "a"))
+    assert.error_matches(function() s:sweep { kind = "halton", method = "latin", count = 5 } end,
+      "give kind = 'halton' or method = 'latin', not both")
+  end)
+
+  it("gives rows whose print is a table", function()
+    local s = study({ a = { 1, 3, integer = true } }, function(p)
+      if p.a == 2 then error "no two" end
+      return { y = p.a / 3 }
+    end)
+    local text = tostring(s:sweep { grid = 3 })
+    assert.matches("^number  a  y         failed\n1       1  0.333333\n2       2 .*no two\n3       3  1$",
+      text)
+    s = study({ a = { 0, 1 } }, nothing)
+    text = tostring(s:sweep { count = 30 })
+    assert.matches("\n... 30 rows; study:csv%(path%) writes all$", text)
+    assert.equal(21, select(2, text:gsub("\n", "")))
+    assert.is_nil(text:find "failed")
+  end)
+
   it("takes all choices and integers on a grid, each once", function()
     local s = study({ n = { 2, 5, integer = true }, c = { choices = { "x", true, 3 } } }, nothing)
     local rows = s:sweep { grid = 10 }

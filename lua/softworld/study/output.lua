@@ -61,13 +61,6 @@ function output.records(own, part)
   return list
 end
 
---- Returns the rows of one part, or of all.
-function output.rows(own, part)
-  local list = output.records(own, part)
-  for i, record in ipairs(list) do list[i] = output.row(own, record) end
-  return list
-end
-
 -- Returns the names of results, sorted.
 local function result_names(list)
   local names, seen = {}, {}
@@ -82,6 +75,50 @@ local function result_names(list)
 end
 
 output.result_names = result_names
+
+local MOST = 20 -- rows of a table that are printed
+
+-- Returns columns side by side; lists: of texts, the first of which is the heading.
+local function side_by_side(lists)
+  local lines, widths = {}, {}
+  for k, list in ipairs(lists) do
+    widths[k] = 0
+    for _, word in ipairs(list) do widths[k] = math.max(widths[k], #word) end
+  end
+  for i = 1, #lists[1] do
+    local words = {}
+    for k, list in ipairs(lists) do words[k] = list[i] .. (" "):rep(widths[k] - #list[i]) end
+    lines[i] = (table.concat(words, "  "):gsub("%s+$", ""))
+  end
+  return table.concat(lines, "\n")
+end
+
+local function word_of(value)
+  if math.type(value) == "float" then return ("%.6g"):format(value) end
+  return value == nil and "" or tostring(value)
+end
+
+--- Returns the rows of one part, or of all; their print is a table.
+function output.rows(own, part)
+  local list, names = output.records(own, part), { "number" }
+  for _, p in ipairs(own.parameters) do names[#names + 1] = p.name end
+  for _, name in ipairs(result_names(list)) do names[#names + 1] = name end
+  if #own.constraints > 0 then names[#names + 1] = "pass" end
+  local failed
+  for i, record in ipairs(list) do
+    list[i], failed = output.row(own, record), failed or record.failed
+  end
+  if failed then names[#names + 1] = "failed" end
+  return setmetatable(list, { __tostring = function(rows)
+    local lists = {}
+    for k, name in ipairs(names) do
+      lists[k] = { name }
+      for i = 1, math.min(MOST, #rows) do lists[k][i + 1] = word_of(rows[i][name]) end
+    end
+    local rest = #rows > MOST and ("\n... %d rows; study:csv(path) writes all"):format(#rows) or ""
+    return side_by_side(lists) .. rest
+  end })
+end
 
 -- Raises an error unless name is a parameter or a result.
 function output.check_name(own, what, name, list)

@@ -69,6 +69,7 @@ local sweep = rows.call("study:sweep", "{...}", "evaluates on a grid, or at poin
   example = "study:sweep { grid = { force = 9, speed = 5 } }",
   { "kind", "choice", "-", "how", choices = { "grid", "latin", "halton", "sobol" },
     usual = "grid with grid, else sobol" },
+  { "method", "choice", "-", "the same as kind", choices = { "grid", "latin", "halton", "sobol" } },
   { "grid", "numbers of values", "-", "number of values on each range, or a table by the parameter's name" },
   { "count", "integer", "-", "evaluations, of a grid at most", min = 1, max = 10000000 },
   WORKERS,
@@ -205,7 +206,11 @@ end
 
 local function do_sweep(self, args)
   local own, o = fields(self), sweep:read(args == nil and {} or args)
-  local kind = o.kind or o.grid ~= nil and "grid" or "sobol"
+  if o.kind and o.method and o.kind ~= o.method then
+    error(("study:sweep: give kind = '%s' or method = '%s', not both"):format(o.kind, o.method), 0)
+  end
+  local kind = o.kind or o.method or o.grid ~= nil and "grid" or "sobol"
+  o.method = nil
   local what = "study:sweep"
   if kind ~= "grid" and o.grid ~= nil then
     error(("study:sweep: grid does not go with kind = '%s'"):format(kind), 0)
