@@ -105,6 +105,20 @@ describe("a first script", function()
     assert.equal(hand.peak_margin, shown["hand: largest share of the pads' friction (1: slips)"])
   end)
 
+  it("is told that its wire fell while the jaws closed", function()
+    local scene = sw.scene { name = "falls" }
+    local hose = scene:wire { name = "hose", E = 5e6, density = 1100, radius = 6e-3, segments = 10,
+      from = { 0, 0, 0 }, to = { 0.08, 0, 0 } }
+    local hand = scene:gripper { name = "hand", pads = { width = 0.02, opening = 0.014 } }
+    local why
+    scene:process(function()
+      why = select(2, pcall(hand.grasp, hand, hose, { s = 0.04, approach = "plates", force = 5 }))
+    end)
+    assert.is_true(scene:run { dt = 0.01 }.ok)
+    assert.matches("closed on nothing: wire 'hose' is %d%.%d+ m from the tool centre and moves at "
+      .. "%d%.%d+ m/s: it went away while the jaws closed; hold it, or lay it on something$", why)
+  end)
+
   it("finds the parameters of a mesh under its name", function()
     local topics = require "softworld.prompt.topics"
     for model, words in pairs { tube = "ring_radius", radial = "layers", cubic = "across",

@@ -2,10 +2,12 @@
 --- Closes and opens the jaws of a gripper: to a force, an opening, or until contact.
 -- @module softworld.grip.jaws
 local mixed = require "softworld.grip.mixed"
+local number = require "softworld.output.number"
 local process = require "softworld.run.process"
 local rows = require "softworld.rows"
 local stand = require "softworld.grip.stand"
 local tension = require "softworld.check.tension"
+local vec = require "softworld.vec"
 
 local jaws = { methods = {} }
 local Methods = jaws.methods
@@ -52,6 +54,17 @@ function jaws.order(self, args, what)
   return { mode = "to", opening = 0, speed = speed, force = contact }
 end
 
+local FAST = 0.1 -- a wire that moves faster while jaws close at rest is held by nothing [m/s]
+
+-- Returns how far the wire is from the tool, and whether it went away while the jaws closed.
+local function whereabouts(self, wire)
+  local s, d = stand.nearest_place(wire, (self.tool:pose()))
+  local speed = vec.norm(wire:velocity(s))
+  local away = speed > FAST and (" and moves at %s: it went away while the jaws closed; hold it, or lay it "
+    .. "on something"):format(number.text(speed, "m/s")) or ""
+  return (": wire '%s' is %s from the tool centre%s"):format(wire.name, number.text(d, "m"), away)
+end
+
 -- Stops the jaws and raises an error with the reason why they failed.
 local function give_up(self, order, wire, state, crushed, longest)
   self.tool:jaws{ mode = "still" }
@@ -64,12 +77,7 @@ local function give_up(self, order, wire, state, crushed, longest)
   end
   if state.jaws == "empty" then
     note(self, "missed", {})
-    local far = ""
-    if wire then
-      local _, d = stand.nearest_place(wire, (self.tool:pose()))
-      far = (": wire '%s' is %.3g mm from the tool centre"):format(wire.name, 1e3 * d)
-    end
-    error(("gripper '%s' closed on nothing%s"):format(self.name, far), 0)
+    error(("gripper '%s' closed on nothing%s"):format(self.name, wire and whereabouts(self, wire) or ""), 0)
   end
   note(self, "unreached", { opening = state.opening, squeeze = state.squeeze })
   error(("gripper '%s': %s is not reached in %.3g s; the force is %.4g N at an opening of %.4g mm"):format(
