@@ -25,7 +25,8 @@ local rules = {
   wire_contact = { friction = { "", 0, 3 } },
   pads = { friction = { "", 0, 3 }, width = { "m", 1e-4, 0.5, "mm" }, opening = { "m", 1e-5, 1, "mm" } },
   grasp = { force = { "N", 1e-4, 1e4, "mN" }, speed = { "m/s", 1e-6, 20, "mm_per_s" } },
-  move = { speed = { "m/s", 1e-6, 20, "mm_per_s" }, duration = { "s", 1e-4, 1e5, "ms" } },
+  move = { speed = { "m/s", 1e-6, 20, "mm_per_s" }, duration = { "s", 1e-4, 1e5, "ms" },
+    by = { "m", 0, 20, "mm" }, to = { "m", 0, 20, "mm" } },
   clip = { friction = { "", 0, 3 }, width = { "m", 1e-4, 0.5, "mm" }, insertion = { "N", 1e-3, 1e4, "mN" },
     retention = { "N", 1e-3, 1e4, "mN" }, radius = { "m", 1e-5, 0.2, "mm" } },
   channel = { friction = { "", 0, 3 }, width = { "m", 1e-4, 5, "mm" }, depth = { "m", 1e-4, 5, "mm" } },
@@ -71,7 +72,7 @@ end
 -- Returns the first unit in which the value would be usual, as a question.
 local function question(value, rule)
   for i = 4, #rule do
-    local meant = units[rule[i]](value)
+    local meant = math.abs(units[rule[i]](value))
     if meant >= rule[2] and meant <= rule[3] then
       return ("; did you mean sw.units.%s(%g)?"):format(rule[i], value)
     end
@@ -80,11 +81,11 @@ local function question(value, rule)
 end
 
 local function check(what, key, value, rule)
-  if type(value) ~= "number" or value - value ~= 0 or value <= 0 then return end
-  if value >= rule[2] and value <= rule[3] then return end
+  if type(value) ~= "number" or value - value ~= 0 or value <= 0 and rule[2] > 0 then return end
+  if math.abs(value) >= rule[2] and math.abs(value) <= rule[3] then return end
   local unit = rule[1] ~= "" and " " .. rule[1] or ""
-  local usual = value < rule[2] and ("below %g%s"):format(rule[2], unit)
-    or ("above %g%s"):format(rule[3], unit)
+  local usual = value < -rule[3] and ("below %g%s"):format(-rule[3], unit)
+    or value < rule[2] and ("below %g%s"):format(rule[2], unit) or ("above %g%s"):format(rule[3], unit)
   tell(key, ("%s: %s = %g%s is %s%s%s"):format(what, key, value, unit, usual,
     question(value, rule), known[key] and (" (%s)"):format(known[key]) or ""))
 end
@@ -98,6 +99,14 @@ local function check_angle(what, rotation)
   if not (math.abs(angle) >= TURNS and math.abs(angle) < 1e6) or angle % 1 ~= 0 then return end
   tell("angle", ("%s: angle = %g rad is %.3g turns; did you mean sw.units.deg(%g)?"):format(what, angle,
     math.abs(angle) / (2 * math.pi), angle))
+end
+
+-- Remarks on a friction coefficient that is larger while things slide than while they stick.
+local function check_sliding(what, args)
+  local still, sliding = checks.field(args, "friction"), checks.field(args, "kinetic_friction")
+  if type(still) ~= "number" or type(sliding) ~= "number" or sliding <= still then return end
+  tell("sliding", ("%s: kinetic_friction = %g is above friction = %g: things would slide less easily than "
+    .. "they start to"):format(what, sliding, still))
 end
 
 local sorted = {} -- kind -> its keys in order
@@ -119,6 +128,7 @@ function remarks.on(kind, what, args)
   end
   check_angle(what, checks.field(args, "rotation"))
   check_angle(what, checks.field(args, "turn"))
+  check_sliding(what, args)
 end
 
 local JERK = 10 -- largest pull of a new tie without a remark [N]
@@ -139,6 +149,10 @@ local MOST_GRAVITY = 50 -- largest component without a remark [m/s2]
 --- Remarks on gravity, a vector [m/s2].
 function remarks.gravity(g)
   if type(g) ~= "table" or not remarks.wanted() then return end
+  local up = checks.field(g, 3) or checks.field(g, "z")
+  if type(up) == "number" and up > 9.7 and up < 9.9 then
+    tell("up", ("scene: gravity = %g m/s2 along z points up; did you mean %g?"):format(up, -up))
+  end
   for k, axis in ipairs{ "x", "y", "z" } do
     local value = checks.field(g, k) or checks.field(g, axis)
     if type(value) == "number" then
@@ -261,6 +275,8 @@ local function length_of(points)
   return sum
 end
 
+local LONG = 0.5 -- longer edges show nothing of what is done with hands [m]
+
 --- Checks a new wire of the scene's data, made with args.
 function remarks.wire(data, wire, args)
   if not remarks.wanted() then return end
@@ -271,6 +287,10 @@ function remarks.wire(data, wire, args)
   mine.length = length_of(mine.points)
   mine.edge = mine.length > 0 and mine.length / wire.segments or nil
   check(what, "length", mine.length, rules.wire.length)
+  if (mine.edge or 0) > LONG and mine.length <= rules.wire.length[3] then
+    tell("edge", ("%s is %.4g m long, with edges of %.3g m; did you mean %.4g mm? Else give more segments")
+      :format(what, mine.length, mine.edge, mine.length))
+  end
   local wires = wires_of(data)
   wires[#wires + 1] = mine
   for _, obstacle in ipairs(data.obstacles) do
