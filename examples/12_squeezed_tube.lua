@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- A soft tube (24 mm outer diameter, 3.6 mm wall) is squeezed between a table and a plate. The table shows
--- force, width, ovalisation, contact pressure and stress over the closing. The tube is a mesh of solids.
+-- force, width, ovalisation, contact pressure and von Mises stress over the closing. The tube is a mesh of
+-- solids.
 --   12_squeezed_tube.lua [picture.png]
 local sw = require "softworld"
 local mm = sw.units.mm
@@ -19,7 +20,7 @@ scene:obstacle { name = "table", shape = "plane", at = { 0, 0, -D / 2 }, frictio
 local plate = scene:obstacle { name = "plate", shape = "box", size = { mm(80), mm(60), mm(5) },
   at = { mm(30), 0, D / 2 + mm(2.5) }, friction = 0.3 }
 
-print "closing    force      height       width        ovalisation  pressure    stress"
+print "closing    force      height       width        ovalisation  pressure    von Mises"
 for k = 1, 4 do
   plate:follow { points = { { 0, 0, 0 }, { 0, 0, -0.1 * D } }, duration = 1, law = "linear",
     relative = true }

@@ -43,7 +43,7 @@ local run = scene:run { dt = 0.01, progress = true }
 assert(run.ok, run.reason)
 print(("peak force %.4f N, peak moment %.3g N m about the tool centre; %s"):format(hand.peak_force,
   hand.peak_moment, hand.slip_event and "it slipped" or "no slip"))
-print(("%.1f s of motion took %.1f s"):format(run.time, run.cpu))
+print(("%.1f s of motion took %.1f s of computing"):format(run.time, run.cpu))
 if arg[1] then
   run:pictures { path = arg[1], count = 4, camera = { direction = { 1, 0.25, -0.35 } } }
 end

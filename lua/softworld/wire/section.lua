@@ -11,6 +11,7 @@ local checks = require "softworld.checks"
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local methods = require "softworld.methods"
+local number = require "softworld.output.number"
 
 local class = core.class
 local Section = { __name = "section" }
@@ -79,17 +80,22 @@ local function range(list)
 end
 
 function Section:__tostring()
-  local lines = { ("section at s = %.6g m, %d particles round it"):format(self.s, #self.particles) }
-  local function add(name, value, unit) lines[#lines + 1] = ("  %-16s %s %s"):format(name, value, unit) end
-  add("width", ("%.6g to %.6g"):format(self.least_width, self.largest_width), "m")
-  if self.height then add("height", ("%.6g"):format(self.height), "m") end
-  add("ovalisation", ("%.4g"):format(self.ovalisation), "")
-  add("area", ("%.6g"):format(self.area), "m2")
-  add("torsion", ("%.6g"):format(self.torsion), "rad")
-  add("twist rate", ("%.6g"):format(self.twist_rate), "rad/m")
-  add("axial strain", ("%.4g to %.4g"):format(range(self.axial_strain)), "")
-  add("hoop strain", ("%.4g to %.4g"):format(range(self.hoop_strain)), "")
-  add("stress", ("%.4g to %.4g"):format(range(self.stress)), "Pa, E times axial strain")
+  local lines = { ("section at s = %s, %d particles round it"):format(number.text(self.s, "m"),
+    #self.particles) }
+  local function add(name, text) lines[#lines + 1] = ("  %-16s %s"):format(name, text) end
+  local function from_to(list, unit)
+    local low, high = range(list)
+    return ("%s to %s"):format(number.text(low, unit), number.text(high, unit))
+  end
+  add("width", from_to({ self.least_width, self.largest_width }, "m"))
+  if self.height then add("height", number.text(self.height, "m")) end
+  add("ovalisation", ("%.4g"):format(self.ovalisation))
+  add("area", ("%.4g mm2"):format(1e6 * self.area))
+  add("torsion", number.text(self.torsion, "rad"))
+  add("twist rate", number.text(self.twist_rate, "rad/m"))
+  add("axial strain", ("%.4g to %.4g"):format(range(self.axial_strain)))
+  add("hoop strain", ("%.4g to %.4g"):format(range(self.hoop_strain)))
+  add("axial stress", from_to(self.stress, "Pa") .. " (E times axial strain)")
   return table.concat(lines, "\n")
 end
 
