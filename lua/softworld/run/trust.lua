@@ -39,8 +39,9 @@ function trust.wanted(args) return type(checks.field(args, "tolerance")) == "tab
 local function text_of(value, unit)
   if type(value) == "number" then return number.text(value, unit) end
   if type(value[1]) ~= "number" then return ("%d points"):format(#value) end
-  local list = {}
-  for i, x in ipairs(value) do list[i] = number.digits(x) end
+  local list, most = {}, 0
+  for _, x in ipairs(value) do most = math.max(most, math.abs(x)) end
+  for i, x in ipairs(value) do list[i] = number.digits(math.abs(x) < 1e-12 * most and 0 or x) end -- rounding
   return ("(%s)%s"):format(table.concat(list, ", "), unit ~= "" and " " .. unit or "")
 end
 
