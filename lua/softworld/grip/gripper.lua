@@ -25,6 +25,7 @@ local gripmoves = require "softworld.grip.moves"
 local keep = require "softworld.scene.keep"
 local measures = require "softworld.grip.measures"
 local pads = require "softworld.grip.pads"
+local press = require "softworld.grip.press"
 local process = require "softworld.run.process"
 local remarks = require "softworld.remarks"
 local rows = require "softworld.rows"
@@ -201,10 +202,11 @@ function Gripper:stop()
   return self
 end
 
-local press = rows.call("gripper:press", "{...}", "moves until the wire pushes back with a force; in a "
+local press_call = rows.call("gripper:press", "{...}", "moves until the wire pushes back with a force; in a "
   .. "process only", {
   gives = "force reached [N], distance moved [m], true if the wanted force was reached",
-  { "force", "number", "N", "push of the wire at which it stops", min = 0, above = true, required = true },
+  { "force", "number", "N", "push of the wire at which it stops; reached within 10 %", min = 0, above = true,
+    required = true },
   { "direction", "vector", "-", "direction of the move", default = { 0, 0, -1 } },
   { "speed", "number", "m/s", "speed of the move", min = 0, above = true, default = 0.02 },
   { "distance", "number", "m", "longest move", min = 0, above = true, default = 0.1 },
@@ -213,25 +215,12 @@ local press = rows.call("gripper:press", "{...}", "moves until the wire pushes b
 --- Presses on the wire, see help "gripper:press".
 function Gripper:press(args)
   check_place(self, "press")
-  args = press:read(args)
+  args = press_call:read(args)
   local p = process.current()
   if not p then error("gripper:press works inside a process only", 2) end
-  local force, speed, most, way = args.force, args.speed, args.distance, vec.unit(args.direction)
+  local way = vec.unit(args.direction)
   if not way then error("gripper:press: direction must not be zero", 2) end
-  local function pushed() -- force of the gripper on the wire along its way
-    local f = self:force()
-    return f[1] * way[1] + f[2] * way[2] + f[3] * way[3]
-  end
-  local held = make_moved(self)
-  local from, start = held:pose(), pushed()
-  held:follow{ points = { { 0, 0, 0 }, { most * way[1], most * way[2], most * way[3] } },
-    relative = true, speed = speed, law = "linear" }
-  local done = p:wait_until(function() return pushed() - start >= force end,
-    { timeout = most / speed })
-  held:follow(nil)
-  local at, gone = held:pose(), 0
-  for k = 1, 3 do gone = gone + (at[k] - from[k]) * way[k] end
-  return pushed() - start, gone, done
+  return press.run(self, p, make_moved(self), way, args)
 end
 
 rows.calls{ { "gripper:position", "", "the tool's centre, or its place at the next grasp",

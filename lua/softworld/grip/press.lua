@@ -1,0 +1,104 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- gripper:press: a move that ends where the wire pushes back with a force.
+--
+-- The move starts slowly enough that the wire's inertia does not count as a push. The push is looked at after
+-- each step. On something hard it rises by kilonewtons within one step; then the tool is set back, as a
+-- controller of force does it, to where the push is the wanted one, and an event `coarse` tells the first.
+-- @module softworld.grip.press
+local number = require "softworld.output.number"
+local vec = require "softworld.vec"
+
+local press = {}
+
+local START = 0.05   -- push by the wire's inertia as the move starts, as a share of the wanted one [-]
+local BEYOND = 1.1   -- a push above this share of the wanted one is set back [-]
+local MOST = 24      -- tries to set it back
+local FINEST = 2e-9 -- least way to set it by: shorter ones are no motion [m]
+local AIM = 1.05     -- push that it is set to, as a share of the wanted one [-]
+local STILL = 4      -- steps after which a push is taken as that of rest, ...
+local REST = 0.01    -- ... and the least time [s]
+
+-- Returns the acceleration of the move's start [m/s2], or nil for an empty gripper. The speed is reached
+-- within an eighth of the distance at the latest.
+local function acceleration_of(self, args)
+  local mass = 0
+  for _, wire in ipairs(self.wires) do mass = mass + wire.beam.mass_per_length * wire.length end
+  if mass == 0 then return nil end
+  return math.max(START * args.force / mass, 4 * args.speed ^ 2 / args.distance)
+end
+
+-- Goes to the way x [m] and waits until the push is that of rest; h: a step [s]. Returns the push.
+local function go_to(p, held, way, x, now, speed, h, push)
+  local time = math.max(math.abs(x - now) / speed, h)
+  held:follow{ points = { { 0, 0, 0 }, vec.scale(way, x - now) }, relative = true, duration = time }
+  p:wait(time + math.max(STILL * h, REST))
+  return push()
+end
+
+-- Returns the next way between low, where the push is too small, and high, where it is too large: on the line
+-- through the last two that were too large, for a touch is linear beyond its start; else in the middle.
+local function between(low, high, higher, force)
+  if higher and higher.f > high.f then
+    local x = high.x - (high.f - AIM * force) * (higher.x - high.x) / (higher.f - high.f)
+    if x > low.x and x < high.x then return x end
+  end
+  return 0.5 * (low.x + high.x)
+end
+
+-- Sets the tool to where the push at rest is the wanted one. Returns the push [N].
+local function set_back(p, held, way, args, seen, push)
+  local low, now, stride = seen.before, seen.last.x, seen.last.x - seen.before.x
+  local high, higher
+  p:wait(math.max(STILL * seen.step, REST))
+  local f = push()
+  for _ = 1, MOST do
+    if f >= args.force and f <= BEYOND * args.force then break end
+    if f < args.force then low = { x = now, f = f } else high, higher = { x = now, f = f }, high end
+    local x = high and between(low, high, higher, args.force) or math.min(args.distance, now + stride)
+    if math.abs(x - now) < FINEST then break end
+    f = go_to(p, held, way, x, now, args.speed, seen.step, push)
+    now = x
+  end
+  return f
+end
+
+-- Tells that the push rose far beyond the wanted one in a step.
+local function tell(self, args, seen, f)
+  local first = seen.last.f
+  self.scene:tell{ kind = "coarse", object = self.name, value = first, text = ("gripper '%s': the push that "
+    .. "was to end a press at %s rose to %s within a step of %s, a way of %s; it was set to %s then. That "
+    .. "peak depends on dt and on the speed of the press"):format(self.name, number.text(args.force, "N"),
+      number.text(first, "N"), number.text(seen.step, "s"), number.text(seen.last.x - seen.before.x, "m"),
+      number.text(f, "N")) }
+end
+
+--- Presses by the held object in the process p; way: a unit vector. Returns the push [N], the way [m], and
+-- whether the push was reached.
+function press.run(self, p, held, way, args)
+  local from = held:pose()
+  local function pushed() return vec.dot(self:force(), way) end
+  local function gone() return vec.dot(vec.sub((held:pose()), from), way) end
+  local start, a = pushed(), acceleration_of(self, args)
+  local function push() return pushed() - start end
+  held:follow{ points = { { 0, 0, 0 }, vec.scale(way, args.distance) }, relative = true, speed = args.speed,
+    law = a and "trapezoidal" or "linear", acceleration = a }
+  local seen = { last = { x = 0, f = 0 }, time = self.scene.time }
+  local done = p:wait_until(function()
+    if self.scene.time > seen.time then
+      seen.step, seen.time = self.scene.time - seen.time, self.scene.time
+      seen.before, seen.last = seen.last, { x = gone(), f = push() }
+    end
+    return seen.last.f >= args.force
+  end, { timeout = args.distance / args.speed + (a and args.speed / a or 0) })
+  held:follow(nil)
+  local f = push()
+  if done and f > BEYOND * args.force and seen.last.x > seen.before.x then
+    f = set_back(p, held, way, args, seen, push)
+    tell(self, args, seen, f)
+    held:follow(nil)
+    done = f >= args.force
+  end
+  return f, gone(), done
+end
+
+return press

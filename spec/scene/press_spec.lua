@@ -1,0 +1,91 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- gripper:press stops where the wire pushes back with the wanted force, whatever the step. At a hard stop the
+-- push rises by hundreds of newtons in a step.
+local sw = require "softworld"
+local mm = sw.units.mm
+local t = require "spec.physics.tools"
+local vec = require "softworld.vec"
+
+local FREE = 0.01 -- way to the stop [m]
+
+-- Presses the end of a cable straight on a stop. Returns push [N], way [m], whether it was reached, and the
+-- run.
+local function pressed(cable, o)
+  local along = o.along or { 1, 0, 0 }
+  local radius = sw.cable(cable).outer_diameter.value / 2
+  local scene = sw.scene{ name = "press", gravity = { 0, 0, 0 } }
+  local wire = scene:wire{ name = "wire", cable = cable, segments = o.segments or 40,
+    from = { 0, 0, 0 }, to = vec.scale(along, -0.3) }
+  scene:force{ kind = "damping", on = wire, mass = 3, stiffness = 0.002 }
+  if not o.open then
+    scene:obstacle{ name = "stop", shape = "sphere", radius = 0.05,
+      at = vec.scale(along, 0.05 + FREE + radius) }
+  end
+  local hand, force, way, there = scene:gripper{ name = "hand", pads = { width = mm(10) } }, nil, nil, nil
+  scene:process(function()
+    hand:grasp(wire, { s = o.s or mm(60) })
+    force, way, there = hand:press{ direction = along, force = o.force or 1, distance = o.distance or mm(30),
+      speed = o.speed or 0.05 }
+  end)
+  local run = t.fine(scene:run{ dt = o.dt })
+  local told = {}
+  for _, e in ipairs(run.events) do
+    if e.kind == "coarse" and e.object == "hand" then told[#told + 1] = e end
+  end
+  return force, way, there, told, hand
+end
+
+describe("gripper:press", function()
+  -- The wanted push is set within 10 %. Between tool and end the wire gives way by force x length / EA, less
+  -- than a micrometre here; a touch gives way by some micrometres.
+  for _, cable in ipairs{ "GXL 0.5", "GXL 1.5", "H07V-K 4" } do
+    for _, dt in ipairs{ 0.02, 0.002, 1e-4 } do
+      it(("ends at a hard stop: %s in steps of %g s"):format(cable, dt), function()
+        for _, o in ipairs{ {}, { force = 0.2, segments = 77, along = { 0, 0.6, -0.8 } },
+          { force = 5, speed = 0.2 } } do
+          o.dt = dt
+          local force, way, there, told, hand = pressed(cable, o)
+          local wanted = o.force or 1
+          assert.is_true(there)
+          t.above(wanted, force, "push")
+          t.below(1.1 * wanted, force, "push")
+          t.near(FREE, way, 1e-5, "way")
+          if hand:over().raw_peak_force > 2 * wanted then
+            assert.equal(1, #told)
+            t.above(1.1 * wanted, told[1].value, "push that is told")
+          end
+        end
+      end)
+    end
+  end
+
+  it("is not ended by the wire's own inertia", function()
+    for _, dt in ipairs{ 0.02, 0.002, 1e-4 } do
+      local force, way, there, told = pressed("H07V-K 4", { dt = dt, open = true, force = 0.1 })
+      assert.is_false(there)
+      t.near(mm(30), way, 1e-9, "way")
+      t.below(0.1, force, "push")
+      assert.equal(0, #told)
+    end
+  end)
+
+  -- A long end is pressed on from the side and bends: the push rises by some millinewtons in a step.
+  it("takes the first push of something soft", function()
+    local scene = sw.scene{ name = "soft", gravity = { 0, 0, 0 } }
+    local wire = scene:wire{ name = "wire", cable = "GXL 0.5", segments = 40, from = { 0, 0, 0 },
+      to = { -0.3, 0, 0 } }
+    scene:force{ kind = "damping", on = wire, mass = 3, stiffness = 0.002 }
+    scene:obstacle{ name = "post", shape = "cylinder", radius = 0.01, length = 0.1, at = { -0.01, 0, -0.02 },
+      rotation = { axis = { 1, 0, 0 }, angle = math.pi / 2 } }
+    local hand, force, _, there = scene:gripper{ name = "hand", pads = { width = mm(10) } }, nil, nil, nil
+    scene:process(function()
+      hand:grasp(wire, { s = 0.15 })
+      force, _, there = hand:press{ force = 0.02, distance = mm(60) }
+    end)
+    local run = t.fine(scene:run{ dt = 0.005 })
+    assert.is_true(there)
+    t.above(0.02, force, "push")
+    t.below(1.1 * 0.02, force, "push")
+    assert.equal(0, #run.events)
+  end)
+end)
