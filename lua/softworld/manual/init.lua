@@ -9,9 +9,9 @@ local manual = {}
 
 --- Groups of pages: a title and the names of the group's pages.
 manual.groups = {
-  { "How to", { "start", "lay", "grip", "handling", "mixed", "clip", "tie", "channel", "slider", "feed",
-    "winding", "join", "touches", "particles", "process", "waiting", "observe", "view", "tuning", "study",
-    "search", "fit", "calibration", "cluster", "player", "plotting", "save", "snapshot", "remove",
+  { "How to", { "start", "lay", "grip", "handling", "mixed", "clip", "insert", "tie", "channel", "slider",
+    "feed", "winding", "join", "touches", "particles", "process", "waiting", "observe", "view", "tuning",
+    "study", "search", "fit", "calibration", "cluster", "player", "plotting", "save", "snapshot", "remove",
     "mistakes" } },
   { "Choose", { "models", "auto", "wire_mesh", "sections", "cable", "springback", "damping", "integrators",
     "vibration", "calibrate", "remodel", "units" } },
@@ -26,6 +26,7 @@ manual.groups = {
 manual.also = { manual = "start", contact = "touches", meshes = "wire_mesh", harness = "join",
   plastic = "springback", exact = "accuracy", errors = "mistakes",
   advise = "auto", why = "auto", cheapest = "auto",
+  bore = "insert", hole = "insert",
   rail = "slider", plot = "plotting", charts = "plotting",
   pictures = "plotting", paraview = "plotting", resume = "save", load = "save", ledger = "energy",
   observer = "observe", live = "view",
