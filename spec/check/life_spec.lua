@@ -153,6 +153,22 @@ describe("run:check of fatigue without curves in the script", function()
     for _, words in ipairs{ "p to", "niversal" } do assert.is_nil(text:find("µ" .. words, 1, true), words) end
   end)
 
+  -- The run's own results would show the limit of another use beside that of the check.
+  it("is the only place of its page that shows a bend limit", function()
+    local path = os.tmpname()
+    os.remove(path)
+    path = path .. ".html"
+    local function shown(object)
+      object:report(path)
+      local file <close> = assert(io.open(path))
+      local text = file:read "a"
+      os.remove(path)
+      return text:match '"label": ?"[^"]*: smallest bend radius of the centre line([^"]*)"'
+    end
+    assert.equal("", shown(run:check{ use = "movement", limits = { fatigue = false } }))
+    assert.matches("^ %(limit .* fixed", shown(run))
+  end)
+
   it("is open without a record of each step, and says how to record it", function()
     local blind = bent(wave, nil, { wear = false }, { cable = "GXL 1.5" })
     local row = blind:check{ fatigue = {} }:row "fatigue"

@@ -87,3 +87,11 @@ describe("a picture of a run", function()
     os.remove(name)
   end)
 end)
+
+describe("scene:obstacle", function()
+  it("tells what stands for a tube", function()
+    local scene = lifted()
+    refused("there is no shape 'tube'; for a bore take a channel with a lid, a torus or a mesh, see help "
+      .. "'insert'", scene.obstacle, scene, { shape = "tube", radius = 0.01 })
+  end)
+end)

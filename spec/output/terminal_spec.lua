@@ -44,10 +44,16 @@ describe("summary", function()
   it("aligns its columns", function()
     local run = scene.run { frames = 2 }
     run.summary[2] = { label = "µ: radius", value = 0.03, unit = "m" }
+    -- a note stands behind the time, so that a long one does not push the times away
+    run.summary[3] = { label = "right: force", value = 2, unit = "N",
+      where = "s = 0.1 m (10 ms mean; raw 2 N)", when = 0.5 }
+    run.summary[4] = { label = "bar", value = 2, unit = "N", where = "+- 0.1 N (10 ms mean)" }
     local text = summary.text(run)
     assert.equal("laying: ok, end of the processes after 5.000 s, 500 steps, took 0.03 s\n"
       .. "  left: peak force  1.234 N   s = 0.2 m  t = 1.250 s\n"
-      .. "  µ: radius         30.00 mm\n", text)
+      .. "  µ: radius         30.00 mm\n"
+      .. "  right: force      2.000 N   s = 0.1 m  t = 500.0 ms  (10 ms mean; raw 2 N)\n"
+      .. "  bar               2.000 N   +- 0.1 N                 (10 ms mean)\n", text)
   end)
 
   it("gives the reason and no numbers for a run that diverged", function()

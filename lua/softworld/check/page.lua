@@ -106,6 +106,21 @@ local function until_end(series, time)
   return cut
 end
 
+-- Returns the run's results without the bend limits of bends that the check judges: its use may be another.
+local function without_limits(results, own)
+  local judged, list = {}, {}
+  for _, row in ipairs(own.rows) do
+    if row.name:find "%.min_bend_radius$" then judged[row.object] = true end
+  end
+  for i, row in ipairs(results) do
+    local wire, rest = row.label:match "^(.*): smallest bend radius of the centre line( %(limit .*)$"
+    local copy = setmetatable({}, { __index = row })
+    if judged[wire] then copy.label = row.label:sub(1, -#rest - 1) end
+    list[i] = copy
+  end
+  return list
+end
+
 local function write(self, path, args)
   local own, o = sealed.fields(self), call:read(args == nil and {} or args)
   if type(path) ~= "string" or path == "" then
@@ -117,6 +132,9 @@ local function write(self, path, args)
   end
   local described = runfiles.described(run)
   if own.no_numbers then described.ok, described.reason = false, own.reason end
+  if described.summary and not own.no_numbers then
+    described.summary = without_limits(described.summary, own)
+  end
   if described.series then described.series = until_end(described.series, run.time) end
   return require("softworld.output.report").write({ described }, path,
     { title = o.title or own.name, check = data_of(own, run, o) })

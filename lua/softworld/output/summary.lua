@@ -27,13 +27,15 @@ local function status(run)
   return string.format("%s: DIVERGED at t = %s: %s", plain(run.name or "run"), time, reason)
 end
 
+-- Returns label, value, unit, place, time and note of an entry. The note is what is in brackets at the end of
+-- `where`; it is long, and stands last.
 local function cells(entry)
-  local value, unit = entry.value, ""
+  local value, unit, where = entry.value, "", plain(entry.where or "")
   if type(value) == "number" then value, unit = number.engineering(value, entry.unit) end
-  return {
-    plain(entry.label), value, unit, plain(entry.where or ""),
-    entry.when and "t = " .. number.text(entry.when, "s") or "",
-  }
+  local place, note = where:match "^([^(]*)(%(.*%))$"
+  local at = (place or where):gsub("%s+$", "")
+  local time = entry.when and "t = " .. number.text(entry.when, "s") or ""
+  return { plain(entry.label), value, unit, at, time, note or "" }
 end
 
 local function pad(text, width, right)
@@ -42,7 +44,7 @@ local function pad(text, width, right)
 end
 
 local function widths_of(rows)
-  local widths = { 0, 0, 0, 0, 0 }
+  local widths = { 0, 0, 0, 0, 0, 0 }
   for _, row in ipairs(rows) do
     for c, text in ipairs(row) do widths[c] = math.max(widths[c], number.columns(text)) end
   end
@@ -66,7 +68,7 @@ end
 
 --- Returns the summary as text.
 -- First the state of the run, then one aligned row per entry: label, value
--- with four significant digits, unit, place and time; last the events. A run
+-- with four significant digits, unit, place, time and note; last the events. A run
 -- that diverged gives its reason and no numbers.
 -- @tparam table run with `name, ok, reason, time [s], steps, wall [s], events, unmet, model` and
 -- `summary = { { label=, value= number or text, unit=, where=, when= [s] }, ... }`

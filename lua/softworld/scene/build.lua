@@ -253,6 +253,7 @@ function class.scene.particles(scene, args)
 end
 
 local new_obstacle = class.scene.obstacle
+local bores = checks.set "tube pipe bore hole ring"
 
 --- scene:obstacle{ shape =, ... }: see help "obstacle". `file` reads a mesh.
 function class.scene.obstacle(scene, args)
@@ -260,6 +261,10 @@ function class.scene.obstacle(scene, args)
   args = table_of(args, "scene:obstacle")
   local data = build.data(scene)
   local kind = type(args.shape) == "string" and args.shape or "obstacle"
+  if bores[kind] then
+    error(("scene:obstacle: there is no shape '%s'; for a bore take a channel with a lid, a torus or a mesh, "
+      .. "see help 'insert'"):format(kind), 2)
+  end
   local given = args.name
   args.name = build.name(scene, given, kind, #data.obstacles, 3)
   local obstacle = build.call(3, meshfile.make, "obstacle", given, args, function(all)
