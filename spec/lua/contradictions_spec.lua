@@ -68,6 +68,19 @@ describe("loads between two times", function()
   end)
 end)
 
+describe("a gripper that held nothing", function()
+  it("says so beside its loads of 0", function()
+    local scene, hand = lifted()
+    local run = scene:run { duration = 0.1, dt = 0.01 }
+    assert.equal("0 N (it held nothing)", hand:over().peak_force_text)
+    local notes = 0
+    for _, row in ipairs(run:document().summary) do
+      if row.label:find "^hand: peak" then notes = notes + (row.where == "(it held nothing)" and 1 or 0) end
+    end
+    assert.equal(2, notes)
+  end)
+end)
+
 describe("a picture of a run", function()
   it("is refused at a time that the run has not reached", function()
     local scene = lifted()

@@ -173,7 +173,8 @@ function Measures:over(t1, t2, options)
   t1, t2 = window.interval(self.scene, t1, t2, "gripper:over", 3)
   local width = window.of(self.scene, options.window, "gripper:over", 3)
   local margins, squeeze, slip = {}, nil, nil
-  local m = loads.over(records(self, t1, t2), { t1 = t1, t2 = t2, width = width, at = options.at,
+  local list = records(self, t1, t2)
+  local m = loads.over(list, { t1 = t1, t2 = t2, width = width, at = options.at,
     is_gap = function(t) return is_gap(self, t) end,
     each = function(r, t0)
       if not r.squeeze then return end
@@ -182,6 +183,9 @@ function Measures:over(t1, t2, options)
       margins[#margins + 1] = { t0 = t0, t1 = r.t, held and r.margin or 0, 0, 0 }
       margins.held = margins.held or held
     end })
+  for name, unit in pairs(#list == 0 and { peak_force = "N", peak_moment = "N m" } or {}) do
+    m[name .. "_note"], m[name .. "_text"] = "it held nothing", ("0 %s (it held nothing)"):format(unit)
+  end
   m.peak_squeeze, m.slip = squeeze, slip
   if margins.held then
     local p = window.largest(margins, width)
