@@ -383,3 +383,14 @@ describe("pictures", function()
     assert.same(list, files.list(folder))
   end)
 end)
+
+describe("pictures side by side", function()
+  it("are three in a row, and four in two rows of two", function()
+    local looks = require "softworld.output.looks"
+    for count, columns in pairs { [1] = 1, [2] = 2, [3] = 3, [4] = 2, [5] = 3, [6] = 3 } do
+      assert.equal(columns, looks.columns(nil, count))
+    end
+    assert.equal(4, looks.columns(4, 4))
+    assert.equal(2, looks.columns(5, 2))
+  end)
+end)

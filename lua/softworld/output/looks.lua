@@ -31,6 +31,11 @@ function looks.frames(run, count, times)
   return list
 end
 
+--- Returns the pictures side by side: as given, else three, or two of four.
+function looks.columns(given, count)
+  return math.min(given or count == 4 and 2 or 3, count)
+end
+
 -- Returns points that the drawn grippers reach; the camera must show them.
 local function grip_points(run, smallest)
   local points = {}

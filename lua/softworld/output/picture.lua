@@ -285,7 +285,7 @@ end
 -- @treturn table layout, as picture.fill takes it
 -- @treturn table look
 function picture.plan(run, count, options)
-  local columns = math.min(options.columns or 3, count)
+  local columns = looks.columns(options.columns, count)
   local rows = (count + columns - 1) // columns
   local caption = options.caption == "" and 0 or caption_height
   local width = options.width or (count == 1 and 1080 or 1500)

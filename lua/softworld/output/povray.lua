@@ -119,7 +119,7 @@ end
 -- The camera is the same in all; captions give the time.
 -- @tparam table options `run`; `path` ending in .png; `count` (6) moments from
 -- the first to the last frame, or `times = { ... }` [s]; `captions` (words after
--- the times, in the same order); `columns` (3); `width` (1500) [px], roughly
+-- the times, in the same order); `columns` (3, of four 2); `width` (1500) [px], roughly
 -- kept; `height` (as the view needs, at most 380 a row) [px]; `camera` "auto" or options of view.camera;
 -- `thickness` factor on the wires' radius (default: 1, more if the wire would
 -- be too thin to be seen, and the picture says so); `draft = true` for speed;
@@ -129,7 +129,7 @@ end
 function povray.strip(options)
   local run = check(options, "a strip of pictures")
   local frames = looks.frames(run, options.count or 6, options.times)
-  local columns = math.min(options.columns or 3, #frames)
+  local columns = looks.columns(options.columns, #frames)
   local rows = (#frames + columns - 1) // columns
   local width, height = options.width or 1500, options.height or 380 * rows
   local panel_width = (width - gap) // columns - gap

@@ -37,7 +37,7 @@ local pictures = rows.call("run:pictures", "{...}", "a strip of ray-traced pictu
   { "times", "list", "s", "of the moments instead", of = "number", min = 0 },
   { "captions", "list", "-", "words after the times" },
   { "caption", "text", "-", "of a single picture", empty = true },
-  { "columns", "integer", "-", "pictures side by side", min = 1, max = 1000, usual = 3 },
+  { "columns", "integer", "-", "pictures side by side", min = 1, max = 1000, usual = "3, of four 2" },
   { "width", "number", "px", "of the strip", min = 1, usual = 1500 },
   { "height", "number", "px", "of the strip", min = 1, usual = "as the view needs" },
   { "camera", "camera", "-", "'auto' or where it stands", rows = camera, usual = "auto" },

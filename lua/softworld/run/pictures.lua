@@ -47,7 +47,7 @@ local of_run = rows.call("run:picture", "{...}", "a picture of a moment of the r
   { "t", "number", "s", "of the moment", usual = "the last one" },
   { "times", "list", "s", "of several moments, side by side", of = "number" },
   { "count", "integer", "-", "number of moments from the first to the last", min = 1, max = 1000, usual = 1 },
-  { "columns", "integer", "-", "pictures side by side", min = 1, max = 1000, usual = 3 },
+  { "columns", "integer", "-", "pictures side by side", min = 1, max = 1000, usual = "3, of four 2" },
   { "captions", "list", "-", "words after the times" },
   { "caption", "text", "-", "of a single picture", empty = true, usual = "its time" },
 })
