@@ -89,7 +89,7 @@ describe("run:check of the landing error", function()
     end
     local r = row{ path = { { 0, 0, 0 }, { 1, 0, 0 } } }
     assert.equal("PASS", r.verdict)
-    assert.truthy(r.note:find("point 2 of the path is 0.8 m from the wire", 1, true), r.note)
+    assert.truthy(r.note:find("point 2 of the path is 800.0 mm from the wire", 1, true), r.note)
   end)
 
   it("names a part beyond the wire", function()

@@ -45,6 +45,14 @@ describe("gripper:move", function()
   end)
 end)
 
+describe("gripper:grasp", function()
+  it("names the gripper and s for a place below 0", function()
+    local _, hand, wire = lifted()
+    refused("gripper 'hand': s = -1 m is not allowed; it must be at least 0 m", hand.grasp, hand, wire,
+      { s = -1 })
+  end)
+end)
+
 describe("loads between two times", function()
   -- Zeros would be taken for loads that were measured.
   it("are refused where the interval lies ahead or ends before it begins", function()

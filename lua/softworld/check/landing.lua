@@ -3,6 +3,7 @@
 -- Path and wire are polylines; the distance is measured at the wire's nodes and at the ends of its part that
 -- must lie there. A path may go on beyond the wire; the row says how far.
 -- @module softworld.check.landing
+local number = require "softworld.output.number"
 local vec = require "softworld.vec"
 
 local SLACK = 1e-9 -- rounding of arc lengths [m]
@@ -51,12 +52,12 @@ end
 
 -- Returns how far the farthest of these points is from a line, and its number.
 local function farthest(points, line)
-  local most, number = 0, nil
+  local most, which = 0, nil
   for i, p in ipairs(points) do
     local far = from_path(p, line)
-    if far > most then most, number = far, i end
+    if far > most then most, which = far, i end
   end
-  return most, number
+  return most, which
 end
 
 -- Returns a note if the wire as a whole does not reach all of the path.
@@ -64,7 +65,8 @@ local function uncovered(wanted, points, far, radius)
   if wanted.from or wanted.to then return nil end
   local beyond, corner = farthest(wanted.path, points)
   if beyond <= far + radius then return nil end
-  return ("point %d of the path is %.4g m from the wire, which is not counted"):format(corner, beyond)
+  return ("point %d of the path is %s from the wire, which is not counted"):format(corner,
+    number.text(beyond, "m"))
 end
 
 local function value(entry, context)
@@ -83,8 +85,8 @@ local function value(entry, context)
     end
   end
   local points, places = part_of(x, math.min(from, long - SLACK), wanted.to or math.huge)
-  local far, number = farthest(points, wanted.path)
-  return { value = far, s = places[number], time = context.run.time,
+  local far, which = farthest(points, wanted.path)
+  return { value = far, s = places[which], time = context.run.time,
     note = uncovered(wanted, points, far, wire.radius) }
 end
 

@@ -36,6 +36,7 @@ local function impose(self, wire, s)
     end
     s = stand.nearest_place(wire, at)
   end
+  if type(s) == "number" then checks.number(("gripper '%s': s"):format(self.name), s, 0, " m", 0) end
   local count = #self.past
   local hold = self.scene:grip(wire, { s = s, width = self.width, -- first, for it may be refused
     name = self.name .. (count > 0 and "#" .. count + 1 or "") })

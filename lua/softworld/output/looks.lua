@@ -31,7 +31,7 @@ function looks.frames(run, count, times)
   return list
 end
 
---- Returns the pictures side by side: as given, else three, or two of four.
+--- Returns how many pictures stand side by side: as given, else three, or two of four.
 function looks.columns(given, count)
   return math.min(given or count == 4 and 2 or 3, count)
 end
