@@ -2,6 +2,7 @@
 // The panel of a page that check:report wrote: pictures of the steps and of the places of rows, the rows with their limits, what
 // to change. Numbers come as texts, as the terminal shows them; the exact ones are tips.
 import { h } from "./dom.js";
+import { format } from "./model.js";
 
 const CLASSES = { PASS: "good", OPEN: "warn", FAIL: "bad" };
 const ORDER = { FAIL: 0, OPEN: 1, PASS: 2 };
@@ -172,7 +173,7 @@ export class CheckPanel {
     const canvas = h("canvas", { width: WIDTH * k, height: HEIGHT * k, "aria-hidden": "true" });
     stage.draw();
     this.copy(canvas, from, m.row ? this.spot() : null);
-    const t = `${Number(m.t.toPrecision(4))} s`;
+    const t = format(m.t, "s");
     const words = m.rows.length ? m.rows.map((row) => row.name).join(", ") : `end of ${m.step}`;
     const shown = m.rows.length ? m.rows.flatMap((row, i) => [i ? ", " : null, nameOf(row, false)]) : ["end of ", h("bdi", {}, m.step)];
     const button = h("button.picture", { type: "button", "aria-pressed": "false", title: `${t}: ${words}`,

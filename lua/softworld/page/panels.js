@@ -233,7 +233,7 @@ function vector(v, unit) {
 
 function timeLink(t, state) {
   return h("button.link", { type: "button", title: "Go to this time", onclick: () => state.set({ time: t, playing: false }) },
-    `${Number(t.toPrecision(4))} s`);
+    format(t, "s"));
 }
 
 export function resultsPanel(host, data, state) {
@@ -245,7 +245,7 @@ export function resultsPanel(host, data, state) {
       host.append(box);
       continue;
     }
-    box.append(h("p.hint", {}, [run.reason, `${Number(run.time.toPrecision(5))} s`, run.steps ? `${run.steps} steps` : null,
+    box.append(h("p.hint", {}, [run.reason, format(run.time, "s"), run.steps ? `${run.steps} steps` : null,
       run.wall !== undefined ? `${format(run.wall, "s")} of computing` : null].filter(Boolean).join(" · ")));
     if (run.unmet) box.append(h("p.warning", {}, run.unmet));
     const body = h("tbody");
