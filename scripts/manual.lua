@@ -200,6 +200,6 @@ write_page("index.html", "Manual", html_of(index()), 0)
 for number, entry in ipairs(order) do
   local file, title, name = table.unpack(entry)
   local group = file:find "^ref_" and reference[number - #order + #reference]
-  write_page(file, title, html_of(group and reference_page(group) or manual.read(name)), number)
+  write_page(file, title, html_of(group and reference_page(group) or manual.page(name)), number)
 end
 print(("%d pages: %s/index.html"):format(#order + 1, folder))

@@ -52,10 +52,18 @@ describe("manual", function()
 
   it("shows each page, in lines that fit a terminal", function()
     for _, name in ipairs(pages) do
-      local text = text_of(manual.read(name))
+      local text = text_of(manual.page(name))
       assert.is_truthy(shown(name):find(text, 1, true), name)
       for line in text:gmatch "[^\n]+" do assert.is_true(utf8.len(line) <= 110, name .. ": " .. line) end
     end
+  end)
+
+  it("says where an example goes on that makes no scene", function()
+    for name, goes_on in pairs{ handling = true, peaks = true, start = false, grip = false, files = false } do
+      local at = shown(name):find('The example goes on from the first block of help "start".', 1, true)
+      assert.equal(goes_on, at ~= nil, name)
+    end
+    assert.matches("first block of %[start%]%(start.md%)", manual.page "handling")
   end)
 
   it("shows the same text by help and by softworld doc", function()

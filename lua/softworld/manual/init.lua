@@ -54,6 +54,21 @@ function manual.read(name)
   return text
 end
 
+-- True if an example of the page is no script by itself.
+local function goes_on(text)
+  for block in text:gmatch "```lua\n(.-)```" do
+    if not block:find('require "softworld"', 1, true) then return true end
+  end
+  return false
+end
+
+--- The Markdown text of a page as readers see it: it says where examples go on that make no scene.
+function manual.page(name)
+  local text = manual.read(name)
+  if name == "start" or not goes_on(text) then return text end
+  return (text:gsub("\n\n", "\n\nThe example goes on from the first block of [start](start.md).\n\n", 1))
+end
+
 --- The title of a page: its first heading.
 function manual.title(name) return manual.read(name):match "^# ([^\n]+)" end
 

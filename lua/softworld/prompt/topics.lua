@@ -314,7 +314,7 @@ end
 function topics.text(topic)
   local texts, parts = {}, topics.parts(topic)
   local page = manual.has(topic) and topic or #parts == 0 and manual.also[topic]
-  if page then texts[1] = text_of(manual.read(page)) end
+  if page then texts[1] = text_of(manual.page(page)) end
   for _, part in ipairs(parts) do texts[#texts + 1] = part_text(part) end
   return #texts > 0 and table.concat(texts, "\n\n") or nil
 end
