@@ -119,6 +119,20 @@ describe("a first script", function()
       .. "%d%.%d+ m/s: it went away while the jaws closed; hold it, or lay it on something$", why)
   end)
 
+  -- A wire that falls straight down has a radius of 1e10 m, which is rounding.
+  it("reads that a wire is straight, and not a radius of rounding errors", function()
+    for bent, value in pairs { [true] = "number", [false] = "straight" } do
+      local scene = sw.scene { name = "falls" }
+      local wire = scene:wire { name = "wire", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.3, 0, 0 } }
+      if bent then scene:clamp(wire, { s = 0 }) end
+      local run, seen = scene:run { duration = 0.1, dt = 0.01 }, nil
+      for _, row in ipairs(run:document().summary) do
+        if row.label:find "bend radius" then seen = type(row.value) == "number" and "number" or row.value end
+      end
+      assert.equal(value, seen)
+    end
+  end)
+
   it("finds the parameters of a mesh under its name", function()
     local topics = require "softworld.prompt.topics"
     for model, words in pairs { tube = "ring_radius", radial = "layers", cubic = "across",

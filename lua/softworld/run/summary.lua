@@ -39,6 +39,8 @@ local function sum_up_grippers(self, data, add)
   end
 end
 
+local STRAIGHT = 1e6 -- a radius of more lengths than this is rounding [-]
+
 local function sum_up_wires(self, data, add)
   for _, w in ipairs(data.wires) do
     local radius, s, t = w.object:min_bend_radius()
@@ -48,7 +50,8 @@ local function sum_up_wires(self, data, add)
       label = ("%s (limit %s, %s%s)"):format(label, number.text(allowed.limit, "m"), allowed.use,
         allowed.ok and "" or ", EXCEEDED")
     end
-    add(label, radius, "m", s, t)
+    if radius > STRAIGHT * w.object.length then add(label, "straight", "")
+    else add(label, radius, "m", s, t) end
     local tension, note
     tension, s, t, note = window.tension(self.scene, w.object)
     add(w.name .. ": largest tension", tension, "N", s, t, note)
