@@ -175,8 +175,9 @@ static int unknown_field(lua_State *L) {
   const char *word = lua_tostring(L, 2);
   const char *near = sw_nearest_name(word, names, sizeof names[0], count);
   if (near) return luaL_error(L, "%s has no '%s'; did you mean '%s'?", word_of(L), word, near);
-  return luaL_error(L, "%s has no '%s'; help(it) at the prompt lists what it has", word_of(L),
-                    word);
+  return luaL_error(L,
+                    "%s has no '%s'; help(it) at the prompt or `softworld doc` lists what it has",
+                    word_of(L), word);
 }
 
 /* Returns the method or property of a name. Any other name is an error with a hint.

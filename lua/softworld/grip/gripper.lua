@@ -274,7 +274,7 @@ function Gripper:__index(key)
   local names = {}
   for name in pairs(Gripper) do names[#names + 1] = name end
   for name in pairs(shortcuts) do names[#names + 1] = name end
-  error(checks.lacks("gripper", key, names, "help 'gripper' at the prompt lists what it has"), 2)
+  error(checks.lacks("gripper", key, names, "`softworld doc gripper` lists what it has"), 2)
 end
 
 -- Fields that scripts may set, each with its check.

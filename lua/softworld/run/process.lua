@@ -217,7 +217,7 @@ function Process:__index(key)
   local value = Process[key]
   if value ~= nil or fields[key] then return value end
   error(checks.lacks("a process", key, Process.__names(),
-    "help 'process' at the prompt lists what it has"), 2)
+    "`softworld doc process` lists what it has"), 2)
 end
 
 function Process:__newindex(key, value)

@@ -174,7 +174,7 @@ function Run.__index(self, key)
     return failure.reason
   end
   if may_lack[key] then return trust.refuse(self, key) end
-  error(checks.lacks("run", key, Run.__names(), "help(run) at the prompt lists what it has"), 2)
+  error(checks.lacks("run", key, Run.__names(), "`softworld doc run` lists what it has"), 2)
 end
 
 function Run:__newindex(key, value)
