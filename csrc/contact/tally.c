@@ -15,6 +15,14 @@ size_t sw_presses_count(sw_presses l) {
   return n;
 }
 
+int sw_presses_slide(sw_presses l, double least) {
+  for (size_t k = 0; k < l.count; k++) {
+    const sw_press *p = press(l, k);
+    if (p->normal_force > 0 && sw_norm(p->tangential) > 0 && sw_norm(p->slip) > least) return 1;
+  }
+  return 0;
+}
+
 double sw_presses_energy(sw_presses l) {
   double sum = 0;
   for (size_t k = 0; k < l.count; k++) {

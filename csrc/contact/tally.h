@@ -15,6 +15,7 @@ typedef struct sw_presses {
   ((sw_presses){(list), (count), sizeof(type), offsetof(type, press), offsetof(type, let_out)})
 
 size_t sw_presses_count(sw_presses list);  /* number of touches with a force */
+int sw_presses_slide(sw_presses list, double least); /* 1: one slid by more than least [m] */
 double sw_presses_energy(sw_presses list); /* energy stored in the springs [J] */
 double sw_presses_rubbed(sw_presses list); /* energy lost by friction in the step [J] */
 /* Work of the forces in the step on depths that wires are let out of [J]. */

@@ -53,7 +53,7 @@ sw_status sw_rung_strike(sw_ladder *p, const sw_rung *below, double h, sw_error 
   memcpy(p->v_start, system->v, system->freedoms * sizeof(double));
   const int implicit = c->method->flags & SW_INTEGRATOR_IMPLICIT;
   int stops = 0;
-  if (implicit) SW_TRY(sw_restart_halts(s, h, &p->halts, err));
+  if (implicit && contact) SW_TRY(sw_restart_halts(s, h, &p->halts, err));
   if (implicit && !p->halts) SW_TRY(sw_restart_stops(s, h, &stops, err));
   sw_status status = sw_scene_begin_contact(s, implicit ? SW_CONTACT_IMPLICIT : SW_CONTACT_EXPLICIT,
                                             sw_scene_time(s), h, sw_blow_part(s, p->args->dt), err);

@@ -1,15 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Steps in which a drive comes to rest while wires slide, and steps that end early because the
  * velocity of a drive jumps or a drive so comes to rest. */
+#include "step/stop.h"
+
 #include <math.h>
 
+#include "body/touching.h"
 #include "contact/contact.h"
+#include "contact/mutual.h"
+#include "contact/tally.h"
 #include "link/hold.h"
 #include "scene/course.h"
 #include "scene/drive.h"
 #include "scene/gripper.h"
 #include "scene/obstacle.h"
 #include "scene/parts.h"
+#include "step/coarse.h"
 #include "step/restart.h"
 
 /* A drive that is slower than this rests [m/s], [rad/s]. */
@@ -24,16 +30,14 @@ static const double SOFTLY = 0.75;
  * tr-bdf2 turns the velocity of what it pushes to the other side below 0.07 [-]. */
 static const double NEARLY = 0.15;
 
-/* Evaluates a motion just after t. The velocity of a function is a difference over the time before
- * and after. */
-static sw_status eval(const sw_motion *m, double t, sw_motion_state *out, sw_error *err) {
+sw_status sw_stop_eval(const sw_motion *m, double t, sw_motion_state *out, sw_error *err) {
   SW_TRY(sw_motion_eval(m, t, out, err));
   const double half = 0.5 * sw_motion_step(m);
   out->v = sw_madd(out->v, out->a, half), out->omega = sw_madd(out->omega, out->alpha, half);
   return SW_OK;
 }
 
-static double speed(const sw_motion_state *m) { return sw_norm(m->v) + sw_norm(m->omega); }
+double sw_stop_speed(const sw_motion_state *m) { return sw_norm(m->v) + sw_norm(m->omega); }
 static double rate(const sw_motion_state *m) { return sw_norm(m->a) + sw_norm(m->alpha); }
 
 /* An even deceleration is this share of its mean over a step, or more, at the step's end; that of
@@ -41,7 +45,7 @@ static double rate(const sw_motion_state *m) { return sw_norm(m->a) + sw_norm(m-
 static const double EVENLY = 0.75;
 
 static int is_even(const sw_motion_state *now, const sw_motion_state *end, double h) {
-  return rate(end) * h > EVENLY * (speed(now) - speed(end));
+  return rate(end) * h > EVENLY * (sw_stop_speed(now) - sw_stop_speed(end));
 }
 
 static int goes_softly(const sw_motion_state *before, const sw_motion_state *end, double h) {
@@ -54,15 +58,16 @@ static int goes_softly(const sw_motion_state *before, const sw_motion_state *end
  * [s]. */
 static sw_status stop_of(const sw_motion *m, double t, double h, double *at, sw_error *err) {
   sw_motion_state end, now, before;
-  SW_TRY(eval(m, t + h, &end, err));
-  SW_TRY(eval(m, t, &now, err));
-  const int rested = speed(&now) < STILL;
+  SW_TRY(sw_stop_eval(m, t + h, &end, err));
+  SW_TRY(sw_stop_eval(m, t, &now, err));
+  const int rested = sw_stop_speed(&now) < STILL;
   int stops;
-  if (speed(&end) >= STILL) {
-    stops = !rested && speed(&end) < NEARLY * speed(&now) && !is_even(&now, &end, h);
+  if (sw_stop_speed(&end) >= STILL) {
+    stops =
+        !rested && sw_stop_speed(&end) < NEARLY * sw_stop_speed(&now) && !is_even(&now, &end, h);
   } else if (rested) {
-    SW_TRY(eval(m, t - h, &before, err));
-    stops = speed(&before) >= STILL && goes_softly(&before, &end, h);
+    SW_TRY(sw_stop_eval(m, t - h, &before, err));
+    stops = sw_stop_speed(&before) >= STILL && goes_softly(&before, &end, h);
   } else {
     stops = goes_softly(&now, &end, h);
   }
@@ -81,7 +86,7 @@ static const double NEAR = 1e-3, NEAR_OF_FUNCTION = 0.2;
  * ms: what is left would be no part [-], [s]. */
 static const double END = 2e-6, CLOSE = 2e-8;
 
-static double before_end(double h) { return h - fmax(END * h, fmin(CLOSE, NEAR * h)); }
+double sw_stop_before_end(double h) { return h - fmax(END * h, fmin(CLOSE, NEAR * h)); }
 enum { HALVINGS = 60 }; /* of the time in which a drive comes to rest */
 
 /* Of a function, whose rates are differences, its speed near the stop is asked for: at the last of
@@ -95,33 +100,28 @@ static const double STEPS = 20;
 static sw_status decelerates(const sw_motion *m, double t, double moves, double rests, double from,
                              int *yes, sw_error *err) {
   sw_motion_state end, late;
-  SW_TRY(eval(m, t + moves, &end, err));
+  SW_TRY(sw_stop_eval(m, t + moves, &end, err));
   *yes = rate(&end) * rests > DECELERATES * from;
   if (!sw_motion_is_function(m) || rests < STEPS * sw_motion_step(m)) return SW_OK;
-  SW_TRY(eval(m, t + (1 - LAST) * rests, &late, err));
-  *yes = speed(&late) > SLOWED * from && speed(&end) < AT_ONCE * speed(&late);
+  SW_TRY(sw_stop_eval(m, t + (1 - LAST) * rests, &late, err));
+  *yes =
+      sw_stop_speed(&late) > SLOWED * from && sw_stop_speed(&end) < AT_ONCE * sw_stop_speed(&late);
   return SW_OK;
 }
 
-/* The last time at which a motion still moves and the first at which it rests, after t [s]. */
-typedef struct rest {
-  double moves, rests;
-} rest;
-
-/* Returns 1 if the motion comes to rest from t to t + h + near. */
-static sw_status comes_to_rest(const sw_motion *m, double t, double h, double near, rest *out,
-                               int *yes, sw_error *err) {
+sw_status sw_stop_rests(const sw_motion *m, double t, double h, double near, sw_rest *out, int *yes,
+                        sw_error *err) {
   sw_motion_state at;
   *yes = 0;
-  SW_TRY(eval(m, t + h + near, &at, err));
-  if (!(speed(&at) < STILL)) return SW_OK;
-  SW_TRY(eval(m, t, &at, err));
-  if (speed(&at) < STILL) return SW_OK;
-  *out = (rest){0, h + near};
+  SW_TRY(sw_stop_eval(m, t + h + near, &at, err));
+  if (!(sw_stop_speed(&at) < STILL)) return SW_OK;
+  SW_TRY(sw_stop_eval(m, t, &at, err));
+  if (sw_stop_speed(&at) < STILL) return SW_OK;
+  *out = (sw_rest){0, h + near};
   for (int k = 0; k < HALVINGS && out->rests - out->moves > ROUNDING * h; k++) {
     const double middle = 0.5 * (out->moves + out->rests);
-    SW_TRY(eval(m, t + middle, &at, err));
-    *(speed(&at) < STILL ? &out->rests : &out->moves) = middle;
+    SW_TRY(sw_stop_eval(m, t + middle, &at, err));
+    *(sw_stop_speed(&at) < STILL ? &out->rests : &out->moves) = middle;
   }
   *yes = 1;
   return SW_OK;
@@ -132,13 +132,13 @@ static sw_status comes_to_rest(const sw_motion *m, double t, double h, double ne
 static sw_status halt_of(const sw_motion *m, double t, double h, double *at, sw_error *err) {
   const double near = fmax(NEAR * h, NEAR_OF_FUNCTION * sw_motion_step(m));
   sw_motion_state now;
-  rest r;
+  sw_rest r;
   int yes;
-  SW_TRY(comes_to_rest(m, t, h, near, &r, &yes, err));
+  SW_TRY(sw_stop_rests(m, t, h, near, &r, &yes, err));
   if (!yes) return SW_OK;
-  SW_TRY(eval(m, t, &now, err));
-  SW_TRY(decelerates(m, t, r.moves, r.rests, speed(&now), &yes, err));
-  if (yes) *at = r.rests < near ? 0.0 : r.rests > before_end(h) ? h : r.rests;
+  SW_TRY(sw_stop_eval(m, t, &now, err));
+  SW_TRY(decelerates(m, t, r.moves, r.rests, sw_stop_speed(&now), &yes, err));
+  if (yes) *at = r.rests < near ? 0.0 : r.rests > sw_stop_before_end(h) ? h : r.rests;
   return SW_OK;
 }
 
@@ -159,12 +159,12 @@ static sw_status jump_of(const sw_motion *m, double t, double h, double *at, sw_
   double from = FOUND, to = h;
   if (!(h > FOUND)) return SW_OK;
   if (sw_motion_is_function(m)) return sw_motion_jump(m, t, h, at, err);
-  SW_TRY(eval(m, t + from, &before, err));
-  SW_TRY(eval(m, t + to, &after, err));
+  SW_TRY(sw_stop_eval(m, t + from, &before, err));
+  SW_TRY(sw_stop_eval(m, t + to, &after, err));
   if (!jumps(&before, &after, to - from)) return SW_OK;
   while (to - from > FOUND) {
     const double half = 0.5 * (from + to);
-    SW_TRY(eval(m, t + half, &middle, err));
+    SW_TRY(sw_stop_eval(m, t + half, &middle, err));
     if (jumps(&before, &middle, half - from))
       after = middle, to = half;
     else if (jumps(&middle, &after, to - half))
@@ -176,27 +176,19 @@ static sw_status jump_of(const sw_motion *m, double t, double h, double *at, sw_
   return SW_OK;
 }
 
-/* Sets *at to a time after t, up to h, if there is one. */
-typedef sw_status (*when)(const sw_motion *m, double t, double h, double *at, sw_error *err);
-
-/* Which drives are asked: functions of a script are slow, and only asked for stops while wires
- * slide.
- */
-typedef enum asked { LAWS, FUNCTIONS, ALL } asked;
-
 /* Sets *at to the motion's time, if that is sooner. */
-static sw_status ask(const sw_motion *m, double t, double h, asked which, when of, double *at,
+static sw_status ask(const sw_motion *m, double t, double h, sw_asked which, sw_when of, double *at,
                      sw_error *err) {
   double own = HUGE_VAL;
-  if (!m || (which != ALL && sw_motion_is_function(m) != (which == FUNCTIONS))) return SW_OK;
+  if (!m || (which != SW_ALL_DRIVES && sw_motion_is_function(m) != (which == SW_FUNCTIONS)))
+    return SW_OK;
   SW_TRY(of(m, t, h, &own, err));
   *at = fmin(*at, own);
   return SW_OK;
 }
 
-/* Sets *at to the first time of all drives; HUGE_VAL: there is none [s]. */
-static sw_status first(const sw_scene *s, double h, asked which, when of, double *at,
-                       sw_error *err) {
+sw_status sw_drives_first(const sw_scene *s, double h, sw_asked which, sw_when of, double *at,
+                          sw_error *err) {
   const double t = sw_scene_time(s);
   *at = HUGE_VAL;
   SW_EACH(hold, hold, s) {
@@ -213,9 +205,7 @@ static sw_status first(const sw_scene *s, double h, asked which, when of, double
   return SW_OK;
 }
 
-/* 1 if a touch slides that has slid less than `way` since it began to press [m]. rod: 1 for rods
- * and strings only. */
-static int slides(const sw_scene *s, int rod, double way) {
+int sw_drives_slide(const sw_scene *s, int rod, double way) {
   const sw_contact *contact = sw_scene_contact(s);
   const sw_system *system = sw_scene_system(s);
   const size_t count = contact ? sw_contact_touches(contact) : 0;
@@ -224,10 +214,11 @@ static int slides(const sw_scene *s, int rod, double way) {
     if (sw_contact_push_at(contact, system, k, &p) && p.friction > 0 && sw_norm(p.slip) > SLID &&
         p.slid < way && !(rod && system->bodies[sw_system_body_of(system, p.node)].plan->web))
       return 1;
-  return 0;
+  const sw_mutual *pairs = sw_scene_pairs(s);
+  return pairs && !(way < HUGE_VAL) && sw_presses_slide(sw_mutual_presses(pairs), SLID);
 }
 
-static int any_slides(const sw_scene *s) { return slides(s, 0, HUGE_VAL); }
+static int any_slides(const sw_scene *s) { return sw_drives_slide(s, 0, HUGE_VAL); }
 
 /* *at: 0 if the velocity of a function may jump. */
 static sw_status rough_of(const sw_motion *m, double t, double h, double *at, sw_error *err) {
@@ -237,35 +228,34 @@ static sw_status rough_of(const sw_motion *m, double t, double h, double *at, sw
   return SW_OK;
 }
 
-/* For the question whether there is any such drive. */
-static sw_status at_once(const sw_motion *m, double t, double h, double *at, sw_error *err) {
+sw_status sw_stop_any(const sw_motion *m, double t, double h, double *at, sw_error *err) {
   (void)m, (void)t, (void)h, (void)err;
   *at = 0;
   return SW_OK;
 }
 
 /* The same while wires slide. */
-static sw_status while_sliding(const sw_scene *s, double h, when of, double *at, sw_error *err) {
+static sw_status while_sliding(const sw_scene *s, double h, sw_when of, double *at, sw_error *err) {
   double any, later;
-  SW_TRY(first(s, h, LAWS, of, at, err));
-  SW_TRY(first(s, h, FUNCTIONS, at_once, &any, err));
+  SW_TRY(sw_drives_first(s, h, SW_LAWS, of, at, err));
+  SW_TRY(sw_drives_first(s, h, SW_FUNCTIONS, sw_stop_any, &any, err));
   if ((!(*at <= h) && any > 0) || !any_slides(s)) {
     *at = HUGE_VAL;
     return SW_OK;
   }
-  SW_TRY(first(s, h, FUNCTIONS, of, &later, err));
+  SW_TRY(sw_drives_first(s, h, SW_FUNCTIONS, of, &later, err));
   *at = fmin(*at, later);
   return SW_OK;
 }
 
 sw_status sw_restart_until_break(sw_scene *s, double *h, sw_error *err) {
   double rough, jump, halt = HUGE_VAL;
-  SW_TRY(first(s, *h, FUNCTIONS, rough_of, &rough, err));
+  SW_TRY(sw_drives_first(s, *h, SW_FUNCTIONS, rough_of, &rough, err));
   const int smooth = sw_scene_course(s)->smooth = rough > 0;
-  SW_TRY(first(s, *h, smooth ? LAWS : ALL, jump_of, &jump, err));
+  SW_TRY(sw_drives_first(s, *h, smooth ? SW_LAWS : SW_ALL_DRIVES, jump_of, &jump, err));
   if (sw_scene_contact(s)) SW_TRY(while_sliding(s, *h, halt_of, &halt, err));
   const double t = fmin(jump < *h * (1 - NEAR) ? jump : HUGE_VAL, halt);
-  if (t > 0 && t < before_end(*h)) *h = t;
+  if (t > 0 && t < sw_stop_before_end(*h)) *h = t;
   return SW_OK;
 }
 
@@ -273,16 +263,14 @@ sw_status sw_restart_until_break(sw_scene *s, double *h, sw_error *err) {
 
 /* Wires that slide with a drive that stops at once run on: waves of push and pull run along them,
  * friction turns round, and at rest it keeps what is left: in a stiff cable all of the push, mu m
- * g. Whole steps of 5 to 20 ms left 0.45 to 0.95 of that. Parts up to STOPS leave it within a
+ * g. Whole steps of 5 to 20 ms left 0.45 to 0.95 of that. Parts up to SW_STOPS leave it within a
  * hundredth, of steps of 20 ms within 0.06; those of 2 ms do so for stiff cables only. Parts go on
  * until no wire slides, for FOLLOWED at most and LEAST at least: after 20 ms a rubber wire (3 MPa)
  * still swings (spec/contact/stop_at_once_spec) [s]. */
-static const double STOPS = 5e-4, FOLLOWED = 5e-2, LEAST = 1e-2;
+static const double FOLLOWED = 5e-2, LEAST = 1e-2;
 /* The stop may be so far from the start of a part, and is not asked for nearer to one: jumps that
  * near to the end of a part do not end it; share of the step [s], [-]. */
 static const double ASIDE = 2e-9, ASIDE_OF_FUNCTION = 1.0 / 100;
-/* A slower drive does not throw wires [m/s], [rad/s]. */
-static const double CREEPS = 1e-3;
 
 /* *at: 0 if the motion stops at once at t, in steps of h. */
 static sw_status stop_at_once(const sw_motion *m, double t, double h, double *at, sw_error *err) {
@@ -290,17 +278,17 @@ static sw_status stop_at_once(const sw_motion *m, double t, double h, double *at
   const double after = function ? ASIDE_OF_FUNCTION * h + sw_motion_step(m) : ASIDE;
   const double before = function ? after : ASIDE + NEAR * h;
   sw_motion_state was, is;
-  SW_TRY(eval(m, t + after, &is, err)); /* first: wires slide while drives move, mostly */
-  if (!(speed(&is) < STILL)) return SW_OK;
-  SW_TRY(eval(m, t - before, &was, err));
-  if (speed(&was) > CREEPS && jumps(&was, &is, before + after)) *at = 0;
+  SW_TRY(sw_stop_eval(m, t + after, &is, err)); /* first: wires slide while drives move, mostly */
+  if (!(sw_stop_speed(&is) < STILL)) return SW_OK;
+  SW_TRY(sw_stop_eval(m, t - before, &was, err));
+  if (sw_stop_speed(&was) > SW_CREEPS && jumps(&was, &is, before + after)) *at = 0;
   return SW_OK;
 }
 
 sw_status sw_restart_after_stop(sw_scene *s, double h, sw_error *err) {
   sw_course *c = sw_scene_course(s);
   double at;
-  if (!sw_scene_contact(s)) return SW_OK;
+  if (!sw_scene_contact(s) && (!sw_scene_pairs(s) || sw_coarse_is_bundle(s))) return SW_OK;
   const double left = c->stop_until - sw_scene_time(s);
   if (left > 0 && left < FOLLOWED - LEAST && !any_slides(s)) c->stop_until = 0;
   SW_TRY(while_sliding(s, h, stop_at_once, &at, err));
@@ -309,79 +297,7 @@ sw_status sw_restart_after_stop(sw_scene *s, double h, sw_error *err) {
 }
 
 double sw_restart_part(const sw_scene *s) {
-  return sw_scene_time(s) < sw_scene_course(s)->stop_until ? STOPS : HUGE_VAL;
-}
-
-/* --- before a stop ----------------------------------------------------------------------- */
-
-/* A cable that has just landed still trembles, and the last milliseconds before its drive stops
- * decide which friction is left at rest. Parts of STOPS, from LEAD before the stop until no wire
- * slides, AFTER it at most, leave it right within 0.01 of mu N in the mean; whole steps of 10 ms
- * left 0.72 for -0.44 of it. Half of LEAD leaves one in twenty off by 0.08; twice LEAD is no better
- * (spec/contact/soft_landing_spec) [s]. */
-static const double LEAD = 0.01, AFTER = 0.01;
-
-/* *at: time after t at which LEAD begins, up to h; it may have begun [s]. */
-static sw_status leads_of(const sw_motion *m, double t, double h, double *at, sw_error *err) {
-  sw_motion_state last;
-  rest r;
-  int yes;
-  SW_TRY(comes_to_rest(m, t - AFTER, AFTER + h + LEAD, 0, &r, &yes, err));
-  if (!yes) return SW_OK;
-  SW_TRY(eval(m, t - AFTER + r.moves, &last, err));
-  if (speed(&last) <= CREEPS) *at = r.rests - AFTER - LEAD; /* else it stops at once */
-  return SW_OK;
-}
-
-/* What landed so long ago has ceased to tremble [s]. */
-static const double LATELY = 0.2;
-
-/* *at: minus the way since LATELY [m]. */
-static sw_status went_of(const sw_motion *m, double t, double h, double *at, sw_error *err) {
-  sw_motion_state now, before;
-  (void)h;
-  SW_TRY(eval(m, t, &now, err));
-  SW_TRY(eval(m, t - LATELY, &before, err));
-  *at = -sw_dist(now.pose.p, before.pose.p);
-  return SW_OK;
-}
-
-/* The same for functions, where a rod has landed lately: velocities of a function are a little
- * late, by which a cable that was only drawn would lose 0.1 of mu N in short parts. A function is
- * asked for no time behind the run. */
-static sw_status function_leads(const sw_ladder *p, double h, double *at, sw_error *err) {
-  const double most = fmin(h, p->until - sw_scene_time(p->s) - LEAD);
-  double back;
-  SW_TRY(first(p->s, most, FUNCTIONS, leads_of, at, err));
-  if (!(*at < h)) return SW_OK;
-  SW_TRY(first(p->s, h, FUNCTIONS, went_of, &back, err));
-  if (!slides(p->s, 1, -back)) *at = HUGE_VAL;
-  return SW_OK;
-}
-
-/* A rest below this share of a part is no part of its own [-]. */
-static const double NO_PART = 0.01;
-
-sw_status sw_restart_before_stop(sw_ladder *p, double *h, sw_error *err) {
-  const sw_scene *s = p->s;
-  double at, any, later = HUGE_VAL;
-  p->brakes = 0;
-  if (!sw_scene_contact(s)) return SW_OK;
-  SW_TRY(first(s, *h, LAWS, leads_of, &at, err));
-  SW_TRY(first(s, *h, FUNCTIONS, at_once, &any, err));
-  if (!(fmin(at, any) < *h * (1 - NO_PART)) || !slides(s, 1, HUGE_VAL)) return SW_OK;
-  if (any < HUGE_VAL) SW_TRY(function_leads(p, *h, &later, err));
-  at = fmin(at, later);
-  if (!(at < *h * (1 - NO_PART))) return SW_OK;
-  p->brakes = at <= 0;
-  if (at > 0) {
-    *h = fmin(*h, fmax(at, STOPS));
-    return SW_OK;
-  }
-  const double left = at + LEAD; /* until the stop, which ends a part of full length */
-  const double until = left > STOPS * NO_PART && left < before_end(*h) ? left : *h;
-  *h = until / fmax(1.0, ceil(until / STOPS - NO_PART));
-  return SW_OK;
+  return sw_scene_time(s) < sw_scene_course(s)->stop_until ? SW_STOPS : HUGE_VAL;
 }
 
 sw_status sw_restart_halts(const sw_scene *s, double h, int *halts, sw_error *err) {

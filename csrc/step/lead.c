@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Short parts before a drive comes softly to rest while rods slide. */
+#include <math.h>
+
+#include "body/touching.h"
+#include "scene/parts.h"
+#include "step/coarse.h"
+#include "step/restart.h"
+#include "step/stop.h"
+
+/* A cable that has just landed still trembles, and the last milliseconds before its drive stops
+ * decide which friction is left at rest. Parts of SW_STOPS, from LEAD before the stop until no wire
+ * slides, AFTER it at most, leave it right within 0.01 of mu N in the mean; whole steps of 10 ms
+ * left 0.72 for -0.44 of it. Half of LEAD leaves one in twenty off by 0.08; twice LEAD is no better
+ * (spec/contact/soft_landing_spec) [s]. */
+static const double LEAD = 0.01, AFTER = 0.01;
+
+/* *at: time after t at which LEAD begins, up to h; it may have begun [s]. */
+static sw_status leads_of(const sw_motion *m, double t, double h, double *at, sw_error *err) {
+  sw_motion_state last;
+  sw_rest r;
+  int yes;
+  SW_TRY(sw_stop_rests(m, t - AFTER, AFTER + h + LEAD, 0, &r, &yes, err));
+  if (!yes) return SW_OK;
+  SW_TRY(sw_stop_eval(m, t - AFTER + r.moves, &last, err));
+  if (sw_stop_speed(&last) <= SW_CREEPS) *at = r.rests - AFTER - LEAD; /* else it stops at once */
+  return SW_OK;
+}
+
+/* What landed so long ago has ceased to tremble [s]. */
+static const double LATELY = 0.2;
+
+/* *at: minus the way since LATELY [m]. */
+static sw_status went_of(const sw_motion *m, double t, double h, double *at, sw_error *err) {
+  sw_motion_state now, before;
+  (void)h;
+  SW_TRY(sw_stop_eval(m, t, &now, err));
+  SW_TRY(sw_stop_eval(m, t - LATELY, &before, err));
+  *at = -sw_dist(now.pose.p, before.pose.p);
+  return SW_OK;
+}
+
+/* The same for functions, where a rod has landed lately: velocities of a function are a little
+ * late, by which a cable that was only drawn would lose 0.1 of mu N in short parts. A function is
+ * asked for no time behind the run. */
+static sw_status function_leads(const sw_ladder *p, double h, double *at, sw_error *err) {
+  const double most = fmin(h, p->until - sw_scene_time(p->s) - LEAD);
+  double back;
+  SW_TRY(sw_drives_first(p->s, most, SW_FUNCTIONS, leads_of, at, err));
+  if (!(*at < h)) return SW_OK;
+  SW_TRY(sw_drives_first(p->s, h, SW_FUNCTIONS, went_of, &back, err));
+  if (!sw_drives_slide(p->s, 1, -back)) *at = HUGE_VAL;
+  return SW_OK;
+}
+
+/* A rest below this share of a part is no part of its own [-]. */
+static const double NO_PART = 0.01;
+
+sw_status sw_restart_before_stop(sw_ladder *p, double *h, sw_error *err) {
+  const sw_scene *s = p->s;
+  double at, any, later = HUGE_VAL;
+  p->brakes = 0;
+  if (!sw_scene_has_contact(s) || sw_coarse_is_bundle(s)) return SW_OK;
+  SW_TRY(sw_drives_first(s, *h, SW_LAWS, leads_of, &at, err));
+  SW_TRY(sw_drives_first(s, *h, SW_FUNCTIONS, sw_stop_any, &any, err));
+  if (!(fmin(at, any) < *h * (1 - NO_PART)) || !sw_drives_slide(s, 1, HUGE_VAL)) return SW_OK;
+  if (any < HUGE_VAL) SW_TRY(function_leads(p, *h, &later, err));
+  at = fmin(at, later);
+  if (!(at < *h * (1 - NO_PART))) return SW_OK;
+  p->brakes = at <= 0;
+  if (at > 0) {
+    *h = fmin(*h, fmax(at, SW_STOPS));
+    return SW_OK;
+  }
+  const double left = at + LEAD; /* until the stop, which ends a part of full length */
+  const double until = left > SW_STOPS * NO_PART && left < sw_stop_before_end(*h) ? left : *h;
+  *h = until / fmax(1.0, ceil(until / SW_STOPS - NO_PART));
+  return SW_OK;
+}
