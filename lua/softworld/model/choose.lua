@@ -248,7 +248,7 @@ end
 local function new_context(scene, job, args, run_once)
   local data = build.data(scene)
   local context = { scene = scene, data = data, job = job, args = args, run_once = run_once, probes = {},
-    probe_count = 0, states = {}, given_up = {}, vain = {},
+    probe_count = 0, skipped = 0, states = {}, given_up = {}, vain = {},
     scripted_contact = data.touching }
   context.spread = spread.new(context)
   return context

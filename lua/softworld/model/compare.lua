@@ -24,6 +24,11 @@ local NONE = 0 / 0 -- value of a check's row that a computation lacks
 compare.levels = 3 -- coarse levels on which rungs are compared [-]
 compare.BRIEF = 3e3 -- iterations times nodes beside which the next rung costs little: about 2 ms [-]
 
+--- Returns the finest level on which rungs of a choice are compared. Levels left out count.
+function compare.last(context, choice)
+  return math.max(1, (choice.levels or compare.levels) - context.skipped)
+end
+
 -- True if comparing on level k saves nothing and takes more than a moment: the next rung's run would need
 -- only this level more; or the next rung takes little more than the rung, so that computing both here costs
 -- what the cheaper one might save on a finer level. last: both rungs on level k - 1, before: the next rung on
@@ -98,7 +103,7 @@ end
 --- Compares a rung with the next on the coarsest level, and on finer levels while a too large change becomes
 -- smaller: coarse steps must not rule out a cheap rung. Returns the change, and why the next rung failed.
 function compare.rungs(context, state, rungs, above)
-  local rung, levels = state.choice.rungs[state.rung], state.choice.levels or compare.levels
+  local rung, levels = state.choice.rungs[state.rung], compare.last(context, state.choice)
   local first = state.compared and state.compared.wide and state.from or 1 -- wide steps tell no change
   local c, before
   for k = first, levels do

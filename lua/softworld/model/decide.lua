@@ -70,6 +70,7 @@ end
 
 --- Raises a choice by one rung. The choices after it start again, as they were decided with the old rung.
 function decide.raise(context, state, why)
+  if state.choice.instead and context.unskip then context.unskip() end -- the next rung begins on all levels
   state.rung, state.by, state.raised, state.why, state.rose = state.rung + 1, "raised", why, why, nil
   local after = false
   for _, other in ipairs(context.states) do
@@ -253,6 +254,21 @@ local function begins_finer(context, here)
   return true
 end
 
+-- If a rung that another may replace fails on the way on the coarsest edges, looks for the first finer edges on
+-- which it can be computed, and begins there: on edges as long as a bend a wire may have no equilibrium where a
+-- finer one has. It is looked for as long as failing again costs less than the next rung on the same edges:
+-- failing takes as many iterations on any edges. True if there are such edges.
+local function begins_later(context, state, rungs, here)
+  local fails_late = state.choice.instead and state.rung < state.last and (here.steps or 0) > 0
+  if not fails_late or here.raised or context.unskip then return false end
+  for k = 2, compare.levels do
+    local above = iterations_above(context, state, k)
+    if not above or here.iterations > above then return false end
+    if probe.of(context, rungs, k).ok then return probe.skip(context, rungs, k - 1) end
+  end
+  return false
+end
+
 -- Asks a choice for its free check on the coarsest level, and if that is worth it, on the next one. Returns
 -- what choice.free does.
 local function free_check(context, state, rungs, here)
@@ -283,6 +299,7 @@ function decide.look(context, state)
   end
   if here.unmade and bar_rung(context, here) then return false end
   if not here.ok and begins_finer(context, here) then return false end
+  if not here.ok and begins_later(context, state, rungs, here) then return false end
   if not here.ok then
     if rung == state.last or here.raised then return stay(state, "failed") end
     decide.raise(context, state, ("%s cannot be computed: %s"):format(choice.rungs[rung].as, here.reason))

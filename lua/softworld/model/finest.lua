@@ -3,6 +3,7 @@
 -- compared show the same state.
 -- @module softworld.model.finest
 local change = require "softworld.model.change"
+local compare = require "softworld.model.compare"
 local decide = require "softworld.model.decide"
 local facts = require "softworld.model.facts"
 local number = require "softworld.output.number"
@@ -75,7 +76,7 @@ end
 -- true if another rung is chosen.
 local function compared_finer(context, state, fine, result)
   local rung, as = state.rung, state.choice.rungs[state.rung].as
-  while change.is_elsewhere(context, state, fine) and state.compared.k < decide.levels do
+  while change.is_elsewhere(context, state, fine) and state.compared.k < compare.last(context, state.choice) do
     if state.rung < state.last and is_lost(context, result) then
       decide.raise(context, state, ("%s jump on fine edges, which leaves an error bar of more than %d times "
         .. "the tolerance"):format(as, finest.HOPELESS))

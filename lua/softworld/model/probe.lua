@@ -193,6 +193,23 @@ function probe.finer(context)
   return true
 end
 
+--- Leaves out the n coarsest levels, on which these rungs cannot be computed. False if too few are left.
+function probe.skip(context, rungs, n)
+  local job, probes, finest, most = context.job, context.probes, context.finest, context.most
+  local undo = trust.skip(job, n)
+  if not undo then return false end
+  local first = probes[probe.key(rungs, n + 1)]
+  context.probes, context.last = { [probe.key(rungs, 1)] = first }, nil
+  context.finest = { k = 1, values = first.values }
+  context.most, context.skipped = job.most, n
+  function context.unskip()
+    undo()
+    context.probes, context.last, context.finest, context.most = probes, nil, finest, most
+    context.unskip, context.skipped = nil, 0
+  end
+  return true
+end
+
 --- Same with the steps that the choice `state` widens.
 function probe.glance(context, rungs, k, choice) return probe.of(context, rungs, k, nil, "wide", choice) end
 

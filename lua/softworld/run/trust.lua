@@ -144,6 +144,17 @@ function trust.finer(job)
   return true
 end
 
+--- Leaves out the n coarsest levels of a job. The finest stays; nil if too few would be left. Returns a
+-- function that takes them in again.
+function trust.skip(job, n)
+  if job.most - n < least_levels then return nil end
+  local first, share, most, skipped = job.first, job.share, job.most, job.skipped
+  job.first = {}
+  for i, count in ipairs(first) do job.first[i] = count << n end
+  job.share, job.most, job.skipped = share * 2 ^ n, most - n, skipped + n
+  return function() job.first, job.share, job.most, job.skipped = first, share, most, skipped end
+end
+
 -- Takes the levels out of the table of arguments and checks them.
 local function take_levels(what, args)
   local levels = args.levels
