@@ -254,10 +254,10 @@ local function begins_finer(context, here)
   return true
 end
 
--- If a rung that another may replace fails on the way on the coarsest edges, looks for the first finer edges on
--- which it can be computed, and begins there: on edges as long as a bend a wire may have no equilibrium where a
--- finer one has. It is looked for as long as failing again costs less than the next rung on the same edges:
--- failing takes as many iterations on any edges. True if there are such edges.
+-- If a rung that another may replace fails on the way on the coarsest edges, begins on the first finer edges
+-- on which it can be computed: with edges as long as a bend a wire may have no equilibrium where one with
+-- finer edges has. Such edges are looked for as long as failing again, with as many iterations, costs less
+-- than the next rung on the same edges. True if there are such.
 local function begins_later(context, state, rungs, here)
   local fails_late = state.choice.instead and state.rung < state.last and (here.steps or 0) > 0
   if not fails_late or here.raised or context.unskip then return false end

@@ -76,7 +76,8 @@ end
 -- true if another rung is chosen.
 local function compared_finer(context, state, fine, result)
   local rung, as = state.rung, state.choice.rungs[state.rung].as
-  while change.is_elsewhere(context, state, fine) and state.compared.k < compare.last(context, state.choice) do
+  local last = compare.last(context, state.choice)
+  while change.is_elsewhere(context, state, fine) and state.compared.k < last do
     if state.rung < state.last and is_lost(context, result) then
       decide.raise(context, state, ("%s jump on fine edges, which leaves an error bar of more than %d times "
         .. "the tolerance"):format(as, finest.HOPELESS))

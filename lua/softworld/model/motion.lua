@@ -2,6 +2,7 @@
 --- The choice of motion: a sequence of equilibrium poses, or dynamics.
 -- @module softworld.model.motion
 local build = require "softworld.scene.build"
+local coarsest = require "softworld.run.coarsest"
 local core = require "softworld.core"
 local facts = require "softworld.model.facts"
 local number = require "softworld.output.number"
@@ -209,7 +210,7 @@ function motion.begin(context)
   if not job.rests then return end
   core.remesh(scene, trust.counts(job, 1))
   local rests = scene:settle().ok
-  if not rests and trust.finer(job) then
+  if not rests and coarsest.finer(job) then
     job.restore()
     return motion.begin(context)
   end

@@ -4,6 +4,7 @@
 -- @module softworld.model.probe
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
+local coarsest = require "softworld.run.coarsest"
 local core = require "softworld.core"
 local facts = require "softworld.model.facts"
 local number = require "softworld.output.number"
@@ -188,7 +189,7 @@ end
 --- Leaves out the coarsest level, on which no rung could be computed. False if there is no finer one that is
 -- still coarse.
 function probe.finer(context)
-  if not trust.finer(context.job) then return false end
+  if not coarsest.finer(context.job) then return false end
   context.most, context.probes, context.finest = context.job.most, {}, nil
   return true
 end
@@ -196,7 +197,7 @@ end
 --- Leaves out the n coarsest levels, on which these rungs cannot be computed. False if too few are left.
 function probe.skip(context, rungs, n)
   local job, probes, finest, most = context.job, context.probes, context.finest, context.most
-  local undo = trust.skip(job, n)
+  local undo = coarsest.skip(job, n)
   if not undo then return false end
   local first = probes[probe.key(rungs, n + 1)]
   context.probes, context.last = { [probe.key(rungs, 1)] = first }, nil

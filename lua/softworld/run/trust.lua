@@ -12,6 +12,7 @@
 -- level show the error of the finest level. A failed level is left out if a finer one
 -- succeeds; otherwise there are no numbers.
 -- @module softworld.run.trust
+local coarsest = require "softworld.run.coarsest"
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
@@ -26,7 +27,6 @@ local trust = {}
 
 local first_share = 1 / 4 -- segments of the coarsest level over those asked for [-]
 local fewest = 6          -- least segments of the coarsest level, unless fewer were asked for
-local least_levels = 3    -- levels that show how fast the quantities converge
 local most_levels = { ["scene:settle"] = 7, ["scene:run"] = 5 } -- default
 local finest_level = 12   -- its edges are 1/512 of those asked for
 local failures = 3        -- levels that may fail before giving up
@@ -134,36 +134,15 @@ local function first_counts(scene)
   return counts, share
 end
 
---- Leaves out the coarsest level of a job and counts it in job.skipped; the finest stays, unless too few are
--- left. False if the script's own edges are the coarsest already.
-function trust.finer(job)
-  if job.share >= 1 then return false end
-  job.skipped = job.skipped + 1
-  for i, n in ipairs(job.first) do job.first[i] = 2 * n end
-  job.share, job.most = 2 * job.share, math.max(least_levels, job.most - 1)
-  return true
-end
-
---- Leaves out the n coarsest levels of a job. The finest stays; nil if too few would be left. Returns a
--- function that takes them in again.
-function trust.skip(job, n)
-  if job.most - n < least_levels then return nil end
-  local first, share, most, skipped = job.first, job.share, job.most, job.skipped
-  job.first = {}
-  for i, count in ipairs(first) do job.first[i] = count << n end
-  job.share, job.most, job.skipped = share * 2 ^ n, most - n, skipped + n
-  return function() job.first, job.share, job.most, job.skipped = first, share, most, skipped end
-end
-
 -- Takes the levels out of the table of arguments and checks them.
 local function take_levels(what, args)
   local levels = args.levels
   args.levels = nil
   if levels == nil then return most_levels[what] end
-  if math.type(levels) ~= "integer" or levels < least_levels
+  if math.type(levels) ~= "integer" or levels < coarsest.LEAST
     or levels > finest_level then
     error(("%s: levels = %s is not allowed; it must be a whole number from %d to %d"):format(what,
-      checks.shown(levels), least_levels, finest_level), 0)
+      checks.shown(levels), coarsest.LEAST, finest_level), 0)
   end
   return levels
 end
@@ -313,7 +292,7 @@ local function climb(job, compute)
       job.known = good
       local met, vain = judge(job, result, most)
       good, bad, job.finest, job.known = good + 1, 0, k, good + 1
-      if good >= least_levels and (met or vain) then break end
+      if good >= coarsest.LEAST and (met or vain) then break end
     else
       good, bad, job.known, job.failure = 0, bad + 1, 0, result.reason
       for name in pairs(job.values) do job.values[name] = {} end
