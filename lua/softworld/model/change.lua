@@ -119,14 +119,17 @@ end
 -- rung's values were off those of the finest run by a quarter, and by more than the tolerance. On such edges
 -- both rungs may agree on a shape that fine edges do not have. A pushed trunk may buckle to the other side.
 -- Values alone may also be off because a sharp bend needs fine edges. So if the shape is the same, a change
--- far below the allowed one counts. fine: values and shape of the finest run.
+-- far below the allowed one counts. Where poses jump, friction may hold the wire elsewhere after the jump, so
+-- the coarse values must be right to the tolerance. fine: values and shape of the finest run.
 function change.is_elsewhere(context, state, fine)
   local there = state.by == "compared" and state.compared
+  local jumped = there and there.here.facts.motion.jumps > 0
   for _, q in ipairs(there and context.job.quantities or {}) do
     local coarse, value = there.here.values[q.name] or NONE, fine.values[q.name] or NONE
     if quantity.alike(coarse, value) then
       local off = quantity.distance(coarse, value)
-      if off > ELSEWHERE * quantity.size(value) and off > quantity.asked(q, value) then
+      local far = jumped and 0 or ELSEWHERE
+      if off > far * quantity.size(value) and off > quantity.asked(q, value) then
         return not (there.worst < change.FAINT and is_there(context, there, fine.shape))
       end
     end

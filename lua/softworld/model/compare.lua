@@ -65,6 +65,14 @@ local function is_blurred(context, state, now, c)
   return true
 end
 
+-- True if the rung may not stay by this comparison, though the change is small: the choice doubts it on the
+-- first coarse levels.
+local function is_doubtful(state, now, c, levels)
+  local choice = state.choice
+  if not choice.doubtful or c.worst == 0 or c.worst > 1 or now.k >= levels then return false end
+  return choice.doubtful(now.here.facts[choice.name])
+end
+
 -- Marks results of the level before whose poses jumped to a place where they do not go on this level: such
 -- results say nothing about finer levels. A result is marked if it jumped and has moved since by at least
 -- half of the distance between the rungs. last: the change there.
@@ -105,10 +113,10 @@ end
 function compare.rungs(context, state, rungs, above)
   local rung, levels = state.choice.rungs[state.rung], compare.last(context, state.choice)
   local first = state.compared and state.compared.wide and state.from or 1 -- wide steps tell no change
-  local c, before
+  local c, before, doubtful
   for k = first, levels do
     local again = before and before.before and before.before.above
-    if again and saves_nothing(context, before, again, k) then return c end
+    if again and not doubtful and saves_nothing(context, before, again, k) then return c end
     local here, there = probe.of(context, rungs, k), probe.of(context, above, k)
     if k > 1 and not (here.ok and there.ok) then return c, not there.ok and rung.own and there.reason end
     local now = { k = k, here = here, above = there, before = before }
@@ -118,7 +126,8 @@ function compare.rungs(context, state, rungs, above)
     local clear = c.worst < 1 / DOUBT or c.worst > HOPE ^ (levels - k) or k > 1 and c.worst <= 1
     if last and last.worst > FEIGNED and c.worst <= 1 then mark_astray(now, last) end
     local blurred, all = is_blurred(context, state, now, c)
-    if clear and not blurred and k >= (state.from or 1) then return all or c end
+    doubtful = is_doubtful(state, now, c, levels)
+    if clear and not blurred and not doubtful and k >= (state.from or 1) then return all or c end
     local grows = last and not state.choice.steady and c.worst > 1 and c.seen >= last.seen
     if grows then return c end
     local costly = state.choice.costly

@@ -36,6 +36,21 @@ local function room_between(context, boxes, i, j, most)
   return facts.apart(i, j, wide, most < math.huge and most + wide or nil) - wide, "axes"
 end
 
+-- True if wires are in each other in the last frame.
+local function cross_at_end(context, count)
+  for i = 1, count do
+    for j = i, count do
+      local wide = context.data.wires[i].object.radius + context.data.wires[j].object.radius
+      if facts.apart_at_end(i, j, wide) < wide then return true end
+    end
+  end
+  return false
+end
+
+--- True if this rung may stay only after a comparison on all coarse levels: wires end in each other, which is
+-- no state of real wires. Touching wires may snap past each other on finer edges only.
+function contact.doubtful(f) return f.crossed end
+
 function contact.look(context)
   if context.data.touching then return {} end -- with touches the distance tells nothing
   local boxes, turning = facts.swept()
@@ -45,7 +60,10 @@ function contact.look(context)
       local most = context.watching and context.data.wires[i].object.radius or math.huge
       local between, sort = room_between(context, boxes, i, j, math.min(f.room, most))
       if between < f.room then f.room, f.sort = between, i == j and "itself" or sort end
-      if f.room <= 0 then return f end
+      if f.room <= 0 then
+        f.crossed = not context.watching and cross_at_end(context, #boxes)
+        return f
+      end
     end
   end
   return f

@@ -89,6 +89,12 @@ function facts.apart(v, w, enough, most)
   return core.frames_apart(kept.scene, v, w, kept.start, enough, most)
 end
 
+--- Same in the last frame, without motion; `most` if they are not nearer.
+function facts.apart_at_end(v, w, most)
+  local times = core.frame_times(kept.scene)
+  return core.frames_apart(kept.scene, v, w, times[#times], 0, most)
+end
+
 --- True if wire w stays in a plane, with everything that pushes and turns it.
 function facts.flat(w) return core.frames_flat(kept.scene, w, kept.start) end
 
