@@ -19,7 +19,7 @@ end
 --- Returns a number with its unit; "" for other values.
 function cells.number(value, unit)
   if type(value) ~= "number" then return "" end
-  return number.text(value, unit ~= "-" and unit or nil)
+  return number.text(value, unit and unit ~= "-" and cells.plain(unit) or nil)
 end
 
 local function pad(text, width) return text .. (" "):rep(width - number.columns(text)) end
@@ -47,7 +47,9 @@ function cells.check_path(what, path, extension)
     or type(path)), 0)
 end
 
+-- A spreadsheet computes a text that begins like a formula, unless ' is in front.
 local function quoted(text)
+  if text:find "^[=+@-]." then text = "'" .. text end
   if text:find '[",;\r\n\t#]' or text:find "^%s" or text:find "%s$" then
     return '"' .. cells.one_line(text):gsub('"', '""') .. '"'
   end

@@ -61,12 +61,23 @@ rows.calls{
 
 -- --- what is judged ------------------------------------------------------------------------------
 
+-- Returns how a wire was changed after the run, so that its values are not those of the run; nil: it was not.
+local function changed(run, wire)
+  local was = sealed.fields(run).present
+  if not was then return nil end -- before the run
+  if not was[wire] then return "it was made after the run" end
+  if was[wire] ~= (core.data(wire).remodels or 0) then
+    return "it was remodelled after the run, and its values are those of the new model"
+  end
+end
+
 local function context_of(run, args)
   local data = build.data(run.scene)
   local c = { run = run, scene = run.scene, use = args.use, landing = args.landing, fatigue = args.fatigue,
     abrasion = args.abrasion, vibration = args.vibration, wires = {}, grippers = {} }
   for i, w in ipairs(data.wires) do
-    c.wires[i] = { name = w.name, object = w.object, number = i, use = core.data(w.object).use }
+    c.wires[i] = { name = w.name, object = w.object, number = i, use = core.data(w.object).use,
+      changed = changed(run, w.object) }
   end
   for i, g in ipairs(data.grippers) do c.grippers[i] = { name = g.name, object = g } end
   local clips, ties = {}, {}
@@ -207,7 +218,7 @@ local function judge_own(self, one)
     return
   end
   with_error(value, error_bar(self.run, nil, one.name))
-  value.doubt = one.doubted ~= false and doubted.why(doubted.OWN, value, {}, self.run) or nil
+  value.doubt = value.doubt or one.doubted ~= false and doubted.why(doubted.OWN, value, {}, self.run) or nil
   local function fresh() return start_row(self, one.name, nil, one.name, one.unit, value) end
   local given = {}
   for _, side in ipairs{ "min", "max" } do
@@ -229,6 +240,23 @@ local function judge_unused(self, list)
         .. " = false } leaves it out"
     end
   end
+end
+
+-- Adds an open row for each wire that has changed since the run, instead of its values.
+local function judge_changed(self, context)
+  for _, entry in ipairs(context.wires) do
+    if entry.changed then
+      local row = start_row(self, "changed", entry.name, "changed after the run", "-", {})
+      row.verdict, row.note = "OPEN", entry.changed .. "; check the run before"
+    end
+  end
+end
+
+-- Adds an open row for a run without a step: it shows the start only.
+local function judge_nothing(self)
+  if self.time > self.start then return end
+  local row = start_row(self, "run", nil, "the run", "-", {})
+  row.verdict, row.note = "OPEN", "its duration is 0 s: nothing was computed"
 end
 
 -- Adds an open row for each wire that was removed during the run.
@@ -308,11 +336,15 @@ local function make(run, args, several)
   local context
   args, context = read(run, args)
   local list = limits.read(args.limits, context)
-  local own_list = own.read(args.checks, registry.by_name)
+  local own_list = own.read(args.checks, limits.names(context))
   for _, member in ipairs(registry.list) do
-    for _, entry in ipairs(context.objects[member.on]) do judge_one(self, member, entry, context, list) end
+    for _, entry in ipairs(context.objects[member.on]) do
+      if not entry.changed then judge_one(self, member, entry, context, list) end
+    end
   end
   judge_unused(self, list)
+  judge_changed(self, context)
+  judge_nothing(self)
   judge_gone(self)
   if #context.wires == 0 and #own_list == 0 then
     local row = start_row(self, "wires", nil, "there is no wire", "-", {})
@@ -333,7 +365,7 @@ end
 function check.early(scene, args)
   local own_args, context = read({ scene = scene }, args)
   limits.read(own_args.limits, context)
-  own.read(own_args.checks, registry.by_name)
+  own.read(own_args.checks, limits.names(context))
 end
 
 --- Returns the rows of a run that is one of several.

@@ -29,6 +29,12 @@ local function names_of(context)
   return names, known
 end
 
+--- Returns the set of all names of checks, those of objects too.
+function limits.names(context)
+  local _, known = names_of(context)
+  return known
+end
+
 -- Returns true if all words of one text are words of the other: tension and max_tension.
 local function shares(a, b)
   local function holds(outer, inner)

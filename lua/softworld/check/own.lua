@@ -59,6 +59,9 @@ function own.read(given, taken)
   return list
 end
 
+-- Returns a finite number, or nil.
+local function finite(x) return type(x) == "number" and x - x == 0 and x or nil end
+
 --- Returns the value, or nil and why there is none.
 function own.value(one, run)
   local fine, value, s, time = pcall(one.of, run)
@@ -69,8 +72,8 @@ function own.value(one, run)
   if type(value) ~= "number" then
     return nil, "its function must return a number, got " .. checks.got(value)
   end
-  return { value = value, s = type(s) == "number" and s or nil,
-    time = type(time) == "number" and time or nil }
+  local doubt = value == -math.huge and "the value is -inf, as the largest of no values is" or nil
+  return { value = value, s = finite(s), time = finite(time), doubt = doubt }
 end
 
 return own

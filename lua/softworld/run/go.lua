@@ -137,6 +137,13 @@ local function drive_shown(scene, args, total, level, hindrance)
   return fine, reason, cut
 end
 
+-- Returns the wires that exist, and how often each was remodelled: a check reads them as they are later.
+local function present(data)
+  local found = {}
+  for _, w in ipairs(data.wires) do found[w.object] = core.data(w.object).remodels or 0 end
+  return found
+end
+
 --- Computes one run and returns its fields. level: its name if it is one of several; hindrance: why it cannot
 -- begin.
 function go.once(scene, args, level, hindrance)
@@ -157,7 +164,7 @@ function go.once(scene, args, level, hindrance)
   end
   total.restores, total.cut = data.restores, cut
   data.runs = (data.runs or 0) + 1
-  total.number = data.runs
+  total.number, total.present = data.runs, present(data)
   return total
 end
 

@@ -195,6 +195,8 @@ local remodel = class.wire.remodel
 --- wire:remodel{ model =, ... }: see help "remodel".
 function class.wire.remodel(wire, args)
   local result = build.call(3, remodel, wire, args)
+  local kept = core.data(wire)
+  kept.remodels = (kept.remodels or 0) + 1
   remarks.mesh(wire)
   return result
 end
