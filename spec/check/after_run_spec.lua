@@ -138,3 +138,68 @@ describe("check:csv", function()
     end
   end)
 end)
+
+-- A wire hangs in a tie at its end, which is released at 0.2 s. to_wire: the tie holds it at another wire.
+local function released_tie(run_args, to_wire, keeps)
+  local scene, wire = hung()
+  local to
+  if to_wire then
+    local upper = wire_of(scene, "upper", 0.05)
+    scene:clamp(upper, { s = 0.3 })
+    to = { upper, s = 0.3 }
+  end
+  local tie = scene:tie(wire, { name = "t", s = 0.3, to = to, strength = 1 })
+  scene:tie(wire, { name = "other", s = 0.15, strength = 1 })
+  scene:process(function(p)
+    p:wait(0.2)
+    if not keeps then tie:release() end
+    p:wait(0.1)
+  end)
+  return scene:run(run_args or { dt = 0.005 }), scene
+end
+
+describe("run:check of ties and clips that are released in the run", function()
+  for _, to_wire in ipairs { false, true } do
+    it("judges the largest pull before the release, also of a tie to " .. (to_wire and "a wire" or "a point"),
+      function()
+        local run, scene = released_tie(nil, to_wire)
+        local row = run:check { limits = { ["t.strength_used"] = 0.01 } }:row "t.strength_used"
+        assert.equal("FAIL", row.verdict)
+        assert.is_true(row.time <= 0.2)
+        assert.truthy(row.note:find("released at 0.2 s", 1, true), row.note)
+        -- the same pull as that of a tie that stays, over the same time
+        local kept, other = released_tie(nil, to_wire, true)
+        local tie = other:find "t"
+        assert.is_near(tie:over(kept.start, 0.2).raw_peak_force, row.value, 1e-12)
+        row = run:check { limits = { ["t.strength_used"] = 0.9 } }:row "t.strength_used"
+        assert.equal("PASS", row.verdict)
+        assert.has_error(function() scene:run { duration = 0.1 }:check {}:row "t.strength_used" end)
+      end)
+  end
+
+  it("has a row with an error bar", function()
+    local run = released_tie { duration = 0.3, check = { limits = { ["t.strength_used"] = 0.9 } } }
+    local row = run:check():row "t.strength_used"
+    assert.equal("PASS", row.verdict)
+    assert.is_true(row.error < 0.5 * row.value, tostring(row.error))
+  end)
+
+  it("judges a clip that held a wire until it was taken away", function()
+    local scene = sw.scene { gravity = { 0, 0, 0 } }
+    local wire = scene:wire { name = "w", E = 5e6, density = 1500, radius = 0.0025, from = { 0, 0, 0 },
+      to = { 0.2, 0, 0 }, segments = 20 }
+    local hold = scene:clamp(wire, { s = 0 })
+    scene:clip { name = "c", at = { 0.1, 0, 0 }, width = 0.01, insertion = 1, retention = 3 }
+    hold:follow { points = { { 0, 0, 0 }, { 0, 0, 0.02 } }, relative = true, duration = 0.2 }
+    scene:process(function(p)
+      p:wait(0.3)
+      scene:remove "c"
+      p:wait(0.1)
+    end)
+    local check = scene:run { dt = 0.005 }:check {}
+    local row = check:row "c.retention_used"
+    assert.is_true(row.value > 0 and row.value < 1, tostring(row.value))
+    assert.truthy(row.note:find("released at 0.3 s", 1, true), row.note)
+    assert.has_error(function() check:row "c.seated" end) -- it need not hold at the end
+  end)
+end)

@@ -33,8 +33,8 @@ end
 local function most(context, wire)
   local run, factor = context.run, 1
   for _, entry in ipairs(context.objects.clip) do
-    local clip = entry.object
-    local into, out = clip.inserted, clip.pulled_out
+    local clip, there = entry.object, not entry.released
+    local into, out = there and clip.inserted, there and clip.pulled_out
     if has_event(run, entry) then
       local is_in, is_out = into and (not wire or into.wire == wire), out and (not wire or out.wire == wire)
       factor = math.max(factor, is_in and ratio(clip.insertion, into, run) or 1,

@@ -13,6 +13,7 @@ local judge = require "softworld.check.judge"
 local limits = require "softworld.check.limits"
 local own = require "softworld.check.own"
 local registry = require "softworld.check.registry"
+local released = require "softworld.check.released"
 local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
 local stages = require "softworld.run.stages"
@@ -84,6 +85,9 @@ local function context_of(run, args)
   for _, f in ipairs(fixing.all(run.scene)) do
     local list = ({ clip = clips, tie = ties })[checks.kind(f)]
     if list then list[#list + 1] = { name = f.name, object = f } end
+  end
+  for kind, list in pairs { clip = clips, tie = ties } do
+    table.move(released.all(run.scene, kind), 1, #released.all(run.scene, kind), #list + 1, list)
   end
   c.objects = { wire = c.wires, gripper = c.grippers, clip = clips, tie = ties, run = { { object = run } } }
   return c
@@ -179,7 +183,8 @@ local function judge_one(self, member, entry, context, list)
     return
   end
   if member.asked and not given and not (member.wanted and member.wanted(context)) then return end
-  local fine, value = pcall(member.value, entry, context)
+  local read = entry.released and function() return released.value(entry, member.name) end or member.value
+  local fine, value = pcall(read, entry, context)
   if not fine then
     if checks.is_interrupt(value) then error(value, 0) end
     local row = start_row(self, member.name, entry.name, member.label, member.unit, {})

@@ -238,6 +238,7 @@ end
 
 --- Removes the clip.
 function Clip:release()
+  require("softworld.check.released").note(self, "clip")
   self.object:release()
   if self.damper then self.damper:release() end
 end

@@ -134,7 +134,10 @@ function Tie:force()
 end
 
 --- Cuts the tie.
-function Tie:release() self.object:release() end
+function Tie:release()
+  require("softworld.check.released").note(self, "tie")
+  self.object:release()
+end
 
 --- Returns the pull between two times; see help "peaks".
 function Tie:over(t1, t2, options)

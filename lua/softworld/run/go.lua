@@ -12,6 +12,7 @@ local process = require "softworld.run.process"
 local turns = require "softworld.run.turns"
 local progress = require "softworld.output.progress"
 local reactions = require "softworld.grip.reactions"
+local released = require "softworld.check.released"
 local save = require "softworld.scene.save"
 local tables = require "softworld.rows"
 local waiting = require "softworld.run.waiting"
@@ -117,6 +118,7 @@ local function begin(scene, args)
   data.going = nil
   observe.begin(scene, args)
   total.drawn = document.wires(scene)
+  released.begin(data, total.start)
   return data, total
 end
 
