@@ -71,12 +71,21 @@ local function moved_on(context, state, was)
   return true
 end
 
+-- True if finer edges may shorten bars that are too long, now that a rung is known to leave out more.
+local function needs_finer(context, result)
+  if #context.job.levels >= context.job.most then return false end
+  for _, q in ipairs(result:error_bars()) do
+    if q.error + change.left_out(context, q.name) > q.tolerance then return true end
+  end
+  return false
+end
+
 -- Compares a choice on finer edges as long as the edges it was compared on show another state than the finest
 -- run. Nothing is compared if its rung cannot meet the tolerance there: then the next rung is taken. Returns
--- true if another rung is chosen.
+-- true if another rung is chosen, or the run needs finer edges.
 local function compared_finer(context, state, fine, result)
   local rung, as = state.rung, state.choice.rungs[state.rung].as
-  local last = compare.last(context, state.choice)
+  local last, k = compare.last(context, state.choice), state.compared and state.compared.k
   while change.is_elsewhere(context, state, fine) and state.compared.k < last do
     if state.rung < state.last and is_lost(context, result) then
       decide.raise(context, state, ("%s jump on fine edges, which leaves an error bar of more than %d times "
@@ -87,7 +96,7 @@ local function compared_finer(context, state, fine, result)
     repeat until decide.look(context, state)
     if state.rung ~= rung then return moved_on(context, state, as) end
   end
-  return false
+  return state.compared ~= nil and state.compared.k ~= k and needs_finer(context, result)
 end
 
 -- Settles a choice anew if the finest run shows that its free check tells nothing, nor would the next rung.
