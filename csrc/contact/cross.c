@@ -164,11 +164,19 @@ static int cross(sw_contact *c, sw_system *s, const sw_candidate *k, const doubl
   return raise_barrier(c, s, k, earlier ? &one.hit : &two.hit, h);
 }
 
+/* 1 if the candidate is a particle that may meet its obstacle without its edges: pads meet meshes
+ * by their particles alone (contact/pads.c). A particle without a skin would pass into a pad that
+ * closes within the step, and stay there unseen: pads met the next corners, or missed the wire
+ * (spec/contact/pads_sweep_spec). */
+static int is_lone(const sw_contact *c, const sw_system *s, const sw_candidate *k) {
+  return !k->segment && c->obstacles[k->obstacle].grips > 0 && s->bodies[k->body].plan->web;
+}
+
 int sw_contact_cross(sw_contact *c, sw_system *s, const double *x1, double h) {
   int changed = 0;
   for (size_t i = 0; i < c->candidate_count; i++) {
     const sw_candidate *k = &c->candidates[i];
-    if (!k->segment) continue;
+    if (!k->segment && !is_lone(c, s, k)) continue;
     changed |= cross(c, s, k, x1, h);
   }
   return changed;
