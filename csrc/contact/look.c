@@ -6,14 +6,25 @@
 #include "contact/curve.h"
 #include "contact/same.h"
 
+/* 1 if a mesh's particle was in the obstacle at the step's start already: with no memory, it was
+ * put there, or the obstacle was. What passes into it within a step is found by the swept test. */
+static int was_put_in(const sw_contact *c, const sw_system *s, const sw_candidate *k) {
+  sw_closest near;
+  if (k->segment || !s->bodies[k->body].plan->web) return 0;
+  const sw_vec x = sw_contact_where(c, s->x, k->node, k->node, 0);
+  return sw_shape_point(c->obstacles[k->obstacle].shape,
+                        sw_pose_local(c->start[k->obstacle].pose, x), 0, &near);
+}
+
 /* Keeps the side of a place. If the wire's axis is inside the obstacle, the nearest face may be the
  * wrong one, so the side remembered from the last accepted step is used. Without a memory the axis
  * got there within this step; the swept test will tell from which side, so the touch is left out:
- * returns 0. A wire that starts inside (nothing accepted yet) is pushed out the nearest way. */
-static int keep_side(const sw_contact *c, const sw_candidate *k, sw_vec local, sw_closest *near) {
+ * returns 0. A wire that starts inside is pushed out the nearest way. */
+static int keep_side(const sw_contact *c, const sw_system *s, const sw_candidate *k, sw_vec local,
+                     sw_closest *near) {
   if (near->gap >= 0 || c->flat[k->obstacle]) return 1; /* a half space has one side */
   const sw_memory *m = sw_contact_remembered(c, k, near->at);
-  if (!m) return c->fresh == SW_CONTACT_FRESH;
+  if (!m) return c->fresh == SW_CONTACT_FRESH || was_put_in(c, s, k);
   if (sw_dot(m->normal, near->normal) > 0.7) return 1; /* within 45 degrees: the same face */
   const double gap = sw_dot(m->normal, sw_sub(local, m->point));
   near->gap = gap;
@@ -43,8 +54,8 @@ static int behind_barrier(const sw_contact *c, const sw_system *s, const sw_cand
 
 static sw_status add_near(sw_contact *c, const sw_system *s, const sw_candidate *k, const double *y,
                           sw_place *place) {
-  return keep_side(c, k, place->wire, &place->near) ? sw_contact_add_touch(c, s, k, y, place)
-                                                    : SW_OK;
+  return keep_side(c, s, k, place->wire, &place->near) ? sw_contact_add_touch(c, s, k, y, place)
+                                                       : SW_OK;
 }
 
 /* Keeps touches that pushed in the previous iterate where they were. The nearest place of a segment
@@ -114,7 +125,7 @@ static sw_status add_sharp(sw_contact *c, const sw_system *s, const sw_candidate
   k = owner(c, k, place);
   const sw_mean spot = sw_contact_spot(s, k, place->near.at);
   const sw_vec p = sw_pose_local(c->now[k->obstacle].pose, sw_mean_place(c, y, &spot));
-  if (!keep_side(c, k, p, &place->near)) return SW_OK;
+  if (!keep_side(c, s, k, p, &place->near)) return SW_OK;
   return sw_contact_add_touch(c, s, k, y, place);
 }
 

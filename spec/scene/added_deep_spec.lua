@@ -15,13 +15,13 @@ local function added(o, sunk, dt)
   local scene, r = sw.scene{}, sw.cable(o.cable).outer_diameter.value / 2
   local c, s = math.cos(o.turn or 0), math.sin(o.turn or 0)
   local function wire(y, z, model)
-    return scene:wire{ cable = o.cable, model = model, from = { -s * y, c * y, z },
-      to = { LENGTH * c - s * y, LENGTH * s + c * y, z } }
+    return scene:wire{ cable = o.cable, model = model, section = model and o.section,
+      from = { -s * y, c * y, z }, to = { LENGTH * c - s * y, LENGTH * s + c * y, z } }
   end
   local floor = scene:obstacle{ shape = "plane", friction = 0.3, name = "floor" }
   wire(0.05, r)
   local later, on = nil, floor
-  if o.table then later = wire(0, r) end
+  if o.table then later = wire(0, r, o.model) end
   t.fine(scene:run{ dt = 0.01, duration = 0.1 })
   if o.table then
     on = scene:obstacle{ shape = "box", size = { 1, 0.06, 0.1 }, at = { 0, 0, sunk - 0.05 },
@@ -43,7 +43,10 @@ describe("a wire that is inside an obstacle, of which one was added late,", func
   for k, o in ipairs{
     { cable = "GXL 1.5", model = "rod" }, { cable = "H07V-K 10", model = "rod", turn = 0.7 },
     { cable = "GXL 1.5", model = "tube" }, { cable = "FLRY-B 0.5", model = "rod", turn = 2 },
-    { cable = "GXL 1.5", table = true, turn = 0.4 }, { cable = "FLRY-B 0.5", table = true },
+    { cable = "GXL 1.5", table = true, turn = 0.4 },
+    -- Its particles have no skin: the table was not there for them, they lay on under it, without an event.
+    { cable = "GXL 1.5", table = true, turn = 1, model = "radial", section = "solid" },
+    { cable = "FLRY-B 0.5", table = true },
   } do
     it(("comes out slowly: %d, %s"):format(k, o.cable), function()
       for _, sunk in ipairs{ 1e-5, 1e-4, 3e-4 } do
