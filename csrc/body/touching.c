@@ -126,6 +126,12 @@ void sw_scene_inform_contact(sw_scene *s) {
   sw_contact_recall(s->contact, past_of, may_move);
 }
 
+sw_status sw_scene_clear_meshes(sw_scene *s, sw_error *err) {
+  if (!s->contact) return SW_OK;
+  if (!sw_contact_informed(s->contact)) sw_scene_inform_contact(s);
+  return sw_contact_clear(s->contact, &s->system, s->time, err);
+}
+
 /* 1 if the hold does not move after time t. */
 static int stands(const sw_hold *h, double t) {
   return sw_drive_stands(&h->drive, t) && !sw_hold_passes(h) && !h->cls->hold->rail;

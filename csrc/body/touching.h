@@ -25,6 +25,8 @@ void sw_scene_couple(sw_scene *scene);
 int sw_scene_has_contact(const sw_scene *scene);
 /* Tells contact what obstacles remember and which may move. */
 void sw_scene_inform_contact(sw_scene *scene);
+/* The scene is built and will run: see sw_contact_clear. */
+sw_status sw_scene_clear_meshes(sw_scene *scene, sw_error *err);
 /* Contact in a step or an equilibrium: begins it, reviews a trial, commits it. */
 sw_status sw_scene_begin_contact(sw_scene *scene, sw_contact_regime regime, double t, double h,
                                  double nominal, sw_error *err);

@@ -131,6 +131,7 @@ static sw_status prepare(sw_scene *s, const sw_run_args *args, double until, sw_
   SW_TRY(sw_run_check(s, args, err));
   SW_TRY(sw_run_check_clock(s, args, until, err));
   SW_TRY(sw_scene_build(s, err));
+  if (!args->quasistatic) SW_TRY(sw_scene_clear_meshes(s, err)); /* poses come out at once */
   SW_TRY(sw_scene_check_step(s, args, until, err));
   SW_TRY(sw_ladder_method(s, args, err));
   sw_scene_course(s)->window = args->window;

@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Moves wires that are meshes of elements out of what they were drawn a little inside. Their
+ * section is a polygon, wider than the radius by 2.7 % over its corners: drawn at the height of the
+ * radius over a table, it is that deep. On its way out at SW_LET_OUT, for 10 ms, pads that close
+ * kept it there, and what was left of the depth turned into force: 2.9 N for 0.62 N
+ * (spec/contact/drawn_wide_spec). So such a wire begins to move where it only touches. In
+ * poses it comes out at once anyway. */
+#include <math.h>
+
+#include "contact/touch.h"
+
+/* The farthest that a wire goes, over its radius. One that was drawn deeper comes out slowly. In a
+ * groove of 90 degrees it goes sqrt(2) times as far as on a plane [-]. */
+static const double FARTHEST = 0.05;
+/* It stands free if it is no deeper than this: far below the depth of a resting wire [m]. */
+static const double FREE = 1e-10;
+/* Each round moves it out where it is deepest. In a groove of 90 degrees two are enough, in a
+ * narrower one a round leaves cos^2 of its angle of the depth [-]. */
+enum { ROUNDS = 40 };
+
+/* How deep a body is, and the way out [m]. */
+typedef struct depth {
+  double most;
+  sw_vec out; /* [-] */
+} depth;
+
+static void deepen(depth *d, const sw_closest *near, double skin, sw_quat q) {
+  if (!(skin - near->gap > d->most)) return;
+  d->most = skin - near->gap;
+  d->out = sw_rotate(q, near->normal);
+}
+
+static void look_at_sides(const sw_contact *c, const sw_system *s, const sw_body *b, size_t i,
+                          size_t o, depth *d) {
+  const sw_web *w = b->plan->web;
+  const sw_pose pose = c->start[o].pose;
+  const double skin = sw_plan_skin(b->plan, i);
+  const sw_vec from = sw_contact_where(c, s->x, b->first_node + i, b->first_node + i, 0);
+  sw_closest near[SW_CLOSEST_MAX];
+  for (size_t k = w->side_first[i]; k < w->side_first[i + 1]; k++) {
+    const size_t other = b->first_node + w->side[k];
+    const sw_vec to = sw_contact_where(c, s->x, other, other, 0);
+    const int n = sw_shape_segment(c->obstacles[o].shape, sw_pose_local(pose, from),
+                                   sw_pose_local(pose, to), skin, near);
+    for (int j = 0; j < n; j++) deepen(d, &near[j], skin, pose.q);
+  }
+}
+
+static depth find_depth(const sw_contact *c, const sw_system *s, const sw_body *b) {
+  depth d = {.most = FREE};
+  for (size_t o = 0; o < c->count; o++) {
+    const sw_pose pose = c->start[o].pose;
+    for (size_t i = 0; i < b->plan->nodes && !c->obstacles[o].off; i++) {
+      if (!b->plan->web->outer[i]) continue;
+      const double skin = sw_plan_skin(b->plan, i);
+      const sw_vec x = sw_contact_where(c, s->x, b->first_node + i, b->first_node + i, 0);
+      sw_closest near;
+      if (sw_shape_point(c->obstacles[o].shape, sw_pose_local(pose, x), skin, &near))
+        deepen(&d, &near, skin, pose.q);
+      if (!c->flat[o]) look_at_sides(c, s, b, i, o, &d);
+    }
+  }
+  return d;
+}
+
+/* 1 if the body may be moved: nothing holds it and it has not touched anything yet. */
+static int is_loose(const sw_contact *c, const sw_body *b) {
+  const sw_plan *p = b->plan;
+  if (!p->web || !p->web->per_ring || !(p->web->solid_rate2 > 0)) return 0;
+  for (size_t i = 0; i < p->nodes; i++)
+    if (p->held[i] != SW_FREE) return 0;
+  for (size_t m = 0; m < c->memory_count; m++)
+    if (c->memory[m].node >= b->first_node && c->memory[m].node < b->first_node + p->nodes)
+      return 0;
+  return 1;
+}
+
+static void shift(sw_system *s, const sw_body *b, sw_vec by) {
+  for (size_t i = b->first_node; i < b->first_node + b->plan->nodes; i++)
+    sw_store(s->x + 3 * i, sw_add(sw_vec_at(s->x, i), by));
+}
+
+static void clear(const sw_contact *c, sw_system *s, const sw_body *b) {
+  sw_vec way = sw_v(0, 0, 0);
+  depth d = find_depth(c, s, b);
+  for (int k = 0; k < ROUNDS && d.most > FREE; k++) {
+    const sw_vec by = sw_scale(d.out, d.most);
+    way = sw_add(way, by);
+    shift(s, b, by);
+    if (sw_norm(way) > FARTHEST * b->plan->beam.radius) break;
+    d = find_depth(c, s, b);
+  }
+  if (d.most > FREE) shift(s, b, sw_neg(way));
+}
+
+sw_status sw_contact_clear(sw_contact *c, sw_system *s, double t, sw_error *err) {
+  if (!c->fresh) return SW_OK;
+  SW_TRY(sw_contact_open(c, t, 0, err));
+  if (sw_contact_sink(c, s) != SW_OK) return sw_fail(err, SW_ENOMEM, "contact: out of memory");
+  for (size_t b = 0; b < s->body_count; b++)
+    if (is_loose(c, &s->bodies[b])) clear(c, s, &s->bodies[b]);
+  return SW_OK;
+}
