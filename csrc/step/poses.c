@@ -11,6 +11,7 @@
 #include "step/passing.h"
 #include "step/rest.h"
 #include "step/run.h"
+#include "watch/observe.h"
 
 static const double SHORTEST_PASSING = 1.0 / 64; /* shortest pose for passing a clip, over the pose
                                                     step [-] */
@@ -38,6 +39,7 @@ static sw_status pose_steps(sw_ladder *p, double t, sw_error *err) {
     most = passes ? fmax(how.passing, 2 * (sw_scene_time(s) - t0)) : HUGE_VAL;
     sw_scene_course(s)->span = 0;
     SW_TRY(sw_step_observe(s, err));
+    for (size_t w = 0; w < sw_scene_wire_slots(s); w++) sw_scene_watch_sinking(s, w);
   }
   return SW_OK;
 }

@@ -68,6 +68,8 @@ int sw_hold_crashed(const sw_scene *scene, double since);
 void sw_scene_watch_squeezed(sw_scene *scene, size_t wire);
 /* Logs "pressed" where pads that hold a rod press it into an obstacle. */
 void sw_scene_watch_pads_press(sw_scene *scene, size_t wire);
+/* In poses: the same where pads squeeze a mesh of springs on an obstacle. */
+void sw_scene_watch_sinking(sw_scene *scene, size_t wire);
 
 /* Reports a wire or object whose solid elements a damping's stiffness does not damp. */
 void sw_scene_watch_undamped(sw_scene *scene, size_t wire);

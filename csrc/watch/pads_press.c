@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Reports pads that press a rod into an obstacle, such as the table on which they lay it. Pads,
  * obstacle and the rod's section do not yield, so micrometres of the gripper's height, or of the
- * wire's slide at the pads' edges, decide the force. */
+ * wire's slide at the pads' edges, decide the force. And pads that in poses squeeze a mesh of
+ * springs on an obstacle: what it stands on is as soft there as its weight asks for. */
 #include <math.h>
 
 #include "contact/contact.h"
@@ -104,6 +105,31 @@ void sw_scene_watch_pads_press(sw_scene *s, size_t wire) {
                   "the pads of '%s' press wire '%s' into '%s' with %.3g N, more than lies there or "
                   "bends it; neither yields, so micrometres of height or of slide decide this "
                   "force: end the move a little higher, or use gripper:press",
+                  t->name, sw_scene_wire_in(s, wire)->name,
+                  sw_scene_obstacle_in(s, most.obstacle)->name, force);
+  }
+}
+
+void sw_scene_watch_sinking(sw_scene *s, size_t wire) {
+  const sw_contact *contact = sw_scene_contact(s);
+  const sw_body *b = &sw_scene_system(s)->bodies[wire];
+  const sw_web *web = b->plan->web;
+  touches of = {.contact = contact, .system = sw_scene_system(s)};
+  sw_contact_push most = {.normal_force = 0};
+  double from, to;
+  if (!contact || !web || !web->per_ring || web->solid_rate2 > 0) return;
+  SW_EACH(tool, t, s) {
+    if (!holds(t)) continue;
+    sw_contact_touches_of(contact, b->first_node, b->first_node + b->plan->nodes, &of.first,
+                          &of.end);
+    if (!between(&of, t, b->plan->length / (double)(web->rings - 1), &from, &to)) continue;
+    const double force = force_there(s, &of, from, to, &most);
+    if (!(force > 0)) continue;
+    sw_scene_tell(s, "pressed", t->name, most.place, force,
+                  "the pads of '%s' squeeze wire '%s', a mesh of springs, on '%s', which pushes it "
+                  "with %.3g N; in poses its touches there do not resist the widening of its "
+                  "section, so this force and the gripper's may be wrong by a factor of 20: take "
+                  "section = \"solid\", or a run without quasistatic",
                   t->name, sw_scene_wire_in(s, wire)->name,
                   sw_scene_obstacle_in(s, most.obstacle)->name, force);
   }
