@@ -134,7 +134,7 @@ sw_status sw_hold_look_out(sw_scene *s, sw_hold *h, sw_error *err) {
   if (crashing && !h->watch.crashing) h->watch.crash = now; /* a new one */
   h->watch.crashing = crashing;
   if (!crashing) { /* it may press from the start on */
-    if (!sw_hold_watch_press(s, h, now.obstacle, now.depth, NOTICED) && !(now.depth > NOTICED))
+    if (!sw_hold_watch_press(s, h, now.obstacle, now.depth) && !(now.depth > NOTICED))
       SW_TRY(sw_hold_watch_tilt(s, h, NOTICED, err));
     return SW_OK;
   }

@@ -27,7 +27,7 @@ static const double ON_MESH = 2.0;
  * then the table bears more than 1.15 weights. At a wire of 0.3 m with 10 to 77 edges they do so if
  * the hold is 0.3 to 3 % of the radius deep (spec/scene/hold_press_spec) [-]. */
 static const double EXCESS = 0.3;
-/* A rod's hold that is less deep touches [m]. */
+/* A hold that is less deep touches [m]. */
 static const double TOUCHES = 1e-7;
 
 /* Returns the wire's edge, or the distance between a mesh's sections [m]. */
@@ -82,13 +82,12 @@ static double harmless(const sw_system *s, const sw_hold *h) {
   return ((to - from) / p->length + EXCESS) * usual;
 }
 
-int sw_hold_watch_press(sw_scene *s, const sw_hold *h, size_t obstacle, double depth,
-                        double noticed) {
+int sw_hold_watch_press(sw_scene *s, const sw_hold *h, size_t obstacle, double depth) {
   const sw_system *system = sw_scene_system(s);
   const sw_plan *plan = system->bodies[h->wire].plan;
   char how[64];
   if (!sw_scene_contact(s) || (plan->web && plan->web->rings < 2)) return 0; /* no wire */
-  if (!(depth > (plan->web ? noticed : TOUCHES))) return 0;
+  if (!(depth > TOUCHES)) return 0;
   const double force = force_beside(s, h, obstacle);
   if (!(force > harmless(system, h))) return 0;
   if (plan->web) {

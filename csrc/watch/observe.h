@@ -54,10 +54,8 @@ void sw_scene_watch_ties(sw_scene *scene);
 /* Checks a hold of the accepted state: is it driven into an obstacle, does it push too hard? */
 sw_status sw_hold_look_out(sw_scene *scene, sw_hold *hold, sw_error *err);
 /* Reports a hold that is `depth` [m] deep in an obstacle, by less than a crash, if the obstacle
- * presses the wire there with more than usual forces; that of a mesh only above `noticed` [m].
- * Returns 1 if it does. */
-int sw_hold_watch_press(sw_scene *scene, const sw_hold *hold, size_t obstacle, double depth,
-                        double noticed);
+ * presses the wire there with more than usual forces. Returns 1 if it does. */
+int sw_hold_watch_press(sw_scene *scene, const sw_hold *hold, size_t obstacle, double depth);
 /* The same for a hold whose direction leads the wire's next edge more than `noticed` [m] deeper
  * into an obstacle than the held place is. */
 sw_status sw_hold_watch_tilt(sw_scene *scene, const sw_hold *hold, double noticed, sw_error *err);
