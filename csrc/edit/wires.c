@@ -30,8 +30,7 @@ static const sw_param wire_rows[] = {
      "list of points the wire lies along, instead of from and to"},
     {"segments", SW_PARAM_INTEGER, "-", 0, 0, 1e7, 0, NULL, offsetof(sw_wire_args, segments),
      "number of segments, 2 or more (default 50); of a mesh the number of slices (default: by "
-     "their "
-     "spacing)"},
+     "their spacing)"},
     {"rest", SW_PARAM_CHOICE, "-", 0, 0, 0, 0, rest_names, offsetof(sw_wire_args, rest),
      "shape without load: 'straight', or the shape of 'path'"},
     {"normal", SW_PARAM_VECTOR, "-", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL,

@@ -28,8 +28,7 @@ static const sw_param rows[] = {
     {"model", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0, "the new model of the wire"},
     {"segments", SW_PARAM_INTEGER, "-", 0, 0, 1e7, 0, NULL, offsetof(sw_wire_args, segments),
      "number of segments, 2 or more (default 50); of a mesh the number of slices (default: by "
-     "their "
-     "spacing)"},
+     "their spacing)"},
     {"region", SW_PARAM_OTHER, "m", 0, 0, 0, 0, NULL, 0,
      "{s1, s2}: the wire becomes a mesh only there and beside clamps; elsewhere it is a line of "
      "particles with EA and EI, without twist (not given: all of the wire)"},
