@@ -109,10 +109,18 @@ double sw_contact_softness(const sw_contact *c, const sw_system *s, const sw_mem
                            const sw_touch *t) {
   const sw_web *web = s->bodies[t->body].plan->web;
   if (web) return web->per_ring ? 0.0 : fmin(SW_SOFTEST, (double)web->particles);
-  if (c->regime != SW_CONTACT_IMPLICIT) return 0.0;
+  /* in pads, which turn, stiff friction locks in tension */
+  if (c->regime != SW_CONTACT_IMPLICIT || c->obstacles[t->obstacle].grips > 0) return 0.0;
   const int sticks = m && m->kept.normal_force > 0 && !m->kept.sliding;
   const double grip = c->brakes ? sw_contact_edge_stiffness(s, t->body, t->node)
                       : sticks  ? m->kept.grip
                                 : 0.0;
   return grip > t->press.k ? t->press.k / grip : 0.0;
+}
+
+/* Friction at rest stays where a touch becomes softer. In poses, and in pads, it falls: it would
+ * lock in there. */
+sw_vec sw_contact_stretch(const sw_contact *c, const sw_touch *t, const sw_kept *kept) {
+  const int gives_way = c->regime == SW_CONTACT_STATIC || c->obstacles[t->obstacle].grips > 0;
+  return sw_press_stretch(&t->press, kept, gives_way);
 }

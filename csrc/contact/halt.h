@@ -5,6 +5,7 @@
 
 #include "contact/contact.h"
 
+struct sw_kept;
 struct sw_memory;
 struct sw_touch;
 
@@ -23,6 +24,9 @@ double sw_contact_landed(const sw_contact *contact, const sw_system *system);
 /* Most friction of all touches together [N]. */
 double sw_contact_friction(const sw_contact *contact);
 
+/* Displacement of friction's spring by the memory of a touch, in the obstacle's axes [m]. */
+sw_vec sw_contact_stretch(const sw_contact *contact, const struct sw_touch *touch,
+                          const struct sw_kept *kept);
 /* As soft of sw_press; memory: the touch's, or NULL. On a rod whose drive comes to rest
  * (sw_contact_brake) friction's spring is as stiff as the rod's edge, and stays so while it sticks
  * [-]. */

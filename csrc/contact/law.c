@@ -332,8 +332,10 @@ static double eased(const sw_press *p, double usual, double k, double deepest) {
   return fmax(usual, EASING * k);
 }
 
-sw_vec sw_press_stretch(const sw_press *p, const sw_kept *kept) {
-  return sw_scale(kept->elastic, kept->grip / sw_press_grip(p));
+sw_vec sw_press_stretch(const sw_press *p, const sw_kept *kept, int gives_way) {
+  const double was = kept->depth > 0 ? kept->normal_force / kept->depth : p->k;
+  const double share = gives_way && was > 0 ? p->k / was : 1.0;
+  return sw_scale(kept->elastic, share * kept->grip / sw_press_grip(p));
 }
 
 int sw_press_eases(const sw_press *p, double usual, double stiffer, double deepest) {

@@ -85,8 +85,8 @@ static inline double sw_depth_for(double depth, double radius) {
 sw_kept sw_press_keep(const sw_press *press, double usual, double stiffer, double deepest);
 /* Displacement of friction's spring at the force of the memory: that stays, whatever the stiffness
  * becomes, as a cable moves less than a spring would lose. Only on obstacles: a tight pair of
- * cables would gain energy [m]. */
-sw_vec sw_press_stretch(const sw_press *press, const sw_kept *kept);
+ * cables would gain energy. gives_way: the force changes with the stiffness of the touch [m]. */
+sw_vec sw_press_stretch(const sw_press *press, const sw_kept *kept, int gives_way);
 /* 1 if it falls in this step. */
 int sw_press_eases(const sw_press *press, double usual, double stiffer, double deepest);
 /* Hardens a squeezed touch. A squeezed wire cannot come out: letting it out would create energy,

@@ -258,7 +258,7 @@ static void begin_friction(const sw_contact *c, const sw_system *s, const sw_mem
   sw_press *press = &t->press;
   sw_vec u = shift_since(c, s, t, y);
   if (m)
-    u = sw_add(u, sw_rotate(c->now[t->obstacle].pose.q, sw_press_stretch(press, &m->kept)));
+    u = sw_add(u, sw_rotate(c->now[t->obstacle].pose.q, sw_contact_stretch(c, t, &m->kept)));
   else if (closed_here(s->bodies[t->body].plan->web, press, last))
     u = sw_v(0, 0, 0);
   else

@@ -37,7 +37,8 @@ typedef enum sw_asked { SW_LAWS, SW_FUNCTIONS, SW_ALL_DRIVES } sw_asked;
 sw_status sw_drives_first(const sw_scene *scene, double h, sw_asked which, sw_when of, double *at,
                           sw_error *err);
 /* 1 if a touch slides that has slid less than `way` on an obstacle since it began to press;
- * HUGE_VAL: also wires on wires [m]. rod: 1 for rods and strings only. */
-int sw_drives_slide(const sw_scene *scene, int rod, double way);
+ * HUGE_VAL: also wires on wires [m]. travel: only those of lines along which waves travel in less;
+ * HUGE_VAL: of all wires [s]. */
+int sw_drives_slide(const sw_scene *scene, double travel, double way);
 
 #endif

@@ -23,7 +23,7 @@ static const double OF_TENSION = 2.0;
 
 /* A force that counts, over the wire's weight, in addition to the weight of the part of the wire
  * that lies there [-]. */
-static const double COUNTS = 0.2;
+static const double COUNTS = 0.25;
 
 /* Returns the force on the part of a wire that counts as pressed; without gravity that of bending
  * [N]. */

@@ -287,7 +287,8 @@ function remarks.wire(data, wire, args)
   mine.length = length_of(mine.points)
   mine.edge = mine.length > 0 and mine.length / wire.segments or nil
   check(what, "length", mine.length, rules.wire.length)
-  if (mine.edge or 0) > LONG and mine.length <= rules.wire.length[3] then
+  local thick = type(mine.radius) == "number" and mine.radius > rules.wire.radius[3] -- told already
+  if (mine.edge or 0) > LONG and mine.length <= rules.wire.length[3] and not thick then
     tell("edge", ("%s is %.4g m long, with edges of %.3g m; did you mean %.4g mm? Else give more segments")
       :format(what, mine.length, mine.edge, mine.length))
   end

@@ -233,7 +233,7 @@ describe("clamp:over", function()
     local clamp = scene:clamp(damped(scene, "GXL 1.5", { 0, 0, 0 }, { 0.2, 0, 0 }, 10), { s = 0 })
     t.fine(scene:run{ duration = 0.01 })
     assert.has_error(function() clamp:over("x") end,
-      "clamp:over: t1 must be a time [s], got string")
+      "clamp:over: t1 = 'x' is not allowed; it must be a number that is finite")
     assert.error_matches(function() clamp:over(0, 1, { windw = 1 }) end, "did you mean 'window'")
     assert.error_matches(function() clamp.over() end, "call it with a colon")
   end)

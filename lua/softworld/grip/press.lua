@@ -11,9 +11,9 @@ local vec = require "softworld.vec"
 local press = {}
 
 local START = 0.05   -- push by the wire's inertia as the move starts, as a share of the wanted one [-]
-local BEYOND = 1.1   -- a push above this share of the wanted one is set back [-]
+local BEYOND = 1.08   -- a push above this share of the wanted one is set back [-]
 local MOST = 24      -- tries to set it back
-local FINEST = 2e-9 -- least way to set it by: shorter ones are no motion [m]
+local FINEST = 5e-10 -- least way to set it by: shorter ones are no motion [m]
 local AIM = 1.05     -- push that it is set to, as a share of the wanted one [-]
 local STILL = 4      -- steps after which a push is taken as that of rest, ...
 local REST = 0.01    -- ... and the least time [s]

@@ -33,8 +33,8 @@ end
 -- Returns the time `t` [s], or `usual` if it is nil.
 local function time_of(what, t, usual, level)
   if t == nil then return usual end
-  if type(t) == "number" and t == t then return t end
-  error(("%s must be a time [s], got %s"):format(what, t == t and type(t) or "nan"), level)
+  if type(t) == "number" or type(t) == "string" then return checks.number(what, t, -math.huge, " s", level) end
+  error(("%s must be a time [s], got %s"):format(what, type(t)), level)
 end
 
 --- Returns the ends of an interval of the record of an object, or of a scene [s]; nil: without end. what: the
