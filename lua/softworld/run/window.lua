@@ -33,7 +33,8 @@ end
 -- Returns the time `t` [s], or `usual` if it is nil.
 local function time_of(what, t, usual, level)
   if t == nil then return usual end
-  if type(t) == "number" or type(t) == "string" then return checks.number(what, t, -math.huge, " s", level) end
+  local readable = type(t) == "number" or type(t) == "string"
+  if readable then return checks.number(what, t, -math.huge, " s", level) end
   error(("%s must be a time [s], got %s"):format(what, type(t)), level)
 end
 
