@@ -25,19 +25,27 @@ local function order(self, method, path, body)
   return answer.value
 end
 
+-- Starts chromedriver; self.root is its address if it runs.
+local function start(self)
+  self.pipe = assert(io.popen("exec chromedriver --port=0 2>&1", "r"))
+  for line in self.pipe:lines() do
+    local port = line:match "successfully on port (%d+)"
+    if port then
+      self.root = "http://127.0.0.1:" .. port
+      return
+    end
+  end
+  self.pipe:close()
+end
+
 --- Opens a browser with a window of this size [px]; close it after use.
 function browser.open(width, height)
   local w, h = width or 1280, height or 720
   local self = setmetatable({ folder = os.tmpname() }, browser)
   os.remove(self.folder)
   assert(os.execute("mkdir -p '" .. self.folder .. "'"))
-  self.pipe = assert(io.popen("exec chromedriver --port=0 2>&1", "r"))
-  for line in self.pipe:lines() do
-    local port = line:match "successfully on port (%d+)"
-    if port then
-      self.root = "http://127.0.0.1:" .. port
-      break
-    end
+  for _ = 1, 3 do -- the port it draws may be taken meanwhile
+    if not self.root then start(self) end
   end
   assert(self.root, "chromedriver does not start: sh scripts/setup.sh --test")
   self.address = self.root
