@@ -67,7 +67,7 @@ local function changed(run, wire)
   local was = sealed.fields(run).present
   if not was then return nil end -- before the run
   if not was[wire] then return "it was made after the run" end
-  if was[wire] ~= (core.data(wire).remodels or 0) then
+  if was[wire] ~= build.remodels(wire) then
     return "it was remodelled after the run, and its values are those of the new model"
   end
 end

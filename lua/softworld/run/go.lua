@@ -142,7 +142,7 @@ end
 -- Returns the wires that exist, and how often each was remodelled: a check reads them as they are later.
 local function present(data)
   local found = {}
-  for _, w in ipairs(data.wires) do found[w.object] = core.data(w.object).remodels or 0 end
+  for _, w in ipairs(data.wires) do found[w.object] = build.remodels(w.object) end
   return found
 end
 

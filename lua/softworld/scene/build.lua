@@ -192,11 +192,15 @@ function class.scene.wire(scene, args)
 end
 
 local remodel = class.wire.remodel
+local remodels = setmetatable({}, { __mode = "k" }) -- how often each wire was remodelled; not of its state
+
+--- Returns how often a wire was remodelled.
+function build.remodels(wire) return remodels[wire] or 0 end
+
 --- wire:remodel{ model =, ... }: see help "remodel".
 function class.wire.remodel(wire, args)
   local result = build.call(3, remodel, wire, args)
-  local kept = core.data(wire)
-  kept.remodels = (kept.remodels or 0) + 1
+  remodels[wire] = build.remodels(wire) + 1
   remarks.mesh(wire)
   return result
 end
