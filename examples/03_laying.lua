@@ -57,6 +57,6 @@ run:chart { path = out .. "/contacts.svg", title = "What table, walls and guide 
 run:chart { path = out .. "/energy.svg", title = "Energy of the wire", energy = true }
 run:vtk(out .. "/laying.pvd")
 print "tracing six pictures ..."
-run:pictures { path = out .. "/laying.png", columns = 2, times = { 0, 2.5, 4.7, 6.5, 7.8, 12 },
+run:pictures { path = out .. "/laying.png", columns = 2, times = { 0, 2.5, 4.7, 6.5, 7.8, run.time },
   captions = { "grasped", "lifted", "drawn over the first wall", "over all three",
     "down to the guide", "released" }, camera = { turn = 27, elevation = 17, angle = 20 } }

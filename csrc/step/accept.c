@@ -90,9 +90,8 @@ void sw_ladder_accept(sw_ladder *p, double h, double t) {
   p->report->steps++;
   if (h < p->report->smallest_dt) p->report->smallest_dt = h;
   sw_scene_set_time(s, t);
-  const int adapts = isfinite(p->args->tolerance);
-  if (moving > 0) tell_trembling(s, h, adapts ? h : p->args->dt, moving);
-  if (landed > 0 && !adapts) tell_landing(s, p->args->dt, landed);
+  if (moving > 0 && !isfinite(p->args->tolerance)) tell_trembling(s, h, p->args->dt, moving);
+  if (landed > 0 && !isfinite(p->args->tolerance)) tell_landing(s, p->args->dt, landed);
 }
 
 /* Counts a part h of a step `whole`. SW_ELIMIT: steps have collapsed. */
