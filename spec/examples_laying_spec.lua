@@ -157,5 +157,15 @@ describe("example", function()
       assert.truthy(series:match "^t %[s%],gripper.force %[N%]")
       assert.truthy(program.read(folder .. "/guide.stl"):match "^solid guide")
     end)
+
+    -- As the README's first command does. A picture at a time after the run was an error that quick mode hid.
+    it("runs to its end with all its files", function()
+      local all = program.folder()
+      local out, err, code = program.run { "examples/03_laying.lua", "all", all }
+      assert.equal(0, code, out .. err)
+      for _, name in ipairs{ "laying.png", "laying.html", "gripper.svg", "contacts.svg", "energy.svg" } do
+        assert.is_true(#program.read(all .. "/" .. name) > 5000, name)
+      end
+    end)
   end)
 end)
