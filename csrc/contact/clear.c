@@ -46,11 +46,38 @@ static void look_at_sides(const sw_contact *c, const sw_system *s, const sw_body
   }
 }
 
+/* A ball around a body [m]. */
+typedef struct ball {
+  sw_vec centre;
+  double radius;
+} ball;
+
+static ball around(const sw_contact *c, const sw_system *s, const sw_body *b) {
+  ball out = {.centre = sw_contact_where(c, s->x, b->first_node, b->first_node, 0)};
+  for (size_t i = 0; i < b->plan->nodes; i++) {
+    const sw_vec x = sw_contact_where(c, s->x, b->first_node + i, b->first_node + i, 0);
+    out.radius = fmax(out.radius, sw_dist(x, out.centre) + sw_plan_skin(b->plan, i));
+  }
+  return out;
+}
+
+/* 1 if the ball is beside the box around the shape; there may be ten thousand. */
+static int is_far(const sw_shape *shape, sw_pose pose, ball around_it) {
+  const sw_bounds box = sw_shape_bounds(shape);
+  const sw_vec p = sw_pose_local(pose, around_it.centre);
+  const sw_vec beside = sw_v(fmax(0.0, fmax(box.min.x - p.x, p.x - box.max.x)),
+                             fmax(0.0, fmax(box.min.y - p.y, p.y - box.max.y)),
+                             fmax(0.0, fmax(box.min.z - p.z, p.z - box.max.z)));
+  return sw_norm(beside) > around_it.radius;
+}
+
 static depth find_depth(const sw_contact *c, const sw_system *s, const sw_body *b) {
+  const ball all = around(c, s, b);
   depth d = {.most = FREE};
   for (size_t o = 0; o < c->count; o++) {
     const sw_pose pose = c->start[o].pose;
-    for (size_t i = 0; i < b->plan->nodes && !c->obstacles[o].off; i++) {
+    if (c->obstacles[o].off || is_far(c->obstacles[o].shape, pose, all)) continue;
+    for (size_t i = 0; i < b->plan->nodes; i++) {
       if (!b->plan->web->outer[i]) continue;
       const double skin = sw_plan_skin(b->plan, i);
       const sw_vec x = sw_contact_where(c, s->x, b->first_node + i, b->first_node + i, 0);

@@ -30,7 +30,7 @@ static int is_followed(const sw_ladder *p) { return sw_blow_part(p->s, p->args->
 /* A drive comes to rest while wires slide. If they only slide, friction at rest is known. Wires
  * that have just landed or swing still have a speed of their own, which decides in the last
  * milliseconds what is left. Speeds above TREMBLE are told in longer parts than FINE, such as those
- * of drives that are functions: at rest such wires pulled with -0.33 to 0.95 of their friction for
+ * of soft wires: at rest such wires pulled with -0.33 to 0.95 of their friction for
  * 0.36 to 0.57 (spec/contact/trembling_stop_spec). In finer parts they are right, but for one in
  * twenty in steps longer than LONG: those are told too (spec/contact/soft_landing_spec)
  * [m/s], [s]. */
@@ -90,8 +90,9 @@ void sw_ladder_accept(sw_ladder *p, double h, double t) {
   p->report->steps++;
   if (h < p->report->smallest_dt) p->report->smallest_dt = h;
   sw_scene_set_time(s, t);
-  if (moving > 0 && !isfinite(p->args->tolerance)) tell_trembling(s, h, p->args->dt, moving);
-  if (landed > 0 && !isfinite(p->args->tolerance)) tell_landing(s, p->args->dt, landed);
+  const int adapts = isfinite(p->args->tolerance);
+  if (moving > 0) tell_trembling(s, h, adapts ? h : p->args->dt, moving);
+  if (landed > 0 && !adapts) tell_landing(s, p->args->dt, landed);
 }
 
 /* Counts a part h of a step `whole`. SW_ELIMIT: steps have collapsed. */

@@ -37,21 +37,15 @@ end
 
 describe("a cable that is laid down", function()
   -- Fine steps of 0.5 and 0.2 ms differ by up to 0.01 themselves, with an even deceleration by up to 0.04.
-  it("keeps the friction of fine steps if its drive stops softly", function()
-    local mean, most, told = differences "minimum-jerk"
-    print(("measured: mean %.3f, largest %.3f"):format(mean, most))
-    t.below(0.01, mean, "mean difference of the pull over mu N")
-    t.below(0.04, most, "largest difference of the pull over mu N")
-    assert.equal(0, told)
-  end)
-
-  it("does so, or has an event, if it stops with an even deceleration", function()
-    local mean, most, told = differences "trapezoidal"
-    print(("measured: mean %.3f, largest %.3f"):format(mean, most))
-    t.below(0.02, mean, "mean difference of the pull over mu N")
-    t.below(0.1, most, "largest difference of the pull over mu N")
-    assert.equal(0, told)
-  end)
+  for law, most in pairs{ ["minimum-jerk"] = { 0.01, 0.04 }, trapezoidal = { 0.02, 0.1 } } do
+    it("keeps the friction of fine steps, or has an event: " .. law, function()
+      local mean, largest, told = differences(law)
+      print(("measured: mean %.3f, largest %.3f"):format(mean, largest))
+      t.below(most[1], mean, "mean difference of the pull over mu N")
+      t.below(most[2], largest, "largest difference of the pull over mu N")
+      assert.equal(0, told)
+    end)
+  end
 
   -- A function has no law to ask: stops are found by its values.
   it("keeps it if its drive is a Lua function", function()
