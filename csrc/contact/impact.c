@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "contact/rebound.h"
 #include "contact/round.h"
 #include "contact/same.h"
 
@@ -31,13 +32,14 @@ static int dealt_with(const sw_contact *c, const sw_pressed *t, size_t *looks) {
          (t->node + 1 < c->places && was_struck(c, t, t->node + 1, looks));
 }
 
-static void note_impact(sw_contact *c, const sw_pressed *t, sw_vec kick) {
+static void note_impact(sw_contact *c, const sw_system *s, const sw_pressed *t, sw_vec kick) {
   if (sw_grow((void **)&c->impacts, &c->impact_capacity, c->impact_count + 1, sizeof *c->impacts) !=
       SW_OK)
     return;
   c->impacts[c->impact_count++] = (sw_impact){.obstacle = t->obstacle,
                                               .segment = t->segment,
                                               .node = t->node,
+                                              .first = s->bodies[t->body].first_node,
                                               .at = t->at,
                                               .kick = kick,
                                               .before = c->impact_at[t->node]};
@@ -45,14 +47,18 @@ static void note_impact(sw_contact *c, const sw_pressed *t, sw_vec kick) {
 }
 
 sw_status sw_contact_calm(sw_contact *c, size_t nodes) {
-  for (size_t i = 0; i < c->impact_count; i++) c->impact_at[c->impacts[i].node] = 0;
+  for (size_t i = 0; i < c->impact_count; i++) {
+    c->impact_at[c->impacts[i].node] = 0;
+    c->lost[c->impacts[i].first] = 0;
+  }
   for (size_t i = 0; i < c->barrier_count; i++) c->barrier_at[c->barriers[i].node] = 0;
   c->barrier_count = c->impact_count = 0;
   if (nodes <= c->places) return SW_OK;
   c->places = 0;
-  SW_TRY(sw_grow((void **)&c->impact_at, &c->place_capacity, 2 * nodes, sizeof *c->impact_at));
-  memset(c->impact_at, 0, 2 * nodes * sizeof *c->impact_at);
+  SW_TRY(sw_grow((void **)&c->impact_at, &c->place_capacity, 4 * nodes, sizeof *c->impact_at));
+  memset(c->impact_at, 0, 4 * nodes * sizeof *c->impact_at);
   c->barrier_at = c->impact_at + nodes;
+  c->lost = (double *)(void *)(c->impact_at + 2 * nodes);
   c->places = nodes;
   return SW_OK;
 }
@@ -68,9 +74,6 @@ static void shares(const sw_system *s, const sw_pressed *t, double out[SW_MEAN_M
   }
   for (size_t e = 0; e < t->spot.count; e++) out[e] = sum > 0 ? out[e] / sum : 0.0;
 }
-
-/* A gap up to this is closed; the touch already moves with the obstacle [m]. */
-static const double CLOSED = 1e-6;
 
 /* Mean velocity of the obstacle's material at p in the step. */
 static sw_vec mean_velocity(const sw_contact *c, int obstacle, sw_vec p) {
@@ -90,7 +93,7 @@ static sw_vec striking_velocity(const sw_contact *c, const sw_pressed *t, sw_vec
   const sw_vec start = sw_obstacle_velocity(&c->start[t->obstacle], p);
   const sw_vec mean = mean_velocity(c, t->obstacle, p);
   *slow = SW_SLOWEST_IMPACT;
-  if (gap > CLOSED) return mean;
+  if (gap > SW_CLOSED) return mean;
   *slow += 2.0 * fabs(sw_dot(sw_sub(mean, start), t->normal));
   return start;
 }
@@ -151,44 +154,6 @@ static double kick(sw_system *s, const sw_body *b, size_t node, sw_vec dv) {
   return share * c.mass;
 }
 
-/* How a touch with restitution meets its obstacle within a step. */
-typedef struct meeting {
-  double after; /* time after the step's start [s] */
-  double speed; /* approach at that moment [m/s] */
-} meeting;
-
-/* Returns how a gap closes, with gravity acting until the surfaces meet. pull: gravity towards the
- * obstacle [m/s2]. */
-static meeting meet(double gap, double approach, double pull) {
-  const double speed = sqrt(fmax(0.0, approach * fabs(approach) + 2.0 * pull * gap));
-  return (meeting){speed + approach > 0 ? 2.0 * gap / (speed + approach) : HUGE_VAL, speed};
-}
-
-/* A rebound acts where the step began, above the surface, and so gains the height that the wire did
- * not fall through. Allowed gain, as a share of the rebound's own height [-]. */
-static const double HEIGHT_ERROR = 0.02;
-/* Largest gap at such a rebound, as a share of the way in a whole step. It is an error of time
- * [-]. */
-static const double WAY_ERROR = 1.0 / 8;
-/* A step that is cut ends before the surface is met, by this share of the time up to there. The
- * next step strikes at its start [-]. */
-static const double LEFT_OPEN = 0.02;
-/* A wire that meets the surface sooner than by gravity alone is pushed there. The step is then cut
- * to this share [-]. */
-static const double CUT_AGAIN = 0.7;
-
-/* 1 if a rebound from where the step begins would be wrong. Then c->soonest gets the time at which
- * the step should end. */
-static int is_too_early(sw_contact *c, double e, double gap, double pull, meeting m, double h) {
-  const double height = e * e * m.speed * m.speed, fallen = 2.0 * (1.0 - e * e) * pull * gap;
-  if (c->regime == SW_CONTACT_EXPLICIT || gap <= CLOSED) return 0;
-  if (fallen <= HEIGHT_ERROR * height && gap <= WAY_ERROR * m.speed * c->nominal) return 0;
-  const double end = m.after < h ? (1.0 - LEFT_OPEN) * m.after : CUT_AGAIN * h;
-  if (end < c->least) return 0;
-  c->soonest = fmin(c->soonest, end);
-  return 1;
-}
-
 /* A touch and its obstacle, at the step's start. */
 typedef struct encounter {
   sw_vec at;             /* point on the wire's surface if it can roll, else on its axis [m] */
@@ -219,11 +184,11 @@ static double velocity_lost(sw_contact *c, const sw_system *s, const sw_pressed 
                             const encounter *meets, double h) {
   const double allowed = meets->gap / h, e = c->obstacles[t->obstacle].restitution;
   const double pull = fmax(0.0, -sw_dot(sw_load(s->gravity), t->normal));
-  const meeting m = meet(meets->gap, meets->approach, pull);
+  const sw_meeting m = sw_rebound_meet(meets->gap, meets->approach, pull);
   if (e > 0 ? !(m.speed > meets->slow) : !(meets->approach > allowed + meets->slow)) return 0;
   /* a rebound that comes back within the step is none */
   const int rebounds = e * m.speed > 0.5 * pull * h;
-  if (rebounds && is_too_early(c, e, meets->gap, pull, m, h)) return 0;
+  if (rebounds && sw_rebound_too_early(c, e, meets->gap, pull, m, h)) return 0;
   return fmax(0.0, rebounds ? meets->approach * (1.0 + e) : meets->approach - allowed);
 }
 
@@ -243,15 +208,16 @@ static int strike(sw_contact *c, sw_system *s, const sw_pressed *t, double h) {
   const sw_body *b = &s->bodies[t->body];
   const sw_levers levers = levers_of(s, t);
   const encounter e = encounter_of(c, s, t, &levers);
-  const double change = velocity_lost(c, s, t, &e, h);
+  double change = velocity_lost(c, s, t, &e, h), w[SW_MEAN_MOST], mass = 0, kicked = 0;
   if (!(change > 0)) return 0;
+  shares(s, t, w);
+  if (c->regime == SW_CONTACT_IMPLICIT && o->restitution > 0)
+    change = sw_rebound_limit(c, s, t, &(sw_rebound){w, e.wall, change, e.approach - e.gap / h});
   sw_vec v = e.speed;
   if (levers.count) v = sw_add(v, sw_levers_shift(&levers, s->v + 3 * s->nodes + b->first_roll, 1));
   const sw_vec along = sw_madd(v, t->normal, -sw_dot(v, t->normal));
   const sw_vec brake = sw_levers_brake(&b->plan->beam, &levers, along, o->friction * change);
   const sw_vec dv = sw_madd(brake, t->normal, change);
-  double w[SW_MEAN_MOST], mass = 0, kicked = 0;
-  shares(s, t, w);
   for (size_t k = 0; k < t->spot.count; k++) {
     if (!(w[k] > 0)) continue;
     mass += w[k] * b->plan->lumped[t->spot.node[k] - b->first_node];
@@ -263,7 +229,7 @@ static int strike(sw_contact *c, sw_system *s, const sw_pressed *t, double h) {
   if (levers.count)
     sw_levers_kick(b->plan, &levers, sw_scale(brake, mass),
                    s->delta + 3 * s->nodes + b->first_roll);
-  note_impact(c, t, impulse);
+  note_impact(c, s, t, impulse);
   return 1;
 }
 

@@ -117,6 +117,7 @@ typedef struct sw_barrier {
 typedef struct sw_impact {
   int obstacle, segment;
   size_t node;
+  size_t first; /* the first node of its body */
   double at;
   sw_vec kick;     /* impulse on the obstacle [N s] */
   uint32_t before; /* the previous impact at its node: number + 1, or 0 */

@@ -52,7 +52,7 @@ struct sw_contact {
   size_t turn_capacity;
   sw_memory *memory, *next_memory; /* memory of touches from step to step */
   size_t memory_count, memory_capacity, next_count, next_capacity;
-  /* impacts and barriers */
+  double *lost; /* (places) at a body's first node: what its impacts cost in this step [J] */
   uint32_t *impact_at, *barrier_at; /* (places) a node's last impact or barrier: number + 1, or 0 */
   size_t places, place_capacity;
   sw_barrier *barriers;

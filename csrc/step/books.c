@@ -140,7 +140,8 @@ static double book_gain(sw_scene *s, double gain) {
 /* Lowers losses that were booked too high; returns by how much [J]. A step's losses are computed
  * from its ends. They may be too high: damping, where its power changed within the step; friction,
  * where its force began in the step; impact, where the step gave some of it back. The last two only
- * where something touches. excess: the booked losses minus the step's loss [J]. */
+ * where something touches. A blow changes the damping's power too: where nothing does work, the
+ * rest of the excess can only be damping. excess: the booked losses minus the step's loss [J]. */
 static double booked_too_high(const sw_books *b, sw_step_energy *step, double excess) {
   const double before = b->powers.damping, after = step->powers.damping;
   const double mean = sw_ledger_over_step(before, after, 1.0);
@@ -150,8 +151,9 @@ static double booked_too_high(const sw_books *b, sw_step_energy *step, double ex
     double *lost, most;
   } parts[] = {{&step->damping, step->damping - least},
                {&step->impact, step->impact},
-               {&step->friction, 0.5 * step->friction}};
-  for (size_t k = 0; k < (step->touching ? 3 : 1); k++) {
+               {&step->friction, 0.5 * step->friction},
+               {&step->damping, step->work != 0 ? 0.0 : least}};
+  for (size_t k = 0; k < (step->touching ? sizeof parts / sizeof *parts : 1); k++) {
     const double part = fmin(left, fmax(0.0, parts[k].most));
     *parts[k].lost -= part, left -= part;
   }
