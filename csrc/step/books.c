@@ -152,7 +152,8 @@ static double booked_too_high(const sw_books *b, sw_step_energy *step, double ex
   } parts[] = {{&step->damping, step->damping - least},
                {&step->impact, step->impact},
                {&step->friction, 0.5 * step->friction},
-               {&step->damping, step->work != 0 ? 0.0 : least}};
+               {&step->damping, step->work != 0 ? 0.0 : least},
+               {&step->friction, step->work != 0 ? 0.0 : 0.5 * step->friction}};
   for (size_t k = 0; k < (step->touching ? sizeof parts / sizeof *parts : 1); k++) {
     const double part = fmin(left, fmax(0.0, parts[k].most));
     *parts[k].lost -= part, left -= part;
