@@ -122,10 +122,11 @@ function special.bundles()
   local crowds = require "bench.crowds"
   for _, count in ipairs{ 7, 10, 20 } do
     for _, cable in ipairs{ false, "GXL 1.5" } do
-      local falling, lying, fell, lay = crowds.bundle(count, cable)
+      local falling, lying, fell, lay, second = crowds.bundle(count, cable)
       local alone, still = crowds.bundle(count, cable, true)
-      print(("%6d wires%s in a bundle: %.2f s a simulated second falling, %.1f solves each; lying %.2f, %.1f")
-        :format(count, cable and " " .. cable or "", falling, fell, lying, lay))
+      print(("%6d wires%s in a bundle: the first second in %.2f s; per simulated second %.2f s falling, "
+        .. "%.1f solves a step; %.2f s lying, %.1f"):format(count, cable and " " .. cable or "", second,
+        falling, fell, lying, lay))
       print(("       over wires that do not touch each other: %.0f times falling, %.0f lying"):format(
         falling / alone, lying / still))
       io.stdout:flush()
