@@ -22,6 +22,9 @@ static const double REMARK = 0.02, FAILURE = 0.05;
 /* Energy from nowhere that no step gained, over the energy in play: above this an event [-]. */
 static const double UNKNOWN = 0.05;
 
+/* Work below this share of an excess of losses cannot explain it [-]. */
+static const double LITTLE_WORK = 0.01;
+
 /* A held point further from its hold than this was put elsewhere; below, it is rounding [m]. */
 static const double JUMP = 1e-9;
 /* Least energy in play: the weight times the radius, or this share of EI / L [-], plus LEAST. */
@@ -139,22 +142,25 @@ static double book_gain(sw_scene *s, double gain) {
 
 /* Lowers losses that were booked too high; returns by how much [J]. A step's losses are computed
  * from its ends. They may be too high: damping, where its power changed within the step; friction,
- * where its force began in the step; impact, where the step gave some of it back. The last two only
- * where something touches. A blow changes the damping's power too: where nothing does work, the
- * rest of the excess can only be damping. excess: the booked losses minus the step's loss [J]. */
+ * where its force began in the step; impact, where the step gave some of it back. A blow changes
+ * the damping's power too, a taut wire damps faster than steps follow, and the normal force of a
+ * wire that strikes fast along a surface changes between a step's stages: where hardly any work is
+ * done, the rest of the excess can only be these. excess: the booked losses minus the step's loss
+ * [J]. */
 static double booked_too_high(const sw_books *b, sw_step_energy *step, double excess) {
   const double before = b->powers.damping, after = step->powers.damping;
   const double mean = sw_ledger_over_step(before, after, 1.0);
   const double least = mean > 0 ? step->damping * fmin(1.0, fmin(before, after) / mean) : 0.0;
+  const double rest = step->work > LITTLE_WORK * excess ? 0.0 : 1.0;
   double left = fmax(0.0, excess);
   struct {
     double *lost, most;
   } parts[] = {{&step->damping, step->damping - least},
                {&step->impact, step->impact},
                {&step->friction, 0.5 * step->friction},
-               {&step->damping, step->work != 0 ? 0.0 : least},
-               {&step->friction, step->work != 0 ? 0.0 : 0.5 * step->friction}};
-  for (size_t k = 0; k < (step->touching ? sizeof parts / sizeof *parts : 1); k++) {
+               {&step->damping, rest * least},
+               {&step->friction, rest * 0.5 * step->friction}};
+  for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
     const double part = fmin(left, fmax(0.0, parts[k].most));
     *parts[k].lost -= part, left -= part;
   }

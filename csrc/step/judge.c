@@ -24,6 +24,18 @@ static int next_redo(sw_ladder *p) {
   return p->redo < SW_DULLY ? SW_DULLY : SW_GIVE_UP;
 }
 
+/* Where nothing touches, half of a step makes at most a quarter of its energy, for the methods are
+ * of second order. A step that makes more than this share of what a longer one made only corrects
+ * the last state, which is as exact as its iteration: no smaller step helps [-]. */
+static const double HELPS = 0.5;
+
+static int smaller_helps(sw_ladder *p, double excess) {
+  const double start = sw_scene_time(p->s);
+  const int helps = p->made_at != start || !(excess > HELPS * p->made);
+  p->made_at = start, p->made = excess;
+  return helps;
+}
+
 /* The referee: a step that makes energy is computed again. SW_ENOCONV: it still makes energy. With
  * p->smallest such a step is accepted as it is, and counted. */
 sw_status sw_rung_judge(sw_ladder *p, const sw_rung *below, double h, sw_error *err) {
@@ -42,6 +54,7 @@ sw_status sw_rung_judge(sw_ladder *p, const sw_rung *below, double h, sw_error *
     SW_TRY(judge(p, h, &excess, err));
     if (!(excess > 0)) return SW_OK;
     const int next = next_redo(p);
+    if (p->smooth && !smaller_helps(p, excess)) return SW_OK;
     if (next == SW_GIVE_UP && p->smallest) {
       sw_ledger_retry(s, &l->accepted, sw_scene_time(s), excess);
       return SW_OK;

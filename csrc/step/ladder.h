@@ -30,6 +30,8 @@ typedef struct sw_ladder {
                       the end of the step; 0: dt [s] */
   sw_error held;   /* why the last part was rejected */
   int smooth;      /* 1: the last rejected step made energy where nothing touches */
+  double made_at;  /* start of that step [s] */
+  double made;     /* the energy that it made [J] */
   int changed;     /* 1: the scene was changed since the last step; the energy of this step is not
                       judged */
   int (*interrupted)(void);

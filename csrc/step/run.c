@@ -146,6 +146,7 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   SW_TRY(prepare(s, args, until, err));
   const sw_counters before = sw_scene_system(s)->counters;
   sw_ladder p = {.s = s,
+                 .made_at = NAN,
                  .args = args,
                  .report = report,
                  .interrupted = interrupted,
