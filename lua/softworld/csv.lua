@@ -69,7 +69,8 @@ local function complain(data, line, column, cell, title)
 end
 
 local function add_header(data, cells, columns, line)
-  for i, title in ipairs(cells) do
+  for i, cell in ipairs(cells) do
+    local title = sink.of_cell(cell)
     if title == "" then fail(data.name, line, columns[i], "column %d has no name", i) end
     if data.columns[title] then
       fail(data.name, line, columns[i], "there are two columns named '%s'", title)
@@ -88,7 +89,7 @@ local function add_row(data, cells, columns, line, text)
   local row = data.count + 1
   for i, title in ipairs(data.names) do
     local cell = cells[i]
-    local value = text and text[title] and cell or number_in(cell)
+    local value = text and text[title] and sink.of_cell(cell) or number_in(cell)
     if not value then complain(data, line, columns[i], cell, title) end
     if value == math.huge or value == -math.huge then
       fail(data.name, line, columns[i], "'%s' in column '%s' is too large", cell, title)
@@ -152,14 +153,6 @@ function csv.read(source, options)
   return csv.parse(text, source, options)
 end
 
-local function cell_text(value)
-  if math.type(value) == "integer" then return ("%d"):format(value) end
-  if type(value) == "number" then return sink.number(value) end
-  local text = tostring(value == nil and "" or value)
-  if text:find '[,;"\t\n\r#]' then text = '"' .. text:gsub('"', '""') .. '"' end
-  return text
-end
-
 local function lines_of(names, columns)
   local lines, count, head = {}, 0, {}
   for i, name in ipairs(names) do
@@ -167,12 +160,12 @@ local function lines_of(names, columns)
     if type(column) ~= "table" then
       error(("csv.write: there is no column '%s'"):format(checks.shown(name)), 0)
     end
-    head[i], count = cell_text(name), math.max(count, #column)
+    head[i], count = sink.cell(name), math.max(count, #column)
   end
   lines[1] = table.concat(head, ",")
   for row = 1, count do
     local cells = {}
-    for i, name in ipairs(names) do cells[i] = cell_text(columns[name][row]) end
+    for i, name in ipairs(names) do cells[i] = sink.cell(columns[name][row]) end
     lines[row + 1] = table.concat(cells, ",")
   end
   lines[#lines + 1] = ""

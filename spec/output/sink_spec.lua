@@ -1,5 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
+local csv = require "softworld.csv"
 local files = require "spec.output.files"
+local series = require "softworld.output.series"
 local sink = require "softworld.output.sink"
 
 describe("sink", function()
@@ -86,6 +88,22 @@ describe("sink", function()
     assert.equal("9007199254740993", sink.number(9007199254740993))
     assert.same({ "nan", "nan", "inf", "-inf" },
       { sink.number(0 / 0), sink.number(-(0 / 0)), sink.number(1 / 0), sink.number(-1 / 0) })
+  end)
+
+  it("has one way to write a cell of a CSV file, in which no text is a formula", function()
+    for text, cell in pairs { ["=1+2"] = "'=1+2", ["+x"] = "'+x", ["-x [m]"] = "'-x [m]", ["@a"] = "'@a",
+      ["\t=a"] = "' =a", ["=a,b"] = [["'=a,b"]], ["-"] = "-", ["a-b=c"] = "a-b=c", [" a"] = '" a"',
+      ['a"b'] = '"a""b"', ["a\nb"] = "a b" } do
+      assert.equal(cell, sink.cell(text))
+    end
+    assert.same({ "", "-1", "-0.5", "nan" },
+      { sink.cell(nil), sink.cell(-1), sink.cell(-0.5), sink.cell(0 / 0) })
+    local data = { time = { 0 }, columns = { { name = "=cmd()", unit = "N", values = { -1 } } } }
+    assert.equal("t [s],'=cmd() [N]\n0,-1\n", sink.read_file(series.csv(data, folder .. "/s.csv")))
+    csv.write(folder .. "/c.csv", { "@a", "t" }, { ["@a"] = { -1 }, t = { "=b;c" } })
+    assert.equal("'@a,t\n-1,\"'=b;c\"\n", sink.read_file(folder .. "/c.csv"))
+    local back = csv.read(folder .. "/c.csv", { text = { t = true } })
+    assert.same({ ["@a"] = { -1 }, t = { "=b;c" } }, back.columns)
   end)
 
   it("quotes words for the shell", function()

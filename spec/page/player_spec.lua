@@ -266,6 +266,12 @@ describe("the player", function()
     local lines = select(2, csv:gsub("\n", ""))
     assert.is_true(lines > 100)
     assert.truthy(csv:match "^t %[s%],hand%.force %[N%]")
+    local named = page:call([[
+      player.data.runs[0].series.columns[0].name = "=1+2,\n";
+      const old = URL.createObjectURL;
+      URL.createObjectURL = (blob) => { URL.createObjectURL = old; blob.text().then(done); return old.call(URL, blob); };
+    ]] .. export "CSV")
+    assert.truthy(named:match '^t %[s%],"\'=1%+2,  %[N%]"', named:sub(1, 60)) -- no formula, no second row
     page:go(address "laying.html" .. "#t=1.25&camera=1,-2,1.5,0.1,0,0.05")
     page:run "document.title" -- the same page: only its hash has changed
     page:wait "return Math.abs(player.state.get('time') - 1.25) < 1e-9"

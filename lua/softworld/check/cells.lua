@@ -47,27 +47,13 @@ function cells.check_path(what, path, extension)
     or type(path)), 0)
 end
 
--- A spreadsheet computes a text that begins like a formula, unless ' is in front.
-local function quoted(text)
-  if text:find "^[=+@-]." then text = "'" .. text end
-  if text:find '[",;\r\n\t#]' or text:find "^%s" or text:find "%s$" then
-    return '"' .. cells.one_line(text):gsub('"', '""') .. '"'
-  end
-  return text
-end
-
-local function cell(value)
-  if value == nil then return "" end
-  return type(value) == "number" and sink.number(value) or quoted(tostring(value))
-end
-
 --- Writes rows as CSV.
 function cells.write_csv(path, columns, rows)
   return sink.write_file(path, function(write)
     write(table.concat(columns, ",") .. "\n")
     for _, row in ipairs(rows) do
       local line = {}
-      for c, name in ipairs(columns) do line[c] = cell(row[name]) end
+      for c, name in ipairs(columns) do line[c] = sink.cell(row[name]) end
       write(table.concat(line, ",") .. "\n")
     end
   end)

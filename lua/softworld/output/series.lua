@@ -93,13 +93,6 @@ function series.head(name, unit)
   return name .. " [" .. unit .. "]"
 end
 
-local function cell(text)
-  if text:find('[",\r\n]') or text:find("^%s") or text:find("%s$") then
-    return '"' .. text:gsub('"', '""') .. '"'
-  end
-  return text
-end
-
 --- Writes the series as CSV through a function.
 -- First line: `t [s]`, then each name with its unit; then one line per time.
 -- @tparam table source see series.of
@@ -107,7 +100,7 @@ end
 function series.write_csv(source, write)
   local data = series.of(source)
   local heads = { "t [s]" }
-  for _, column in ipairs(data.columns) do heads[#heads + 1] = cell(series.head(column.name, column.unit)) end
+  for _, column in ipairs(data.columns) do heads[#heads + 1] = sink.cell(series.head(column.name, column.unit)) end
   write(table.concat(heads, ",") .. "\n")
   local row, number = {}, sink.number
   for i, time in ipairs(data.time) do

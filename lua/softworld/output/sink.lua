@@ -41,6 +41,24 @@ function sink.number(x)
   return text
 end
 
+--- Returns a value as a cell of a CSV file. A spreadsheet computes a text that begins like a formula, so such
+-- a text gets a ' in front; control characters become spaces.
+-- @param value number, text or nil
+-- @treturn string
+function sink.cell(value)
+  if value == nil then return "" end
+  if type(value) == "number" then return sink.number(value) end
+  local text = tostring(value):gsub("%c", " ")
+  if text:find "^%s*[=+@-]." then text = "'" .. text end
+  if text:find '[",;#]' or text:find "^%s" or text:find "%s$" then return '"' .. text:gsub('"', '""') .. '"' end
+  return text
+end
+
+--- Returns the text of a cell that sink.cell wrote, without the ' in front.
+function sink.of_cell(text)
+  return text:find "^'%s*[=+@-]." and text:sub(2) or text
+end
+
 --- Returns the folder part of a path.
 -- @tparam string path
 -- @treturn string "." for a bare name, never with a trailing slash except "/"

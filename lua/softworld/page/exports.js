@@ -46,7 +46,12 @@ export function savePicture(view, data, state, look) {
   composed(view, data, state, look).toBlob((blob) => download(blob, `${safe(data.title)}.png`), "image/png");
 }
 
-const cell = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
+/** A text as a cell, as softworld.output.sink writes it: a spreadsheet computes what begins like a formula, unless ' is in front. */
+function cell(name) {
+  let text = name.replace(/[\u0000-\u001f\u007f]/g, " ");
+  if (/^\s*[=+@-]./.test(text)) text = `'${text}`;
+  return /[",;#]|^\s|\s$/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+}
 
 /** All series as CSV text: of one run its columns, of several one table after the other. */
 export function tableText(data) {
@@ -63,7 +68,7 @@ export function tableText(data) {
       }
       lines.push(row.join(","));
     }
-    parts.push((data.runs.length > 1 ? `# ${run.name}\n` : "") + lines.join("\n"));
+    parts.push((data.runs.length > 1 ? `# ${run.name.replace(/[\u0000-\u001f\u007f]/g, " ")}\n` : "") + lines.join("\n"));
   }
   return `${parts.join("\n\n")}\n`;
 }
