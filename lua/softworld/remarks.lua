@@ -24,6 +24,8 @@ local rules = {
     radius = { "m", 1e-5, 10, "mm" }, length = { "m", 1e-5, 100, "mm" } },
   wire_contact = { friction = { "", 0, 3 } },
   pads = { friction = { "", 0, 3 }, width = { "m", 1e-4, 0.5, "mm" }, opening = { "m", 1e-5, 1, "mm" } },
+  rating = { force = { "N", 1e-2, 1e5, "mN" },
+    moment = { "N m", 1e-4, 1e4 }, stroke = { "m", 1e-4, 1, "mm" } },
   grasp = { force = { "N", 1e-4, 1e4, "mN" }, speed = { "m/s", 1e-6, 20, "mm_per_s" } },
   move = { speed = { "m/s", 1e-6, 20, "mm_per_s" }, duration = { "s", 1e-4, 1e5, "ms" },
     by = { "m", 0, 20, "mm" }, to = { "m", 0, 20, "mm" } },

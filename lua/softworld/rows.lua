@@ -12,8 +12,8 @@
 --
 -- A row: name, type, unit, one line; then default, min, max, above (min itself is not allowed), required,
 -- choices, about (a function that gives a line about each), rows (of a table within), usual (the default in
--- words, where a number cannot tell it), empty (a text may be). Types: number, integer, boolean, text,
--- choice, vector, rotation, function, table; numbers (one, or a list of them), list (of = "number" checks
+-- words, where a number cannot tell it), empty (a text may be), off (false is allowed too). Types: number,
+-- integer, boolean, text, choice, vector, rotation, function, table; numbers (one, or a list of them), list (of = "number" checks
 -- its items), reaction (a choice or a function). Other types are shown in help only; the reader checks them.
 -- @module softworld.rows
 local core = require "softworld.core"
@@ -168,7 +168,7 @@ function Call:read(args, what, prefix)
     local value = args[row.name]
     if value ~= nil then
       local look = check[row.type]
-      local read = look and look(prefix .. row.name, row, value)
+      local read = look and not (row.off and value == false) and look(prefix .. row.name, row, value)
       if read ~= nil then copy[row.name] = read end
     elseif row.required then
       missing(prefix, row)

@@ -156,16 +156,21 @@ local function judge_given(given, known, reference, fresh, value, unit, own_side
   end
 end
 
-local function missing_row(row, member, entry)
+-- Says which limit is missing and how to give it, or how to say that none is needed.
+local function missing_row(self, row, member, entry)
   local nan = row.value ~= row.value
   row.verdict = nan and "FAIL" or "OPEN"
   if nan then add_note(row, "the value is not a number") end
   local key = entry.name and entry.name .. "." .. member.name or member.name
-  add_note(row, ("limit is missing: the catalogue has no %s here; give limits = { ['%s'] = } [%s]"):format(
-    member.missing, key, member.unit))
+  local lacks = member.rated and ("the gripper has no rating; give scene:gripper { rating = { %s = } } or")
+    :format(member.rated) or ("the catalogue has no %s here; give"):format(member.missing)
+  add_note(row, ("limit is missing: %s limits = { ['%s'] = } [%s], or false if none is needed"):format(lacks,
+    key, member.unit))
+  self.missing[#self.missing + 1] = { name = key, unit = member.unit }
 end
 
--- Returns the limit from the catalogue or a standard; nil and the reason if there is none.
+-- Returns the limit from the catalogue, a standard or a rating; nil and the reason if there is none; false if
+-- none is needed.
 local function known_limit(member, entry, context)
   if not member.limit then return nil end
   local fine, known = pcall(member.limit, entry, context)
@@ -178,11 +183,12 @@ end
 local function judge_one(self, member, entry, context, list)
   local given = limits.of(list, member, entry)
   local full = entry.name and entry.name .. "." .. member.name or member.name
-  if given == false then
-    self.skipped[#self.skipped + 1] = full
+  local known, why = known_limit(member, entry, context)
+  if given == false or known == false and not given then
+    if given == false or not member.asked then self.skipped[#self.skipped + 1] = full end
     return
   end
-  if member.asked and not given and not (member.wanted and member.wanted(context)) then return end
+  if member.asked and not given and not (member.wanted and member.wanted(context, entry)) then return end
   local read = entry.released and function() return released.value(entry, member.name) end or member.value
   local fine, value = pcall(read, entry, context)
   if not fine then
@@ -201,15 +207,15 @@ local function judge_one(self, member, entry, context, list)
   doubted.widen(value, member, self.run)
   local function fresh() return start_row(self, member.name, entry.name, member.label, member.unit, value) end
   value.doubt = value.doubt or doubted.why(member, value, entry, self.run)
-  local known, why = known_limit(member, entry, context)
   if given then
     local reference = member.reference and member.reference(entry, context)
-    judge_given(given, known, reference, fresh, value, member.unit, member.side)
+    judge_given(given, known or nil, reference, fresh, value, member.unit, member.side)
     if given[member.side] or member.asked and not known then return end
   end -- a limit on the other side alone does not replace the check's own
+  if known == false then return end
   if not known then
     local row = fresh()
-    missing_row(row, member, entry)
+    missing_row(self, row, member, entry)
     return add_note(row, why)
   end
   close_row(fresh(), value, known, member.side, false)
@@ -331,7 +337,7 @@ end
 local function make(run, args, several)
   if not run.ok then args = call:read(args == nil and {} or args) end
   local self = { run = run, scene = run.scene, name = run.name, start = run.start, time = run.time, rows = {},
-    skipped = {}, made = {}, several = several, trial = type(args) == "table" and args.trial }
+    skipped = {}, missing = {}, made = {}, several = several, trial = type(args) == "table" and args.trial }
   local why = unfit(run)
   if why then
     refuse(self, why)

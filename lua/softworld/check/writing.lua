@@ -24,6 +24,8 @@ local columns = writing.columns
 
 -- --- the terminal ------------------------------------------------------------------------------------
 
+local WIDE = 100 -- longest line of missing limits [characters]
+
 local sign = { max = "<= ", min = ">= " }
 
 local function line_of(row)
@@ -36,6 +38,22 @@ local function line_of(row)
   return { row.verdict, cells.plain(row.name), cells.number(row.value, row.unit) .. bar, limit,
     row.from or "", row.margin and "margin " .. cells.number(row.margin, row.unit) or "",
     cells.plain(table.concat(place, ", ")), note = row.note }
+end
+
+-- Adds the limits that are missing, to be copied into the script.
+local function add_missing(lines, missing)
+  if #missing < 2 then return end -- the row says it
+  local line = "  limits are missing; give numbers, or false where none is needed:"
+  lines[#lines + 1] = line
+  line = "    limits = {"
+  for i, one in ipairs(missing) do
+    local part = (" [%q] = [%s]%s"):format(cells.plain(one.name), one.unit, i < #missing and "," or " }")
+    if #line + #part > WIDE then
+      lines[#lines + 1], line = line, "     "
+    end
+    line = line .. part
+  end
+  lines[#lines + 1] = line
 end
 
 -- True if any row has an error bar of edges and steps.
@@ -53,6 +71,7 @@ function Check:__tostring()
   local list = {}
   for i, row in ipairs(own.rows) do list[i] = line_of(row) end
   cells.add_table(lines, list)
+  add_missing(lines, own.missing)
   if not own.no_numbers and #own.rows > 0 and not has_bars(own.rows) then
     lines[#lines + 1] = "  values have no error bars for edges and steps; scene:run{ check = {...} } "
       .. "computes them"

@@ -49,6 +49,16 @@ local function has_pads(given)
   return false
 end
 
+-- What the gripper can bear and do, by its data sheet; rows of checks are judged by it.
+local rating = rows.list{
+  { "force", "number", "N", "largest force on its wires, or false: no rating is needed", min = 0,
+    above = true, off = true },
+  { "moment", "number", "N m", "largest moment about its centre, or false", min = 0, above = true,
+    off = true },
+  { "stroke", "number", "m", "largest opening of its pads, or false", min = 0, above = true, off = true },
+  { "source", "text", "-", "where the rating is from" },
+}
+
 local new = rows.call("scene:gripper", "{...}", "a gripper that grasps wires, moves them and lets go", {
   gives = "a gripper", example = 'scene:gripper { name = "left", pads = { friction = 0.6 } }',
   { "name", "text", "-", "name in messages and series", usual = "gripper1, ..." },
@@ -62,11 +72,13 @@ local new = rows.call("scene:gripper", "{...}", "a gripper that grasps wires, mo
   { "on_crash", "reaction", "-",
     "reaction when pads or arm run into an obstacle: one of these, or a function(gripper, event)",
     choices = reactions.words, usual = "record" },
+  { "rating", "table", "-", "limits of its data sheet, by which run:check judges its rows; false: no "
+    .. "rating is needed", rows = rating, off = true },
 })
 
 -- Fields that a gripper keeps if a restored snapshot does not contain it.
 local lasting = { scene = true, name = true, pads = true, width = true, arm = true, first_at = true,
-  solid = true, slip_tolerance = true }
+  solid = true, slip_tolerance = true, rating = true }
 
 local function make(scene, args)
   local a = new:read(args == nil and {} or args)
@@ -78,7 +90,8 @@ local function make(scene, args)
   self.pads, self.width = given, given.width
   remarks.on("pads", ("gripper '%s': pads"):format(self.name), a.pads or {})
   self.at, self.rotation, self.arm, self.on_crash = a.at, a.rotation, a.arm or false, a.on_crash
-  self.slip_tolerance = a.slip_tolerance
+  self.slip_tolerance, self.rating = a.slip_tolerance, a.rating
+  remarks.on("rating", ("gripper '%s': rating"):format(self.name), a.rating)
   self.past, self.spans = {}, {} -- holds of all grasps, and { from =, to = [s] } of each
   self.grips = {} -- what is held: { wire =, hold = }
   self.first_at = a.at or false
@@ -256,7 +269,7 @@ local fields = {}
 for _, key in ipairs{ "gone", "wires", "hold", "at", "rotation", "tool", "wire", "way", "frozen", "on_slip",
   "opening", "order", "obstacles", "held", "unchecked", "s", "free_height", "margin", "segments",
   "mesh_model", "rod_model", "slip_event", "crash_time", "on_crash", "carrier", "facing",
-  "busy_until", "left", "bereft" } do
+  "busy_until", "left", "bereft", "rating" } do
   fields[key] = true
 end
 
@@ -310,6 +323,7 @@ rows.calls{
   { "gripper.events", nil, "what happened; may be set to {}",
     "{ kind = 'slip', 'lost', 'crash', ..., time [s] }, ..." },
   { "gripper.slip_tolerance", nil, "see scene:gripper; may be set", "m" },
+  { "gripper.rating", nil, "see scene:gripper", "a table, false or nil" },
   { "gripper.on_slip", nil, "see gripper:grasp; may be set" },
   { "gripper.on_crash", nil, "see scene:gripper; may be set" },
 }
@@ -322,7 +336,7 @@ end
 
 --- Returns the names of methods and measures, for completion at the prompt.
 function Gripper.__names()
-  local names = { "name", "width", "events", "wire", "wires" }
+  local names = { "name", "width", "events", "wire", "wires", "rating" }
   for name in pairs(Gripper) do
     if name:sub(1, 2) ~= "__" and name ~= "leave" then
       names[#names + 1] = name

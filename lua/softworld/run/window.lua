@@ -167,9 +167,9 @@ function window.largest(steps, width)
   return p
 end
 
--- 0.01 -> 10 ms
+-- 0.01 -> 10 ms. Rounded first: 999.7 us are 1 ms, not 1e+03 us.
 local function short(x, unit)
-  local digits, scaled = number.engineering(x, unit)
+  local digits, scaled = number.engineering(tonumber(("%.3g"):format(x)) or x, unit)
   return ("%.3g %s"):format(tonumber(digits), scaled)
 end
 

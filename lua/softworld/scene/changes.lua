@@ -85,7 +85,7 @@ local of_gripper = rows.call("gripper:set", "{...}", "changes the gripper from n
     choices = reactions.words },
 })
 rows.calls{ { "gripper:get", "", "present values of its parameters",
-  "name, pads, at [m], rotation, arm, slip_tolerance [m], on_slip, on_crash, force [N]" } }
+  "name, pads, at [m], rotation, arm, slip_tolerance [m], rating, on_slip, on_crash, force [N]" } }
 
 local function copied(t)
   if type(t) ~= "table" then return t or nil end
@@ -100,7 +100,11 @@ end
 
 function Gripper:get()
   stand.check_there(self, 3)
-  return { name = self.name, pads = copied(self.pads), at = self:position(), rotation = copied(self.rotation),
+  local rating = self.rating -- it may be false, and so may its parts
+  if rating then
+    rating = { force = rating.force, moment = rating.moment, stroke = rating.stroke, source = rating.source }
+  end
+  return { name = self.name, pads = copied(self.pads), rating = rating, at = self:position(), rotation = copied(self.rotation),
     arm = copied(self.arm), slip_tolerance = self.slip_tolerance, on_slip = self.on_slip,
     on_crash = self.on_crash, force = kept_force(self) }
 end
