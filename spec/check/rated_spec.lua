@@ -103,7 +103,8 @@ describe("a gripper's rating", function()
     for _, case in ipairs{
       { { force = -1 }, "rating.force = -1 N is not allowed; it must be above 0 N" },
       { { force = 0 / 0 }, "rating.force" }, { { torque = 1 }, "there is no parameter 'torque'" },
-      { 20, "rating takes one table of parameters, got number" }, { { force = true }, "rating.force = a boolean" } } do
+      { 20, "rating takes one table of parameters, got number" },
+      { { force = true }, "rating.force = a boolean" } } do
       local fine, why = pcall(lift, case[1])
       assert.is_false(fine)
       assert.truthy(tostring(why):find(case[2], 1, true), tostring(why))

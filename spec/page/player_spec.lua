@@ -269,7 +269,11 @@ describe("the player", function()
     local named = page:call([[
       player.data.runs[0].series.columns[0].name = "=1+2,\n";
       const old = URL.createObjectURL;
-      URL.createObjectURL = (blob) => { URL.createObjectURL = old; blob.text().then(done); return old.call(URL, blob); };
+      URL.createObjectURL = (blob) => {
+        URL.createObjectURL = old;
+        blob.text().then(done);
+        return old.call(URL, blob);
+      };
     ]] .. export "CSV")
     assert.truthy(named:match '^t %[s%],"\'=1%+2,  %[N%]"', named:sub(1, 60)) -- no formula, no second row
     page:go(address "laying.html" .. "#t=1.25&camera=1,-2,1.5,0.1,0,0.05")

@@ -100,7 +100,9 @@ end
 function series.write_csv(source, write)
   local data = series.of(source)
   local heads = { "t [s]" }
-  for _, column in ipairs(data.columns) do heads[#heads + 1] = sink.cell(series.head(column.name, column.unit)) end
+  for _, column in ipairs(data.columns) do
+    heads[#heads + 1] = sink.cell(series.head(column.name, column.unit))
+  end
   write(table.concat(heads, ",") .. "\n")
   local row, number = {}, sink.number
   for i, time in ipairs(data.time) do

@@ -50,7 +50,9 @@ function sink.cell(value)
   if type(value) == "number" then return sink.number(value) end
   local text = tostring(value):gsub("%c", " ")
   if text:find "^%s*[=+@-]." then text = "'" .. text end
-  if text:find '[",;#]' or text:find "^%s" or text:find "%s$" then return '"' .. text:gsub('"', '""') .. '"' end
+  if text:find '[",;#]' or text:find "^%s" or text:find "%s$" then
+    return '"' .. text:gsub('"', '""') .. '"'
+  end
   return text
 end
 

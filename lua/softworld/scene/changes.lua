@@ -104,7 +104,8 @@ function Gripper:get()
   if rating then
     rating = { force = rating.force, moment = rating.moment, stroke = rating.stroke, source = rating.source }
   end
-  return { name = self.name, pads = copied(self.pads), rating = rating, at = self:position(), rotation = copied(self.rotation),
+  return { name = self.name, pads = copied(self.pads), rating = rating, at = self:position(),
+    rotation = copied(self.rotation),
     arm = copied(self.arm), slip_tolerance = self.slip_tolerance, on_slip = self.on_slip,
     on_crash = self.on_crash, force = kept_force(self) }
 end
