@@ -14,8 +14,8 @@
 -- choices, about (a function that gives a line about each), rows (of a table within), usual (the default in
 -- words, where a number cannot tell it), empty (a text may be), off (false is allowed too). Types: number,
 -- integer, boolean, text, choice, vector, rotation, function, table; numbers (one, or a list of them), list
--- (of = "number" checks its items), reaction (a choice or a function). Other types are shown in help only; the
--- reader checks them.
+-- (of = "number" checks its items), reaction (a choice or a function). Other types are shown in help only;
+-- the reader checks them.
 -- @module softworld.rows
 local core = require "softworld.core"
 local checks = require "softworld.checks"

@@ -5,6 +5,7 @@ import { h } from "./dom.js";
 import { format } from "./model.js";
 import { CURVES } from "./colours.js";
 import { limitsOf } from "./check.js";
+import { robust } from "./scale.js";
 
 const MANY = 8;       // curves of a unit beyond which components of vectors wait to be asked for
 const STRAIGHT = 100; // times the smallest bend radius: what is drawn of radii
@@ -78,9 +79,13 @@ class Chart {
     this.plot = h("div.plot");
     this.cursor = h("div.cursor", { "aria-hidden": "true" });
     this.chips = h("div.chips");
+    this.marks = h("div.peaks");
+    this.whole = false; // the scale holds the highest peaks
+    this.scale = h("button.link.scale", { type: "button", "aria-pressed": "false", hidden: true,
+      onclick: () => { this.whole = !this.whole; this.fit(); } });
     this.element = h("section.chart", { "aria-label": `Chart of ${title(group).toLowerCase()}` },
-      h("h3", {}, title(group), h("span.unit", {}, group.unit && group.unit !== "-" ? ` ${group.unit}` : "")),
-      h("div.plot-box", {}, this.plot, this.cursor), this.chips);
+      h("h3", {}, title(group), h("span.unit", {}, group.unit && group.unit !== "-" ? ` ${group.unit}` : ""), this.scale),
+      h("div.plot-box", {}, this.plot, this.marks, this.cursor), this.chips);
     for (const c of group.curves) this.addChip(c);
   }
 
@@ -91,6 +96,7 @@ class Chart {
         curve.on = !curve.on;
         curve.chip.setAttribute("aria-pressed", String(curve.on));
         this.graph?.setVisibility(this.group.curves.indexOf(curve), curve.on);
+        this.fit();
         this.read(this.state.get("time"));
       } },
     h("span.swatch", { style: { background: curve.colour } }), h("span.name", {}, curve.label), curve.reading);
@@ -114,10 +120,45 @@ class Chart {
       clickCallback: (e, t) => this.state.set({ time: t, playing: false }),
       drawCallback: (g, first) => {
         this.place(this.state.get("time"));
-        if (!first) this.all.zoomed(this, g.xAxisRange());
+        if (first) return;
+        this.all.zoomed(this, g.xAxisRange());
+        this.fit();
       },
     });
+    this.fit();
     this.read(this.state.get("time"));
+  }
+
+  /** Scales the values in view so that a blow does not make the rest flat; marks the peaks beyond. */
+  fit() {
+    if (!this.graph || this.fitting || this.group.radius) return;
+    const window = this.graph.xAxisRange();
+    const found = robust(this.group.curves.filter((c) => c.on), window);
+    const range = found && !this.whole ? found.range : null;
+    if (String(range) !== String(this.range ?? null)) {
+      this.range = range;
+      this.fitting = true; // it draws
+      this.graph.updateOptions({ axes: { y: { valueRange: range } } });
+      this.fitting = false;
+    }
+    this.scale.hidden = !found;
+    this.scale.setAttribute("aria-pressed", String(this.whole));
+    this.scale.textContent = this.whole ? "Cut the peaks" : "Show whole peaks";
+    this.mark(range ? found.peaks : []);
+  }
+
+  /** A triangle at the edge for each curve that goes beyond it; the largest has its value beside it. */
+  mark(peaks) {
+    const area = this.graph.getArea();
+    this.marks.replaceChildren(...peaks.map(({ curve, t, value, up }) => {
+      const x = this.graph.toDomXCoord(t), first = peaks.find((p) => p.up === up).curve === curve;
+      const words = `${curve.label}: ${format(value, curve.unit)} at ${format(t, "s")}`;
+      const mark = h(`button.peak.${up ? "up" : "down"}`, { type: "button", title: words, "aria-label": words,
+        onclick: () => this.state.set({ time: t, playing: false }) },
+      first && h(x > area.x + area.w / 2 ? "span.left" : "span", {}, format(value, curve.unit)));
+      Object.assign(mark.style, { color: curve.colour, left: `${x}px`, top: `${up ? area.y : area.y + area.h}px` });
+      return mark;
+    }).reverse()); // the largest is on top
   }
 
   place(t) {
@@ -149,6 +190,7 @@ class Chart {
 
   resize() {
     this.graph?.resize();
+    this.fit(); // its marks are in pixels
     this.place(this.state.get("time"));
   }
 }

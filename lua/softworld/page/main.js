@@ -104,7 +104,7 @@ function tools(view, state) {
 function menu(view, data, state, span) {
   const host = $("menu"), list = h("div.menu-list", { role: "menu", hidden: true });
   const open = h("button.text-button", { type: "button", "aria-haspopup": "menu", "aria-expanded": "false",
-    onclick: () => toggle(list.hidden) }, icon("share"), "Export");
+    onclick: () => toggle(list.hidden) }, icon("share"), h("span.wide", {}, "Export"));
   const toggle = (on) => {
     list.hidden = !on;
     open.setAttribute("aria-expanded", String(on));
