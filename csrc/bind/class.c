@@ -301,7 +301,8 @@ double lsw_number(lua_State *L, int index, const char *what, const char *unit) {
                       *space ? "]" : "", lsw_describe(L, index));
   const double value = lua_tonumber(L, index);
   if (!isfinite(value))
-    return luaL_error(L, "%s = %f%s%s is not allowed; it must be a finite number", what, value,
+    return luaL_error(L, "%s = %f%s%s is not allowed; it must be a finite number", what,
+                      isnan(value) ? fabs(value) : value, /* -nan is no other number */
                       space, shown);
   return value;
 }

@@ -94,6 +94,7 @@ local LONGEST = 32 -- longest text that a message quotes [characters]
 --- Returns a wrong value as messages show it: 3 m, '3', a table. unit: with a space in front.
 function checks.got(value, unit)
   local kind = checks.kind(value)
+  if value ~= value then return "nan" .. (unit or "") end -- C prints it as -nan
   if kind == "number" then return ("%.9g%s"):format(value, unit or "") end
   if kind == "nil" then return kind end
   if kind == "string" then
@@ -110,6 +111,7 @@ function checks.number(what, value, low, unit, level, high, above)
   if fine then return value end
   local any = low == -math.huge
   local range = any and "finite" or ("%s %g%s"):format(above and "above" or "at least", low, unit)
+  if value == math.huge and not high then range = "finite and " .. range end
   if high then range = ("%s and at most %g%s"):format(range, high, unit) end
   if value == nil then error(("%s is required, %s"):format(what, range), level) end
   error(("%s = %s is not allowed; it must be %s%s"):format(what, checks.got(value, unit),

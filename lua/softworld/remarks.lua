@@ -31,6 +31,7 @@ local rules = {
     by = { "m", 0, 20, "mm" }, to = { "m", 0, 20, "mm" } },
   clip = { friction = { "", 0, 3 }, width = { "m", 1e-4, 0.5, "mm" }, insertion = { "N", 1e-3, 1e4, "mN" },
     retention = { "N", 1e-3, 1e4, "mN" }, radius = { "m", 1e-5, 0.2, "mm" } },
+  feed = { speed = { "m/s", 0, 20, "mm_per_s" } },
   channel = { friction = { "", 0, 3 }, width = { "m", 1e-4, 5, "mm" }, depth = { "m", 1e-4, 5, "mm" } },
   tie = { slack = { "m", 0, 10, "mm" }, strength = { "N", 1e-3, 1e6, "mN" } },
   run = { duration = { "s", 0, 1e7 }, dt = { "s", 0, 1, "ms" } },
@@ -246,6 +247,29 @@ local function look(wire, obstacle)
   tell("inside", ("wire '%s' begins inside '%s': it reaches %.4g mm into it at (%.4g, %.4g, %.4g) m, %s")
     :format(wire.name, obstacle.name, 1e3 * (wire.radius - least), deepest[1], deepest[2], deepest[3],
     start and "at its start" or "along its path"))
+end
+
+--- Remarks on a place that a wire cannot get to: the seat of a clip inside an obstacle.
+function remarks.seat(data, what, at)
+  if not remarks.wanted() then return end
+  for _, obstacle in ipairs(data.obstacles) do
+    local object = obstacle.object
+    if core.exists(object) and object.present and object.shape:kind() ~= "mesh" then -- a mesh may be open
+      local place_of, q = object:pose()
+      local gap = object.shape:distance(vec.rotate(vec.conjugate(q), vec.sub(at, place_of)))
+      if gap and gap < 0 then
+        tell("seat", ("%s: its seat is %.4g mm inside '%s', where no wire can lie"):format(what, -1e3 * gap,
+          obstacle.name))
+      end
+    end
+  end
+end
+
+--- Remarks on a name with control characters, such as line ends.
+function remarks.name(what, name)
+  if not name:find "%c" or not remarks.wanted() then return end
+  tell("name", ("%s: its name %q has control characters, which tables and charts show as spaces"):format(what,
+    (name:gsub("%c", "?"))))
 end
 
 local round = { cylinder = true, capsule = true }

@@ -143,3 +143,22 @@ describe("the nearest of many names", function()
     assert.truthy(tostring(why):find("did you mean 'last of all'?", 1, true), why)
   end)
 end)
+
+describe("an empty name", function()
+  it("is refused wherever an object has a name, and nothing is made", function()
+    local s = sw.scene{}
+    local w = s:wire{ E = 1e6, density = 1000, radius = 0.001, from = { 0, 0, 0 }, to = { 1, 0, 0 } }
+    for kind, make in pairs{
+      wire = function() s:wire{ name = "", E = 1e6, density = 1, radius = 1e-3, from = { 0, 0, 0 },
+        to = { 1, 0, 0 } } end,
+      plane = function() s:obstacle{ name = "", shape = "plane" } end,
+      clamp = function() s:clamp(w, { name = "", s = 0 }) end } do
+      local fine, why = pcall(make)
+      assert.is_false(fine)
+      assert.truthy(why:find(kind .. ": name must not be empty", 1, true), why)
+    end
+    assert.same({ 1, 0 }, { #s:wires(), #s:obstacles() })
+    assert.equal(w, s:find "wire1")
+    s:run{ duration = 0.01 }
+  end)
+end)

@@ -14,6 +14,7 @@
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local fixing = require "softworld.link.fixing"
+local remarks = require "softworld.remarks"
 local rows = require "softworld.rows"
 local vec = require "softworld.vec"
 local fixshape = require "softworld.link.fixshape"
@@ -131,6 +132,7 @@ end
 fixing.made(Clip, function(scene, given)
   local args = checked(scene, given)
   local name, time = args.name, args.snap
+  remarks.seat(build.data(scene), ("clip '%s'"):format(name), args.at)
   args.name, args.snap, args.kind = nil, nil, "clip"
   local force = scene:force(args)
   force:call_it(name)

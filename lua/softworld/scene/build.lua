@@ -104,9 +104,12 @@ function build.name(scene, given, kind, count, level)
     repeat count = count + 1 until not is_taken(data, kind .. count)
     return kind .. count
   end
-  if type(given) == "string" and is_taken(data, given) then
+  if type(given) ~= "string" then return given end -- refused by the reader of the arguments
+  if given == "" then error(("%s: name must not be empty"):format(kind), level) end
+  if is_taken(data, given) then
     error(("scene '%s' already has something named '%s'"):format(scene.name, given), level)
   end
+  remarks.name(kind, given)
   return given
 end
 
@@ -297,6 +300,7 @@ for _, kind in ipairs(hold_kinds) do
       args.name = build.name(scene, args.name, kind == "hold" and "clamp" or kind, #data.holds, 3)
     end
     local hold = build.call(3, new_hold, scene, wire, args)
+    if kind == "feed" then remarks.on(kind, ("feed '%s'"):format(args.name), args) end
     data.holds[#data.holds + 1] =
       { object = hold, name = args.name, kind = kind, width = args.width }
     return hold
