@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lua class force and scene:force; Lua functions as forces. */
+#include <stdarg.h>
 #include <string.h>
 
 #include "bind/bind_motion.h"
@@ -35,22 +36,45 @@ static void push_flat(lua_State *L, int table, const char *key, const double *va
   }
 }
 
+/* Raises an error with the line where the function is defined. */
+static int fail(lua_State *L, const char *format, ...) {
+  va_list list;
+  va_start(list, format);
+  lua_getfield(L, 1, "call");
+  lsw_motion_place(L);
+  lua_pushliteral(L, "force function: ");
+  lua_pushvfstring(L, format, list);
+  va_end(list);
+  lua_concat(L, 3);
+  return lua_error(L);
+}
+
 /* Adds the forces of the array to the field. */
 static void read_back(lua_State *L, int array, sw_field *field, size_t n) {
   if (lua_rawlen(L, array) > n)
-    luaL_error(L, "force function: f has %d items; it must keep its %d, three for each node",
-               (int)lua_rawlen(L, array), (int)n);
+    fail(L, "f has %d items; it must keep its %d, three for each node", (int)lua_rawlen(L, array),
+         (int)n);
   for (size_t i = 0; i < n; i++) {
     lua_rawgeti(L, array, (lua_Integer)i + 1);
     const double f = lua_tonumber(L, -1);
     if (lua_type(L, -1) != LUA_TNUMBER || !isfinite(f))
-      luaL_error(L,
-                 "force function: component %d of the force on node %d is %s; it must be a finite "
-                 "number [N]",
-                 (int)(i % 3) + 1, (int)(i / 3) + 1, lsw_describe(L, -1));
+      fail(L, "component %d of the force on node %d is %s; it must be a finite number [N]",
+           (int)(i % 3) + 1, (int)(i / 3) + 1, lsw_describe(L, -1));
     lua_pop(L, 1);
     field->force[i] += f;
   }
+}
+
+/* A function that returns its force, as functions of motion do, would act without any. The result
+ * is on top; f may be returned. */
+static void refuse_result(lua_State *L) {
+  lua_getfield(L, 1, "f");
+  if (!lua_isnil(L, -2) && !lua_rawequal(L, -1, -2))
+    fail(L,
+         "it returned %s, which is not used; add the force [N] to its fourth argument: f[1] = "
+         "f[1] + ..., three items for each node",
+         lsw_describe(L, -2));
+  lua_pop(L, 2);
 }
 
 /* Calls the Lua function, in protected mode. Arguments: the force's table, the field. */
@@ -62,7 +86,8 @@ static int call_function(lua_State *L) {
   push_flat(L, 1, "x", field->x, n);
   push_flat(L, 1, "v", field->v, n);
   push_flat(L, 1, "f", NULL, n);
-  lsw_motion_call(L, 4, 0, "force function");
+  lsw_motion_call(L, 4, 1, "force function");
+  refuse_result(L);
   lua_getfield(L, 1, "f");
   read_back(L, lua_gettop(L), field, n);
   return 0;

@@ -42,6 +42,11 @@ sw_status lsw_motion_keep_error(lua_State *L, sw_error *err);
  * yield, which Lua itself says in words of C. */
 void lsw_motion_call(lua_State *L, int args, int results, const char *what);
 
+/* Replaces the function on top of the stack by "file:line: " of its definition, or "" for a
+ * function of C. Its results are read within a step, where no line of the script runs that could be
+ * named. */
+const char *lsw_motion_place(lua_State *L);
+
 /* --- between the files of this binding ---------------------------------------- */
 
 void lsw_motion_open_functions(lua_State *L);

@@ -30,18 +30,16 @@ void lsw_motion_call(lua_State *L, int args, int results, const char *what) {
   lua_error(L);
 }
 
-/* Pushes "file:line: " of the function's definition, or "" for a function of C. Its results are
- * read in the middle of a step, where no line of the script runs that could be named. */
-static const char *place_of(lua_State *L, const function *f) {
+const char *lsw_motion_place(lua_State *L) {
   lua_Debug at;
-  lua_rawgeti(L, LUA_REGISTRYINDEX, f->reference);
   if (!lua_getinfo(L, ">S", &at) || at.linedefined <= 0) return lua_pushliteral(L, "");
   return lua_pushfstring(L, "%s:%d: ", at.short_src, at.linedefined);
 }
 
 static int run(lua_State *L) {
   const job *j = lua_touserdata(L, 1);
-  const char *place = place_of(L, j->f);
+  lua_rawgeti(L, LUA_REGISTRYINDEX, j->f->reference);
+  const char *place = lsw_motion_place(L);
   const char *name = lua_pushfstring(L, "%strajectory: func(%f)", place, j->t);
   lua_rawgeti(L, LUA_REGISTRYINDEX, j->f->reference);
   lua_pushnumber(L, j->t);

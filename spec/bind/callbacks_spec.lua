@@ -313,3 +313,56 @@ describe("a function as a force", function()
     assert.is_true(sizes[21])
   end)
 end)
+
+-- A force is added to the array f. A function that returns it, as functions of motion do, would do nothing.
+describe("a force function", function()
+  local function scene_with(f)
+    local scene, wire = make()
+    scene:force{ kind = f, on = wire }
+    return scene
+  end
+
+  it("must not return a force, but may return its array", function()
+    local scene = scene_with(function() return { 0, 0, 1 } end)
+    local fine, why = pcall(scene.run, scene, { duration = 0.02 })
+    assert.is_false(fine)
+    assert.truthy(why:find("^[^\n]*callbacks_spec.lua:%d+: force function: it returned table, which is not "
+      .. "used; add the force %[N%] to its fourth argument"), why)
+    assert.is_true(scene_with(function(_, _, _, f) return f end):run{ duration = 0.02 }.ok)
+    assert.is_true(scene_with(function() return nil end):run{ duration = 0.02 }.ok)
+  end)
+
+  it("is named by its line where its forces are wrong", function()
+    local line = debug.getinfo(1, "l").currentline + 1
+    local scene = scene_with(function(_, _, _, f) f[2] = 0 / 0 end)
+    local _, why = pcall(scene.run, scene, { duration = 0.02 })
+    assert.truthy(why:find(("callbacks_spec.lua:%d: force function: component 2 of the force on node 1 is ")
+      :format(line), 1, true), why)
+  end)
+end)
+
+describe("a process that waits without an end", function()
+  it("is told so, at once or after time has passed; waits of 0 s between are allowed", function()
+    for _, first in ipairs{ 0, 0.01 } do
+      local scene = make()
+      scene:process(function(p)
+        p:wait(first)
+        while true do p:wait(0) end
+      end)
+      local fine, why = pcall(scene.run, scene, { duration = 0.02 })
+      assert.is_false(fine)
+      assert.truthy(why:find("p:wait: seconds = 0 s was waited for 100000 times at t = " .. first .. " s, and "
+        .. "no time passes", 1, true), why)
+    end
+    local scene, count = make(), 0
+    scene:process(function(p)
+      for _ = 1, 3 do
+        for _ = 1, 5e4 do p:wait(0) end
+        count = count + 1
+        p:wait(1e-3)
+      end
+    end)
+    assert.is_true(scene:run{}.ok)
+    assert.equal(3, count)
+  end)
+end)

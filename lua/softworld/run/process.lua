@@ -76,10 +76,24 @@ function process.sleep_until(self, wake)
   end
 end
 
+local IDLE = 1e5 -- waits at one time after which a process would go on for ever [-]
+
+-- Raises an error if the process waits again and again while no time passes.
+local function check_idle(self, seconds)
+  local time = self.scene.time
+  if time + seconds > time then return end
+  if self.idle_at ~= time then self.idle_at, self.idle = time, 0 end
+  self.idle = self.idle + 1
+  if self.idle < IDLE then return end
+  error(("p:wait: seconds = %g s was waited for %d times at t = %g s, and no time passes; wait for a time, or "
+    .. "use p:wait_until(function)"):format(seconds, self.idle, time), 3)
+end
+
 --- Waits for a time [s].
 function Process:wait(seconds)
   checks.number("p:wait: seconds", seconds, 0, " s", 3)
   check_inside(self, "p:wait")
+  check_idle(self, seconds)
   process.sleep_until(self, self.scene.time + seconds)
 end
 
@@ -241,7 +255,7 @@ function core.class.scene.process(scene, body)
   local data = build.data(scene)
   data.process_count = (data.process_count or 0) + 1
   local self = sealed.new(Process, { scene = scene, number = data.process_count, body = body,
-    steps = 0, moves = 0 })
+    steps = 0, moves = 0, idle = 0, idle_at = false })
   self.thread = coroutine.create(body)
   if not data.from_file then -- forgets the steps of an earlier process with this number
     if data.done then data.done[self.number] = nil end
