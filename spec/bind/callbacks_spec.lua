@@ -351,8 +351,8 @@ describe("a process that waits without an end", function()
       end)
       local fine, why = pcall(scene.run, scene, { duration = 0.02 })
       assert.is_false(fine)
-      assert.truthy(why:find("p:wait: seconds = 0 s was waited for 100000 times at t = " .. first .. " s, and "
-        .. "no time passes", 1, true), why)
+      assert.truthy(why:find("p:wait: seconds = 0 s was waited for 100000 times at t = " .. first .. " s, "
+        .. "and no time passes", 1, true), why)
     end
     local scene, count = make(), 0
     scene:process(function(p)
