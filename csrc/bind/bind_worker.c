@@ -202,7 +202,7 @@ static int mod_limit_cpu(lua_State *L) {
 }
 
 static int mod_limit_steps(lua_State *L) {
-  const lua_Integer steps = luaL_checkinteger(L, 1);
+  const lua_Integer steps = lsw_integer(L, 1, "core.limit_steps: the number of steps");
   lua_pushboolean(L, sw_quota_over());
   sw_quota_set((long)steps);
   return 1;

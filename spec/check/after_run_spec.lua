@@ -177,6 +177,34 @@ describe("run:check of ties and clips that are released in the run", function()
       end)
   end
 
+  it("has the same row in a run that goes on from a file", function()
+    local path, copy = os.tmpname(), os.tmpname()
+    local function script()
+      local scene, wire = hung()
+      local tie = scene:tie(wire, { name = "t", s = 0.3, strength = 1 })
+      scene:process(function(p)
+        p:step("hang", function() p:wait(0.2) end)
+        p:step("let go", function() tie:release() end)
+        p:step("fall", function()
+          os.execute(("cp '%s' '%s'"):format(path, copy)) -- of the time when the tie was released
+          p:wait(0.1)
+        end)
+      end)
+      return scene
+    end
+    local args = { limits = { ["t.strength_used"] = 0.9 } }
+    local wanted = script():run { dt = 0.005, save = path }:check(args):row "t.strength_used"
+    os.remove(path)
+    local scene = script()
+    assert.is_true(scene:resume(copy))
+    local row = scene:run { dt = 0.005 }:check(args):row "t.strength_used"
+    os.remove(copy)
+    assert.same({ "PASS", wanted.value, wanted.time, wanted.note },
+      { row.verdict, row.value, row.time, row.note })
+    assert.is_true(row.time <= 0.2)
+    assert.has_error(function() scene:run { duration = 0.1 }:check {}:row "t.strength_used" end)
+  end)
+
   it("has a row with an error bar", function()
     local run = released_tie { duration = 0.3, check = { limits = { ["t.strength_used"] = 0.9 } } }
     local row = run:check():row "t.strength_used"

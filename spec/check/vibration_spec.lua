@@ -118,6 +118,28 @@ describe("run:check of natural frequencies", function()
     assert.is_nil(r.note:find("settle", 1, true))
   end)
 
+  -- Frequencies are read when the check is made: without the far clamp they are those of a cantilever.
+  it("is open if a hold was released or made after the run, whatever the value", function()
+    local bands = { bands = { { 1, 2 } } }
+    local spectrum = { spectrum = { { 1, 1 }, { 100, 1 } }, damping = 0.1 }
+    for _, change in ipairs{ "release", "pin" } do
+      local other = beam()
+      local scene = other.scene
+      local before = other:check{ vibration = bands }:row "frequency_gap"
+      assert.is_true(before.verdict == "PASS" and before.low > 0)
+      if change == "pin" then scene:pin(scene:wires()[1], { s = 0.5 })
+      else scene:find "clamp2":release() end
+      for name, given in pairs{ frequency_gap = bands, vibration_amplitude = spectrum } do
+        local after = other:check{ vibration = given, limits = { vibration_amplitude = 1e-9 } }:row(name)
+        assert.equal("OPEN", after.verdict, name .. " " .. change)
+        assert.truthy(after.note:find((change == "release" and "'clamp2' was released" or "'pin3' was made")
+          .. " after the run", 1, true), after.note)
+      end
+      local again = scene:run{ duration = 0.02, dt = 0.01 }:check{ vibration = bands }:row "frequency_gap"
+      assert.is_true(again.verdict ~= "OPEN", again.note) -- a run with these holds
+    end
+  end)
+
   it("refuses bands and spectra that make no sense", function()
     local r = run:check{ limits = { frequency_gap = 0.1 } }:row "frequency_gap"
     assert.equal("FAIL", r.verdict)

@@ -3,6 +3,7 @@
 -- distance over the band's edge, below 0 if a frequency is in a band. Edges make errors of frequencies; where
 -- waves of the bands turn by more than 1 rad in an edge, modes are wrong or missing.
 -- @module softworld.check.frequency_gap
+local holding = require "softworld.check.holding"
 local swings = require "softworld.check.swings"
 
 -- Returns the gap of a frequency from a band, above 0 outside.
@@ -74,7 +75,7 @@ return { name = "frequency_gap", unit = "-", side = "min", on = "wire", asked = 
       value.low = -math.huge
       value.note = ("%s; %d modes reach up to %.4g Hz only"):format(value.note, #found, found[#found])
     end
-    return value
+    return holding.widen(value, context.run)
   end,
   limit = function()
     return { value = 0, from = "definition", source = "no natural frequency within a band" }

@@ -4,6 +4,7 @@
 --     sigma^2 = W(f) / (2 damping) / (32 pi^3 f^3)  (displacement for a participation of 1),
 -- times shape and participation, with squares summed over the modes.
 -- @module softworld.check.vibration_amplitude
+local holding = require "softworld.check.holding"
 local swings = require "softworld.check.swings"
 local vec = require "softworld.vec"
 
@@ -146,6 +147,6 @@ return { name = "vibration_amplitude", unit = "m", side = "max", on = "wire", as
     if found.unstable > 0 then return { value = 0 / 0, note = found.note } end
     local best = amplitude(entry.object, found, given)
     if not whole then best.high = math.huge end
-    return best
+    return holding.widen(best, context.run)
   end,
   reference = function(entry) return entry.object.length end }

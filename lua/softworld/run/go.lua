@@ -5,6 +5,7 @@ local core = require "softworld.core"
 local advice = require "softworld.run.advice"
 local build = require "softworld.scene.build"
 local document = require "softworld.run.document"
+local holding = require "softworld.check.holding"
 local kept = require "softworld.run.kept"
 local ledger = require "softworld.run.ledger"
 local observe = require "softworld.run.observe"
@@ -110,7 +111,7 @@ end
 -- Prepares everything for the first step.
 local function begin(scene, args)
   local data = build.data(scene)
-  local total = data.going or new_total(scene)
+  local total, going = data.going or new_total(scene), data.going
   turns.check_steps(scene)
   kept.begin(scene)
   data.origin = data.origin or save.origin(scene)
@@ -118,7 +119,7 @@ local function begin(scene, args)
   data.going = nil
   observe.begin(scene, args)
   total.drawn = document.wires(scene)
-  released.begin(data, total.start)
+  if not going then released.begin(data, total.start) end -- else the file has what was released
   return data, total
 end
 
@@ -166,7 +167,7 @@ function go.once(scene, args, level, hindrance)
   end
   total.restores, total.cut = data.restores, cut
   data.runs = (data.runs or 0) + 1
-  total.number, total.present = data.runs, present(data)
+  total.number, total.present, total.holding = data.runs, present(data), holding.now(scene)
   return total
 end
 
