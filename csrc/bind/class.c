@@ -157,6 +157,17 @@ static const char *word_of(lua_State *L) {
   return word ? word : c->name;
 }
 
+/* Is the word a measure of an interval that the method over gives, as in gripper.peak_force? */
+static int is_measure(lua_State *L, const char *word) {
+  if (strncmp(word, "peak_", 5) != 0 && strncmp(word, "mean_", 5) != 0 &&
+      strcmp(word, "impulse") != 0)
+    return 0;
+  lua_getfield(L, lua_upvalueindex(2), "over");
+  const int has = !lua_isnil(L, -1);
+  lua_pop(L, 1);
+  return has;
+}
+
 /* Raises for the name at index 2, which the class does not have. Upvalues as of meta_index. */
 static int unknown_field(lua_State *L) {
   if (lua_type(L, 2) != LUA_TSTRING) return luaL_error(L, "%s has no such field", word_of(L));
@@ -175,6 +186,9 @@ static int unknown_field(lua_State *L) {
   const char *word = lua_tostring(L, 2);
   const char *near = sw_nearest_name(word, names, sizeof names[0], count);
   if (near) return luaL_error(L, "%s has no '%s'; did you mean '%s'?", word_of(L), word, near);
+  if (is_measure(L, word))
+    return luaL_error(L, "%s has no '%s'; :over().%s may give it, see its method over", word_of(L),
+                      word, word);
   return luaL_error(L,
                     "%s has no '%s'; help(it) at the prompt or `softworld doc` lists what it has",
                     word_of(L), word);

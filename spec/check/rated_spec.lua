@@ -65,6 +65,12 @@ describe("a gripper's rating", function()
     assert.same({ "cable.max_sidewall", "hand.peak_force", "hand.peak_moment" }, fine.skipped)
   end)
 
+  it("names the part that it lacks", function()
+    local row = lift{ force = 20 }:check{}:row "hand.peak_moment"
+    assert.equal("OPEN", row.verdict)
+    assert.truthy(row.note:find("the gripper's rating has no moment; give", 1, true), row.note)
+  end)
+
   it("may be false: no rows, and the report names them", function()
     local limits = { max_sidewall = false }
     local check = lift(false):check{ limits = limits }

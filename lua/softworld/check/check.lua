@@ -162,8 +162,11 @@ local function missing_row(self, row, member, entry)
   row.verdict = nan and "FAIL" or "OPEN"
   if nan then add_note(row, "the value is not a number") end
   local key = entry.name and entry.name .. "." .. member.name or member.name
-  local lacks = member.rated and ("the gripper has no rating; give scene:gripper { rating = { %s = } } or")
-    :format(member.rated) or ("the catalogue has no %s here; give"):format(member.missing)
+  local lacks = ("the catalogue has no %s here; give"):format(member.missing or "limit")
+  if member.rated then
+    local has = entry.object.rating and ("'s rating has no " .. member.rated) or " has no rating"
+    lacks = ("the gripper%s; give scene:gripper { rating = { %s = } } or"):format(has, member.rated)
+  end
   add_note(row, ("limit is missing: %s limits = { ['%s'] = } [%s], or false if none is needed"):format(lacks,
     key, member.unit))
   self.missing[#self.missing + 1] = { name = key, unit = member.unit }
