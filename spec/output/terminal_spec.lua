@@ -121,6 +121,26 @@ describe("progress", function()
     assert.truthy(text:find("t = 10.00 s, 100 steps in 10.0 s\n$"))
   end)
 
+  -- Left = elapsed (total / done - 1): at 1/100 after 10 s another 990 s, at 1/50 another 490 s.
+  it("says once that a run without a bar takes many minutes", function()
+    local function told(rate, options)
+      local stream, now, set = recorder(), clock()
+      options.stream, options.clock, options.total, options.name = stream, now, 1000, "long"
+      local bar = progress.new(options)
+      for i = 0, 300 do
+        set(i / 10)
+        bar:update(rate * i / 10, i)
+      end
+      bar:finish()
+      return stream:text()
+    end
+    assert.equal("long: 10.00 s computed in 10.0 s; the rest of 1000 s takes about 16 min 30 s; progress = true "
+      .. "shows how far it is\n", told(1, { quiet = true, long = true }))
+    assert.equal("", told(2, { quiet = true, long = true }))
+    assert.equal("", told(1, { quiet = true }))
+    assert.is_nil(told(1, { long = true }):find("progress = true", 1, true)) -- the bar is there
+  end)
+
   it("clears its line after an error, and is silent on request", function()
     local stream, now = recorder(), clock()
     pcall(function()

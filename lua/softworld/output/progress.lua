@@ -19,6 +19,8 @@ progress.__name = "softworld progress"
 local redraw_gap = 0.1 -- [s] between two drawings of the bar
 local line_gap = 3.0   -- [s] between two plain lines
 local width_gap = 2.0  -- [s] between two queries of the terminal's width
+local long_after = 10  -- [s] after which a bar that is not shown tells once that much is left
+local long_left = 600  -- [s] left, from which on it does
 
 -- A clock for plain Lua, which has whole seconds of real time and fine processor time. Together
 -- they never run ahead of real time in a single thread.
@@ -46,6 +48,7 @@ end
 -- `after` real time before anything is shown; runs that end sooner show nothing [s];
 -- `total` simulated time to reach [s], nil if the processes decide;
 -- `name` shown in front; `word` name of the steps; `quiet = true` shows nothing;
+-- `long = true` a quiet one says once if many minutes are left;
 -- `stream` (default io.stderr); `terminal` true or false (default: asked of
 -- the system for stderr, false for another stream);
 -- `width` columns or a function giving them; `clock` a function giving real time [s]
@@ -57,6 +60,7 @@ function progress.new(options)
   end
   local self = setmetatable({}, progress)
   self.total, self.name, self.quiet = options.total, options.name, options.quiet or false
+  self.long = self.quiet and options.long and self.total ~= nil
   self.stream = options.stream or io.stderr
   self.clock = options.clock or fallback_clock()
   self.word = options.word or "steps"
@@ -140,11 +144,25 @@ local function say(self, now)
   self.stream:flush()
 end
 
+-- Says once how long a run without a bar will take, if that is long.
+local function tell_long(self, time)
+  local elapsed = self.clock() - self.start
+  if elapsed < long_after or time <= 0 then return end
+  self.long = false
+  local left = elapsed * (self.total / time - 1)
+  if left < long_left then return end
+  self.stream:write(("%s: %s computed in %s; the rest of %s takes about %s; progress = true shows how far it "
+    .. "is\n"):format((self.name or "run"):gsub("%c", " "), number.text(time, "s"), number.duration(elapsed),
+    number.text(self.total, "s"), number.duration(left)))
+  self.stream:flush()
+end
+
 --- Updates how far the run is. Cheap: draws at most ten times a second on a
 -- terminal and prints at most one line every few seconds elsewhere.
 -- @tparam number time simulated so far [s]
 -- @tparam ?integer steps so far
 function progress:update(time, steps)
+  if self.long then tell_long(self, time) end
   if self.quiet or self.ended then return end
   self.time, self.steps = time, math.tointeger(steps) or self.steps
   local now = self.clock()

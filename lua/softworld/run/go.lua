@@ -45,7 +45,7 @@ local function new_bar(args, scene, level)
   local usual = wanted == nil -- on a terminal, for runs that take long
   if usual then wanted = host and host.terminal and os.getenv "TERM" ~= "dumb" end
   return progress.new{ total = args.duration and args.duration > 0 and args.duration or nil,
-    name = level and ("%s, %s"):format(scene.name, level) or scene.name, quiet = not wanted,
+    name = level and ("%s, %s"):format(scene.name, level) or scene.name, quiet = not wanted, long = usual,
     after = usual and progress_after or nil,
     terminal = host and host.terminal or nil,
     clock = core.clock, width = host and host.columns or nil }
