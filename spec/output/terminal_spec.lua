@@ -134,8 +134,8 @@ describe("progress", function()
       bar:finish()
       return stream:text()
     end
-    assert.equal("long: 10.00 s computed in 10.0 s; the rest of 1000 s takes about 16 min 30 s; progress = true "
-      .. "shows how far it is\n", told(1, { quiet = true, long = true }))
+    assert.equal("long: 10.00 s computed in 10.0 s; the rest of 1000 s takes about 16 min 30 s; progress = "
+      .. "true shows how far it is\n", told(1, { quiet = true, long = true }))
     assert.equal("", told(2, { quiet = true, long = true }))
     assert.equal("", told(1, { quiet = true }))
     assert.is_nil(told(1, { long = true }):find("progress = true", 1, true)) -- the bar is there
