@@ -115,22 +115,35 @@ local function is_there(context, compared, shape)
   return shapes_apart(compared.here.shape, shape) < ELSEWHERE * math.min(way, edge)
 end
 
+-- True if coarse edges may hide a change of a quantity between the rungs of a comparison: inertia counts, and
+-- the quantity is the largest or least of many values, of which the same one may be largest in both rungs.
+local function may_hide(context, state, q)
+  local there, choice = state.compared, state.choice
+  if not (q.plain or q.own) or not choice.blurred then return false end
+  local share = change.tightest(context, there.above.values)
+  return choice.blurred(there.here.facts[choice.name], there.above.facts[choice.name], share)
+end
+
 --- Returns true if a choice was compared on edges so coarse that the wire was somewhere else there: the
 -- rung's values were off those of the finest run by a quarter, and by more than the tolerance. On such edges
 -- both rungs may agree on a shape that fine edges do not have. A pushed trunk may buckle to the other side.
 -- Values alone may also be off because a sharp bend needs fine edges. So if the shape is the same, a change
 -- far below the allowed one counts. Where poses jump, friction may hold the wire elsewhere after the jump, so
--- the coarse values must be right to the tolerance. fine: values and shape of the finest run.
+-- the coarse values must be right to the tolerance. So must peaks of fast motion: a coarse peak may be at
+-- another place and time than a fine one, and the same for both rungs. There even a change far below the
+-- allowed one does not count, except of the script's own quantities, which are mostly no peaks. fine: values
+-- and shape of the finest run.
 function change.is_elsewhere(context, state, fine)
   local there = state.by == "compared" and state.compared
   local jumped = there and there.here.facts.motion.jumps > 0
   for _, q in ipairs(there and context.job.quantities or {}) do
     local coarse, value = there.here.values[q.name] or NONE, fine.values[q.name] or NONE
     if quantity.alike(coarse, value) then
-      local off = quantity.distance(coarse, value)
-      local far = jumped and 0 or ELSEWHERE
+      local off, hides = quantity.distance(coarse, value), not jumped and may_hide(context, state, q)
+      local far = (jumped or hides) and 0 or ELSEWHERE
       if off > far * quantity.size(value) and off > quantity.asked(q, value) then
-        return not (there.worst < change.FAINT and is_there(context, there, fine.shape))
+        local faint = there.worst < change.FAINT and is_there(context, there, fine.shape)
+        return hides and not q.own or not faint
       end
     end
   end

@@ -32,6 +32,7 @@ local choose = {}
 local LEAST = 1 - change.MODEL -- share of a tolerance that edges and steps always get [-]
 local NONE = 0 / 0 -- value of a check's row that a computation lacks
 local LONGEST = 300 -- longest expected time of a level [s]
+local CONVERGES = 1.5 -- least change of a level over that of the next one, of values that converge [-]
 local OWN = 4      -- a bar shortens by at most this times what the next rung changes [-]
 
 -- True if the values of k levels already have short enough bars.
@@ -166,11 +167,23 @@ local function refined(context)
   return result
 end
 
+-- True if a bar of poses comes from edges, as the values converge, and dynamics, which have the same edges,
+-- would have a longer one with values like these: bars in motion count more of the earlier changes.
+local function is_of_edges(context, q)
+  local job = context.job
+  local values = job.values[q.name]
+  local entry
+  for _, known in ipairs(job.quantities) do entry = known.name == q.name and known or entry end
+  local _, rate = estimate.bar(entry, values, job.contact, false)
+  return #values > 2 and rate >= CONVERGES and estimate.bar(entry, values, job.contact, true) > q.tolerance
+end
+
 -- True if the next rung of a choice may shorten the bar of a quantity enough. over: excess of the bar, with
 -- what the rungs leave out. The next rung removes what this one leaves out, and it shortens a bar, which is
--- made of changes between levels, by at most OWN times its own change. Rough choices may always mend:
--- friction makes the bars of fine poses long.
-local function may_mend(state, q, over)
+-- made of changes between levels, by at most OWN times its own change. Rough choices may mend any bar:
+-- friction makes the bars of fine poses long; but not if the values converge.
+local function may_mend(context, state, q, over)
+  if state.choice.rough and is_of_edges(context, q) then return false end
   if state.by == "free" then return state.choice.name == "motion" and not q.met end
   local moved = state.by == "compared" and state.change[q.name] or 0
   return moved > 0 and (state.choice.rough and not q.met or over <= OWN * moved)
@@ -188,7 +201,7 @@ local function shorter(context, result)
     local all = q.error + change.left_out(context, q.name)
     local over = all - q.tolerance
     for _, state in ipairs(over > 0 and not hopeless and context.states or {}) do
-      if state.rung < state.last and not state.choice.steady and may_mend(state, q, over) then
+      if state.rung < state.last and not state.choice.steady and may_mend(context, state, q, over) then
         decide.raise(context, state, ("with %s the error bar of %s is still %s (asked for %s)"):format(
           state.choice.rungs[state.rung].as, q.name, number.text(all, q.unit),
           number.text(q.tolerance, q.unit)))
