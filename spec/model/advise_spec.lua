@@ -44,6 +44,52 @@ describe("scene:advise", function()
     assert.equal(0, scene:frame_count())
   end)
 
+  -- On a table a wire has a period of some ms, that of its contact; lifted, it swings like a hanging one. Its
+  -- squared frequency is at least the sum of those of a beam and of a chain (Southwell), and at most 12 %
+  -- more here. Without friction it may also swing to the side on the table, more slowly.
+  it("takes steps for the swing of a lifted wire where wires lie on something", function()
+    for _, E in ipairs { 5e6, 50e6, 5e9 } do
+      local function wire_to(scene, to, z)
+        return scene:wire { name = "w", E = E, density = 1500, radius = 0.0025, segments = 40,
+          from = { 0, 0, z }, to = to }
+      end
+      local hung = sw.scene {}
+      local w = wire_to(hung, { 0, 0, -0.6 }, 0)
+      hung:clamp(w, { s = 0 })
+      hung:settle()
+      local period = 1 / w:frequencies { modes = 1 }[1]
+      for _, friction in ipairs { 0, 0.3 } do
+        local scene = sw.scene {}
+        scene:obstacle { shape = "plane", friction = friction }
+        w = wire_to(scene, { 0.6, 0, 0.0025 }, 0.0025)
+        scene:clamp(w, { s = 0 })
+        scene:settle()
+        local a = scene:advise { tolerance = 0.02, duration = 0.002 }
+        assert.is_true(a.swing >= period * (1 - 1e-3), ("%g beside %g s"):format(a.swing, period))
+        assert.is_true(friction == 0 or a.swing < 1.06 * period, ("%g beside %g s"):format(a.swing, period))
+        assert.equal("dynamic", a.motion)
+        assert.is_near(math.min(0.01, a.swing / 40 * 2 ^ 0.5), a.dt, 1e-12)
+        assert.is_true(a.auto_time.dynamic > a.auto_time.poses)
+      end
+    end
+  end)
+
+  it("takes 10 s where no duration is given, and the steps of the automatic choice", function()
+    local scene = cantilever()
+    scene:settle()
+    local a, b = scene:advise {}, scene:advise { duration = 10 }
+    assert.same({ b.motion, b.dt, b.time, b.auto_time }, { a.motion, a.dt, a.time, a.auto_time })
+    assert.truthy(a.motion_why:find("assumed", 1, true) and not b.motion_why:find("assumed", 1, true))
+    local w = sw.core.data(scene).wires[1].object
+    a = scene:advise { duration = 20 }
+    assert.equal("poses", a.motion)
+    local run = scene:run { duration = 20, model = "auto",
+      tolerance = { ["w.min_bend_radius"] = { relative = 0.02 } } }
+    assert.equal("poses", run.model.motion)
+    local third = run.levels[3].segments[1] / sw.core.segments(w) -- edges of level 3 over those of the last
+    assert.is_near(20 / a.dt, run.steps * third, 0.05 * run.steps)
+  end)
+
   it("names settings that have no effect", function()
     local scene = cantilever { rolls = true }
     assert.equal(1, #scene:advise {}.spare)

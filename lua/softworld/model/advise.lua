@@ -5,6 +5,7 @@
 local build = require "softworld.scene.build"
 local core = require "softworld.core"
 local number = require "softworld.output.number"
+local quantity = require "softworld.quantity"
 local rows = require "softworld.rows"
 
 local advise = {}
@@ -13,8 +14,17 @@ local BOW = 1.25        -- relative error of a cantilever's droop with n edges: 
 local FEWEST = 10       -- least edges of a wire in one bow [-]
 local ROUND = 3         -- edges per smallest radius that a wire is bent round [-]
 local SWING = 40        -- steps per first period, for 1 % [-]
-local COST = 3e-6       -- time per node and step, with its iterations ("speed", case=scale) [s]
-local POSE = 10       -- iterations of a pose over those of a step [-]
+-- Times as measured in the scenes of the bench case=auto, on one core of a server.
+local EACH = 1e-6       -- time of a node in a pose, or in a step with its iterations [s]
+local TOUCHED = 3       -- the same in a pose in which something may touch, over one in which nothing does [-]
+local STEPS = 300       -- steps per first period of a fast run with error bars, on its third level [-]
+local BLOWS = 1e-3      -- longest mean step there if something may touch [s]
+local LEVELS = 1.6      -- time of three levels and of the choice over that of the third level [-]
+local LOOK = { free = 0.005, touched = 0.015 } -- least time of comparisons to choose a model [s]
+local FINE = 0.015      -- tolerances below this one need a fourth level [-]
+local FINER = { poses = 4, dynamic = 5 } -- time of a level over that of the level before [-]
+local POSES = 1000      -- poses in a long run [-]
+local POSE_DT = 0.04    -- least time between poses, as of the third level of a run with error bars [s]
 local FRAMES = 30       -- stored frames [1/s]
 local BYTES = { node = 2500, frame = 28 } -- per node while computing, and in a frame [B]
 local PERIODS = 10      -- least duration of slow motion, in first periods [-]
@@ -25,8 +35,8 @@ local USUAL_TIME = 10   -- duration if none is given [s]
 
 local take = rows.call("scene:advise", "{...}", "the model and mesh that the scene probably needs; runs "
   .. "nothing", {
-  gives = "{ motion =, twist =, contact =, segments = { name = n }, dt =, time =, memory =, spare = }; "
-    .. "print it",
+  gives = "{ motion =, twist =, contact =, segments = { name = n }, dt =, time =, memory =, spare =, "
+    .. "auto_time = { poses =, dynamic = } }; print it",
   example = "print(scene:advise { tolerance = 0.02, duration = 5 })",
   { "tolerance", "number", "-", "allowed error, as a share of each quantity", min = 0, max = 1, above = true,
     default = 0.02 },
@@ -64,28 +74,58 @@ function advise.spare(scene)
   return list
 end
 
-local function motion_of(scene, duration, a)
-  local longest
-  for _, w in ipairs(build.data(scene).wires) do
-    local fine, list = pcall(w.object.frequencies, w.object, { modes = 1 })
-    if not fine or not list[1] or list.unstable > 0 then
-      a.motion, a.motion_why = "dynamic", "its periods are known only at rest: call scene:settle() before"
-      return
-    end
-    longest = math.max(longest or 0, 1 / list[1])
+-- Returns the first period of a wire [s], with all it is joined to held fixed; nil: it has none.
+local function period_of(w)
+  for _, alone in ipairs { false, true } do
+    local fine, list = pcall(w.frequencies, w, { modes = 1, alone = alone or nil })
+    if fine and list[1] then return list.unstable == 0 and 1 / list[1] or nil end
   end
-  a.period = longest
-  if not longest then return end
-  if not duration then
-    a.motion, a.motion_why = "dynamic", ("poses suffice from a duration of %s on, %d first periods; give "
-      .. "duration"):format(
-      number.text(PERIODS * longest, "s"), PERIODS)
+end
+
+-- Returns the first period of a wire that hangs or stands off from one end [s]: of a beam and of a chain of
+-- its length, whose stiffnesses add up. nil: neither bends nor hangs.
+local function free_period(w, gravity)
+  local fine, values = pcall(w.get, w)
+  local EI, mass = fine and values.EI or 0, fine and values.mass_per_length
+  if not mass then return nil end
+  local square = 3.516 ^ 2 * EI / (mass * w.length ^ 4) + 1.2024 ^ 2 * gravity / w.length
+  return square > 0 and 2 * math.pi / square ^ 0.5 or nil
+end
+
+-- Finds the periods: a.period at rest, nil if a wire has none; a.swing: the same or, if wires lie on
+-- something, that of a lifted wire if it is longer.
+local function periods_of(scene, a)
+  local gravity = quantity.size(scene:gravity())
+  a.lies = scene:contacts() > 0
+  local known, free = 0, 0
+  for _, w in ipairs(build.data(scene).wires) do
+    local own = period_of(w.object)
+    known = own and known and math.max(known, own)
+    free = math.max(free, a.lies and gravity > 0 and free_period(w.object, gravity) or 0)
+  end
+  a.period = known and known > 0 and known or nil
+  local swing = math.max(a.period or 0, free)
+  a.swing = swing > 0 and swing or nil
+end
+
+local function motion_of(scene, a)
+  periods_of(scene, a)
+  if not a.swing then
+    a.motion, a.motion_why = "dynamic", "periods are known only at rest: call scene:settle() before"
     return
   end
-  local slow = duration >= PERIODS * longest
+  local counts = a.period or a.swing
+  local slow = a.duration >= PERIODS * counts
   a.motion = slow and "poses" or "dynamic"
-  a.motion_why = ("%s is %.3g first periods of %s (slow from %d on)"):format(number.text(duration, "s"),
-    duration / longest, number.text(longest, "s"), PERIODS)
+  a.motion_why = ("%s%s is %.3g first periods of %s%s; %s"):format(number.text(a.duration, "s"),
+    a.given and "" or " (assumed, as no duration is given)", a.duration / counts, number.text(counts, "s"),
+    a.period and "" or ", of a lifted wire",
+    slow and ("that is slow: %d or more"):format(PERIODS)
+      or ("below %d, model = 'auto' compares poses with dynamics"):format(PERIODS))
+  if slow and a.duration < PERIODS * a.swing then
+    a.motion_why = ("%s; a wire lifted off what it lies on swings with up to %s: then model = 'auto' "
+      .. "compares poses with dynamics"):format(a.motion_why, number.text(a.swing, "s"))
+  end
 end
 
 -- Returns the smallest radius of a round obstacle [m], and the obstacle's name.
@@ -109,15 +149,62 @@ local function edges_of(bow, round, share, name)
 end
 
 local function mesh_of(scene, share, a)
-  local data, nodes = build.data(scene), 0
+  local data, nodes, given = build.data(scene), 0, 0
   local radius, name = sharpest(data)
   a.segments, a.segments_why = {}, {}
   for _, w in ipairs(data.wires) do
     local round = name and ROUND * w.object.length / (radius + w.object.radius) or 0
-    a.segments[w.name], a.segments_why[w.name] = edges_of((BOW / share) ^ 0.5, round, share, name)
-    nodes = nodes + a.segments[w.name] + 1
+    local n, why = edges_of((BOW / share) ^ 0.5, round, share, name)
+    a.segments[w.name], a.segments_why[w.name] = n, why
+    nodes, given = nodes + n + 1, given + core.segments(w.object) + 1
   end
-  return nodes
+  return nodes, given
+end
+
+-- True if a wire may touch or jump over something.
+local function may_touch(data, a)
+  return a.lies or #data.obstacles > 0 or #(data.joins or {}) > 0 or #(data.forces or {}) > #data.wires
+end
+
+-- Returns the expected time of a run that chooses its model, with this motion [s]. given: nodes of the
+-- script's edges, which are those of the third level.
+local function with_bars(a, motion, given)
+  local dt, each = POSE_DT, EACH * (a.touched and TOUCHED or 1)
+  if motion == "dynamic" then
+    dt = math.min(a.touched and BLOWS or USUAL_DT, a.swing and a.swing / STEPS or USUAL_DT)
+    each = EACH
+  end
+  local fourth = a.tolerance < FINE and FINER[motion] or 1
+  return (a.touched and LOOK.touched or LOOK.free) + LEVELS * each * given * a.duration / dt * fourth
+end
+
+-- Sets the step, the time of one run, and the times of runs that choose their model. nodes: as advised.
+local function cost_of(scene, a, nodes, given)
+  a.touched = may_touch(build.data(scene), a)
+  local each, rolling = EACH * (a.touched and TOUCHED or 1), a.twist == "rolling" and 2 or 1
+  if a.motion == "poses" then
+    a.dt = math.min(LONGEST_DT, math.max(POSE_DT, a.duration / POSES))
+  else
+    local steps = (a.tolerance / 0.01) ^ 0.5
+    a.dt, each = math.min(USUAL_DT, a.swing and a.swing / SWING * steps or USUAL_DT), EACH * rolling
+  end
+  a.time = each * nodes * a.duration / a.dt
+  a.auto_time = { poses = with_bars(a, "poses", given), dynamic = with_bars(a, "dynamic", given) }
+  a.memory = BYTES.node * nodes + BYTES.frame * nodes * FRAMES * a.duration
+end
+
+-- Returns a time as text, to two digits.
+local function roughly(time)
+  return time < 1 and ("%.2g ms"):format(1e3 * time) or number.duration(time)
+end
+
+-- Returns what a run that chooses its model takes, as text: with the model that is certain, or with both.
+local function text_of_auto(a)
+  local poses, dynamic = roughly(a.auto_time.poses), roughly(a.auto_time.dynamic)
+  local took = ("%s if it finds that poses suffice, %s if not"):format(poses, dynamic)
+  if a.swing and a.duration >= PERIODS * a.swing then took = poses end
+  return ("  a run with model = 'auto' takes about %s; each level with finer edges than the script's takes "
+    .. "%d to %d times as much"):format(took, FINER.poses, FINER.dynamic)
 end
 
 local function text_of_choices(a, lines)
@@ -136,9 +223,9 @@ function Advice:__tostring()
       self.segments_why[name])
   end
   lines[#lines + 1] = ("  dt = %s"):format(number.text(self.dt, "s"))
-  lines[#lines + 1] = ("  about %s of computing and %s for %s; with error bars 1.3 to 5 times as "
-    .. "much"):format(
-    number.duration(self.time), number.text(self.memory / 1e6, "") .. " MB", number.text(self.duration, "s"))
+  lines[#lines + 1] = ("  one run of %s with these takes about %s and %.2g MB"):format(number.text(
+    self.duration, "s"), roughly(self.time), self.memory / 1e6)
+  lines[#lines + 1] = text_of_auto(self)
   for _, text in ipairs(self.spare) do lines[#lines + 1] = "  leave out: " .. text end
   return table.concat(lines, "\n")
 end
@@ -150,8 +237,8 @@ local function advice_of(scene, args)
   if #data.wires == 0 then error(("scene:advise: scene '%s' has no wire"):format(scene.name), 0) end
   local share = args.tolerance
   local a = setmetatable({ tolerance = share, duration = args.duration or USUAL_TIME, spare = {},
-    motion = "dynamic", motion_why = "nothing here can swing" }, Advice)
-  motion_of(scene, args.duration, a)
+    given = args.duration ~= nil }, Advice)
+  motion_of(scene, a)
   local names = rubs(data)
   a.twist = #names > 0 and "rolling" or "held"
   a.twist_why = #names > 0 and ("'%s' has friction; a run with model = 'auto' tells how much it matters")
@@ -160,13 +247,7 @@ local function advice_of(scene, args)
   a.contact_why = #data.wires > 1 and "there are several wires; a run with model = 'auto' tells whether they "
     .. "meet"
     or "there is one wire; if it may touch itself, add scene:wire_contact{}"
-  local nodes = mesh_of(scene, share, a)
-  local steps = (share / 0.01) ^ 0.5
-  a.dt = math.min(USUAL_DT, a.period and a.period / SWING * steps or USUAL_DT)
-  if a.motion == "poses" then a.dt = math.min(LONGEST_DT, math.max(a.dt, a.duration / 100)) end
-  a.time = COST * nodes * a.duration / a.dt * (a.twist == "rolling" and 2 or 1)
-    * (a.motion == "poses" and POSE or 1)
-  a.memory = BYTES.node * nodes + BYTES.frame * nodes * FRAMES * a.duration
+  cost_of(scene, a, mesh_of(scene, share, a))
   for i, item in ipairs(advise.spare(scene)) do a.spare[i] = item.text end
   return a
 end
