@@ -80,7 +80,7 @@ describe("model = 'auto', where a wire without weight is drawn round a peg,", fu
       local why = tostring(run:why())
       assert.equal(1, run.model.probes, why)
       assert.is_nil(why:find("began again", 1, true), why)
-      assert.truthy(why:find("not checked: section: how stiff the section of 'w' is", 1, true), why)
+      assert.truthy(why:find("not checked: section: the stiffness of the section of 'w'", 1, true), why)
       assert.is_true(run.met)
     end
   end)

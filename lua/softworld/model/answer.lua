@@ -37,9 +37,8 @@ function Model:__tostring()
     .. "because " .. self.blind end
   if self.dear then lines[#lines + 1] = "  NOT finer: " .. self.dear end
   for _, text in ipairs(self.unchecked) do lines[#lines + 1] = "  not checked: " .. text end
-  lines[#lines + 1] = ("  %d coarse computations to choose took %.3g s; the run took %.3g s"):format(
-    self.probes,
-    self.cost, self.run_cost)
+  lines[#lines + 1] = ("  %d coarse computation%s to choose took %.3g s; the run took %.3g s"):format(
+    self.probes, self.probes == 1 and "" or "s", self.cost, self.run_cost)
   return table.concat(lines, "\n")
 end
 
@@ -48,7 +47,7 @@ local function choice_of(state)
   if on then
     rung = state.choice.rungs[state.rung + 1]
     return { name = state.choice.name, rung = rung.name, leaves = rung.leaves, by = "switched",
-      why = on.text .. "; before, " .. state.why, error = state.change }
+      why = on.text .. "; until then: " .. state.why, error = state.change }
   end
   return { name = state.choice.name, rung = rung.name, leaves = rung.leaves, by = state.by,
     why = state.why or state.doubt or "there is no more expensive one", error = state.change }

@@ -2,7 +2,10 @@
 --- The choice of contact between wires: they pass through each other, or touch.
 -- @module softworld.model.contact
 local facts = require "softworld.model.facts"
+local number = require "softworld.output.number"
 local record = require "softworld.scene.record"
+
+local NEARLY = 1e-3 -- angle by which a straight wire turns at most [rad]
 
 local contact = { name = "contact", by_itself = true, rungs = {
   { name = "none", as = "no touches of wires", leaves = "touches of wires with wires and with themselves" },
@@ -69,15 +72,25 @@ function contact.look(context)
   return f
 end
 
-local apart = { boxes = "the boxes that wires sweep stay %.3g m apart, and ",
-  axes = "they stay %.3g m apart after the motion between frames is taken off, and ",
-  itself = "a wire that turns by more than the limit stays %.3g m from itself, and " }
+-- How wires keep away from each other, by how that was found.
+local apart = { boxes = "the boxes that they sweep stay at least %s apart",
+  axes = "they stay at least %s apart, also between frames" }
+
+-- Returns why no wire touches itself, as text.
+local function alone(f)
+  local most = ("along its length a wire turns by at most %.3g rad"):format(f.turning)
+  if f.turning < NEARLY then return "they stay straight" end
+  if f.turning < math.pi then
+    return ("%s; to touch itself it must turn by %.3g rad"):format(most, math.pi)
+  end
+  return ("%s, enough to touch itself (possible from %.3g rad on), but it comes no nearer to itself than %s")
+    :format(most, math.pi, number.text(f.room, "m"))
+end
 
 function contact.free(_, rung, f)
   if rung ~= 1 or not f.frames or f.room <= 0 then return nil end
-  local room_is = f.room < math.huge and apart[f.sort]:format(f.room) or ""
-  return ("wires cannot meet: %sno wire turns by more than %.3g rad along its length (limit %.3g)"):format(
-    room_is, f.turning, math.pi)
+  local room_is = apart[f.sort] and apart[f.sort]:format(number.text(f.room, "m")) .. "; " or ""
+  return ("wires cannot meet: %s%s"):format(room_is, alone(f))
 end
 
 --- Returns why wires may meet from here on, by what the run showed so far.

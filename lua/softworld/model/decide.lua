@@ -14,6 +14,7 @@ local decide = {}
 local MODEL = change.MODEL
 local LONG = 1     -- expected time of a mesh on the second level above which in_vain is asked [s]
 local GROWTH = 2   -- least iterations of a run over those of the level before [-]
+local HARDLY = 1e-6 -- change over the allowed one that is not worth a number [-]
 local NONE = 0 / 0 -- value of a check's row that a computation lacks
 
 decide.levels = compare.levels -- coarse levels on which rungs are compared [-]
@@ -56,11 +57,13 @@ function decide.wasteful(context, k, run)
   end
 end
 
+-- Returns by how much the worst quantity changes between two rungs, as text.
 local function changed_by(c)
   local q = c.quantity
   if c.worst == 0 then return "nothing changes" end
-  return ("%s changes by %s (allowed %s)"):format(q.name, number.text(c.all[q.name], q.unit),
-    number.text(c.allowed, q.unit))
+  if c.worst < HARDLY then return "hardly anything changes" end
+  return ("%s changes by up to %s, %s %s"):format(q.name, number.text(c.all[q.name], q.unit),
+    c.worst > 1 and "more than the allowed" or "less than the allowed", number.text(c.allowed, q.unit))
 end
 
 -- Starts a choice again. What a fine run has shown of its free check still holds.

@@ -19,9 +19,9 @@ local finest = {
 -- choices follow, because it may leave out more now, or less. time: when this was seen [s].
 function finest.given_up(context, state, time)
   local was, rung = state.choice.rungs[state.rung].as, state.rung
-  state.lost = ("in the fine run this is no longer true: %s"):format(state.known)
+  state.lost = ('"%s" held on coarse edges, but not in the fine run'):format(state.known)
   if state.no_way then
-    state.lost = ("%s; by %s %s, and the run began again, because %s"):format(state.lost,
+    state.lost = ("%s: by %s %s, and the run began again, because %s"):format(state.lost,
       number.text(time, "s"), state.broke, state.no_way)
   end
   state.checked, state.by, state.known = true, nil, nil
@@ -65,8 +65,8 @@ end
 -- Gives up a rung whose edges of a comparison show another state than the finest run. was: the rung's words.
 local function moved_on(context, state, was)
   context.given_up[#context.given_up + 1] = { kind = "model", time = context.scene.time, count = 1,
-    text = ("%s: %s given up; on coarse edges the wire is in another place: %s"):format(state.choice.name,
-      was, state.why) }
+    text = ("%s: %s given up, as finer edges show something else than the coarse ones of the comparison: "
+      .. "%s"):format(state.choice.name, was, state.why) }
   decide.settle(context)
   return true
 end

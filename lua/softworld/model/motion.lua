@@ -265,8 +265,9 @@ function motion.free(context, rung, f, share)
   if not f.acceleration or not f.period or not against then return nil end
   local inertia, long = growth(f) * f.acceleration / against, f.lasts / f.period
   if long < PERIODS or inertia > INERTIA * share then return nil end
-  return ("the run lasts %.3g first periods of %s (slow from %d on), and inertia is at most %s of %s "
-    .. "(limit %s)"):format(long, number.text(f.period, "s"), PERIODS, facts.percent(inertia), base(f),
+  local count = (long < 1000 and "%.3g" or "%.0f"):format(long)
+  return ("the run lasts %s first periods of %s (slow from %d on), and inertia is at most %s of %s "
+    .. "(limit %s)"):format(count, number.text(f.period, "s"), PERIODS, facts.percent(inertia), base(f),
     facts.percent(INERTIA * share))
 end
 

@@ -162,9 +162,9 @@ function section.free(context, rung, f, share)
   if rung > 2 or f.unknown then return nil end
   if f.q == 0 then return "nothing presses on a wire" end
   if f.share > share then return nil end
-  return ("'%s' is pressed by up to %s and flattened by %s of its width, with the modulus of %s (limit "
-    .. "%s)"):format(
-    f.wire, number.text(f.q, "N/m"), facts.percent(f.share), f.of, facts.percent(share))
+  return ("'%s' is pressed by up to %s and flattened by %s of its width (limit %s), "
+    .. "reckoned with the modulus of %s"):format(
+    f.wire, number.text(f.q, "N/m"), facts.percent(f.share), facts.percent(share), f.of)
 end
 
 --- Returns why the rung no longer suffices, by what the run showed so far, or nil. A section of unknown
@@ -183,7 +183,7 @@ end
 --- Skips the next rung if the stiffness of the pressed wire is not known.
 function section.skip(_, rung, f, share)
   if rung > 1 or not f.unknown or f.share > share then return nil end
-  return ("how stiff the section of '%s' is, is not known: give E"):format(f.unknown)
+  return ("the stiffness of the section of '%s' is not known: give E"):format(f.unknown)
 end
 
 --- Raises the rung for lines between faces that leave them no room: these fail, or their forces are wrong.
