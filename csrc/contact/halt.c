@@ -45,11 +45,7 @@ static double halt(const sw_contact *c, sw_system *s, sw_touch *t) {
   return sw_norm(v);
 }
 
-/* Friction keeps this share of its limit against the slide at the start, or has turned [-]. */
-static const double KEPT = 0.5;
-
-int sw_contact_turned(const sw_contact *c, const sw_system *s) {
-  double against = 0, most = 0;
+void sw_contact_against(const sw_contact *c, const sw_system *s, sw_against *sum) {
   for (size_t i = 0; i < c->touch_count; i++) {
     const sw_touch *t = &c->touches[i];
     const sw_press *p = &t->press;
@@ -58,11 +54,15 @@ int sw_contact_turned(const sw_contact *c, const sw_system *s) {
     const sw_vec o = sw_obstacle_velocity(&c->start[t->obstacle], t->point);
     const sw_vec v = sliding_part(sw_sub(sw_mean_of(s->v, 0, &t->spot), o), p->normal, &l);
     if (sw_norm(v) < SLOW) continue;
-    against -= sw_dot(p->tangential, sw_scale(v, 1.0 / sw_norm(v)));
-    most += t->friction * p->normal_force;
+    sum->against -= sw_dot(p->tangential, sw_scale(v, 1.0 / sw_norm(v)));
+    sum->most += t->friction * p->normal_force;
   }
-  return against < KEPT * most;
 }
+
+/* Friction keeps this share of its limit against the slide at the start, or has turned [-]. */
+static const double KEPT = 0.5;
+
+int sw_against_turned(const sw_against *sum) { return sum->against < KEPT * sum->most; }
 
 /* A touch that goes less in its first step does not slide [m]. */
 static const double LANDS = 1e-9;

@@ -35,6 +35,22 @@ static int is_followed(const sw_ladder *p) { return sw_blow_part(p->s, p->args->
  * twenty in steps longer than LONG: those are told too (spec/contact/soft_landing_spec)
  * [m/s], [s]. */
 static const double TREMBLE = 1e-6, FINE = 5.5e-4, LONG = 0.0105;
+/* Most friction of all touches with obstacles and between lines [N]. */
+static double friction_of(const sw_scene *s) {
+  return (sw_scene_contact(s) ? sw_contact_friction(sw_scene_contact(s)) : 0.0) +
+         (sw_scene_pairs(s) ? sw_mutual_friction(sw_scene_pairs(s)) : 0.0);
+}
+
+/* Friction at rest. Returns the most friction of those wires that still tremble [N]. */
+static double halt(sw_scene *s) {
+  sw_contact *contact = sw_scene_contact(s);
+  sw_system *system = sw_scene_system(s);
+  double moving = 0;
+  if (sw_scene_pairs(s)) moving += sw_mutual_halt(sw_scene_pairs(s), contact, system, TREMBLE);
+  if (contact) moving += sw_contact_halt(contact, system, TREMBLE);
+  return moving;
+}
+
 /* The part of the friction that is told [-]. */
 static const double TOLD = 0.1;
 
@@ -49,7 +65,7 @@ static void tell_rest(sw_scene *s, const char *what, double h, double friction) 
 
 /* moving: most friction of the wires that tremble [N]. */
 static void tell_trembling(sw_scene *s, double h, double dt, double moving) {
-  if ((h > FINE || dt > LONG) && moving > TOLD * sw_contact_friction(sw_scene_contact(s)))
+  if ((h > FINE || dt > LONG) && moving > TOLD * friction_of(s))
     tell_rest(s, "while wires still tremble on what they slide on, in steps of", dt > LONG ? dt : h,
               moving);
 }
@@ -74,9 +90,9 @@ void sw_ladder_accept(sw_ladder *p, double h, double t) {
   sw_system *system = sw_scene_system(s);
   sw_stepper_accept(&c->stepper, system, h);
   system->judged = c->stepper.trial_x;
-  double moving = p->turned ? sw_contact_friction(sw_scene_contact(s)) : 0.0;
+  double moving = p->turned ? friction_of(s) : 0.0;
   if (p->halts) {
-    moving = sw_contact_halt(sw_scene_contact(s), system, TREMBLE);
+    moving = halt(s);
     c->stepper.restart = 1;
   }
   const int stopped = sw_scene_contact(s) && sw_scene_time(s) < c->stop_until;

@@ -41,6 +41,14 @@ static int was_mistaken(const sw_scene *s, sw_contact_verdict verdict) {
   return over && !sw_scene_was_struck(s);
 }
 
+/* 1 if friction turned round in a trial at whose end a drive comes to rest. */
+static int has_turned(const sw_scene *s) {
+  sw_against sum = {0, 0};
+  if (sw_scene_contact(s)) sw_contact_against(sw_scene_contact(s), sw_scene_system(s), &sum);
+  if (sw_scene_pairs(s)) sw_mutual_against(sw_scene_pairs(s), sw_scene_system(s), &sum);
+  return sw_against_turned(&sum);
+}
+
 /* Tries a step of size h, again as long as contact finds impacts. */
 sw_status sw_rung_strike(sw_ladder *p, const sw_rung *below, double h, sw_error *err) {
   sw_scene *s = p->s;
@@ -53,7 +61,7 @@ sw_status sw_rung_strike(sw_ladder *p, const sw_rung *below, double h, sw_error 
   memcpy(p->v_start, system->v, system->freedoms * sizeof(double));
   const int implicit = c->method->flags & SW_INTEGRATOR_IMPLICIT;
   int stops = 0;
-  if (implicit && contact) SW_TRY(sw_restart_halts(s, h, &p->halts, err));
+  if (implicit) SW_TRY(sw_restart_halts(s, h, &p->halts, err));
   if (implicit && !p->halts) SW_TRY(sw_restart_stops(s, h, &stops, err));
   sw_status status = sw_scene_begin_contact(s, implicit ? SW_CONTACT_IMPLICIT : SW_CONTACT_EXPLICIT,
                                             sw_scene_time(s), h, sw_blow_part(s, p->args->dt), err);
@@ -68,8 +76,7 @@ sw_status sw_rung_strike(sw_ladder *p, const sw_rung *below, double h, sw_error 
     const sw_contact_verdict verdict =
         sw_scene_review_contact(s, c->stepper.trial_x, c->stepper.trial_v, h);
     const int mistaken = expected && was_mistaken(s, verdict);
-    const int turned =
-        verdict == SW_CONTACT_ACCEPT && p->halts && sw_contact_turned(contact, system);
+    const int turned = verdict == SW_CONTACT_ACCEPT && p->halts && has_turned(s);
     if (verdict == SW_CONTACT_ACCEPT && !mistaken && !turned) return SW_OK;
     sw_stepper_reject(&c->stepper, system);
     if (turned) {

@@ -29,13 +29,12 @@ static sw_status leads_of(const sw_motion *m, double t, double h, double *at, sw
 
 /* A wire along which waves travel for longer (3 m of cable, 0.2 m of a rubber hose) is stretched by
  * friction fifty times as far as its touches give way in steps of 10 ms: it needs neither short
- * parts nor stiff friction [s]. */
-static const double TRAVEL = 1e-3;
-/* By tolerance steps are short anyway, and all lines get short parts [s]. */
+ * parts nor stiff friction (SW_STOP_TRAVEL). By tolerance steps are short anyway, and all lines get
+ * short parts [s]. */
 static const double ANY_LINE = 1e6;
 
 static double travel_of(const sw_ladder *p) {
-  return isfinite(p->args->tolerance) ? ANY_LINE : TRAVEL;
+  return isfinite(p->args->tolerance) ? ANY_LINE : SW_STOP_TRAVEL;
 }
 
 /* What landed so long ago has ceased to tremble [s]. */

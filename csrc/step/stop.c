@@ -205,8 +205,7 @@ sw_status sw_drives_first(const sw_scene *s, double h, sw_asked which, sw_when o
   return SW_OK;
 }
 
-/* 1 if it is a line along which waves travel in less than `most` [s]. */
-static int is_stiff(const sw_body *b, double most) {
+int sw_stop_is_stiff(const sw_body *b, double most) {
   const sw_plan *p = b->plan;
   return !p->web && p->length * p->length * p->beam.mass < most * most * b->EA;
 }
@@ -220,7 +219,7 @@ int sw_drives_slide(const sw_scene *s, double travel, double way) {
     if (sw_contact_push_at(contact, system, k, &p) && p.friction > 0 && sw_norm(p.slip) > SLID &&
         p.slid < way &&
         (!(travel < HUGE_VAL) ||
-         is_stiff(&system->bodies[sw_system_body_of(system, p.node)], travel)))
+         sw_stop_is_stiff(&system->bodies[sw_system_body_of(system, p.node)], travel)))
       return 1;
   const sw_mutual *pairs = sw_scene_pairs(s);
   return pairs && !(way < HUGE_VAL) && sw_presses_slide(sw_mutual_presses(pairs), SLID);
@@ -261,7 +260,7 @@ sw_status sw_restart_until_break(sw_scene *s, double *h, sw_error *err) {
   SW_TRY(sw_drives_first(s, *h, SW_FUNCTIONS, rough_of, &rough, err));
   const int smooth = sw_scene_course(s)->smooth = rough > 0;
   SW_TRY(sw_drives_first(s, *h, smooth ? SW_LAWS : SW_ALL_DRIVES, jump_of, &jump, err));
-  if (sw_scene_contact(s)) SW_TRY(while_sliding(s, *h, halt_of, &halt, err));
+  if (sw_scene_has_contact(s)) SW_TRY(while_sliding(s, *h, halt_of, &halt, err));
   const double t = fmin(jump < *h * (1 - NEAR) ? jump : HUGE_VAL, halt);
   if (t > 0 && t < sw_stop_before_end(*h)) *h = t;
   return SW_OK;
@@ -299,8 +298,11 @@ sw_status sw_restart_after_stop(sw_scene *s, double h, sw_error *err) {
   if (!sw_scene_contact(s) && (!sw_scene_pairs(s) || sw_coarse_is_bundle(s))) return SW_OK;
   const double left = c->stop_until - sw_scene_time(s);
   if (left > 0 && left < FOLLOWED - LEAST && !any_slides(s)) c->stop_until = 0;
+  sw_stop_tell(s);
   SW_TRY(while_sliding(s, h, stop_at_once, &at, err));
-  if (!(at > 0)) c->stop_until = sw_scene_time(s) + FOLLOWED;
+  if (at > 0) return SW_OK;
+  c->stop_until = sw_scene_time(s) + FOLLOWED;
+  sw_stop_note(s);
   return SW_OK;
 }
 

@@ -80,7 +80,9 @@ typedef struct sw_body {
   int coupled;        /* in this stage: SW_JOINED, SW_TOUCHING, both, or 0 (system/part.h) */
   int waits;          /* 1: it rests, and is not solved in this step (system/wait.h) */
   int stops;          /* 1: it came to rest in the step that was just accepted */
-  int weighed;        /* 1: the next three are known, while it waits */
+  double watched; /* until then its friction is watched, as a drive stopped at once; 0: it is not
+                     (step/left.c) [s] */
+  int weighed;    /* 1: the next three are known, while it waits */
   double gravity, stored, loads; /* its energies, see sw_energies [J] */
   double pushed;                 /* largest push for which buckling was checked [N] */
   sw_unbent unbent;
