@@ -28,6 +28,25 @@ static sw_vec sliding_part(sw_vec v, sw_vec normal, const sw_levers *l) {
   return sw_madd(v, rolls, -sw_dot(v, rolls));
 }
 
+/* Mass that a touch holds [kg]. In a mesh particles that touch hold those of their section that do
+ * not, by the force with which they press. */
+static double mass_of(const sw_contact *c, const sw_system *s, const sw_touch *t) {
+  const sw_body *b = &s->bodies[t->body];
+  const sw_web *web = b->plan->web;
+  if (!web || !web->per_ring) return c->candidates[t->candidate].mass;
+  size_t ring = 0;
+  while (ring + 1 < web->rings && b->first_node + web->first[ring + 1] <= t->node) ring++;
+  const size_t first = b->first_node + web->first[ring];
+  const size_t end = b->first_node + web->first[ring + 1];
+  double force = 0, mass = 0;
+  for (size_t i = 0; i < c->touch_count; i++) {
+    const sw_touch *other = &c->touches[i];
+    if (other->node >= first && other->node < end) force += fmax(0.0, other->press.normal_force);
+  }
+  for (size_t i = first; i < end; i++) mass += b->plan->lumped[i - b->first_node];
+  return mass * t->press.normal_force / force;
+}
+
 /* Returns the speed along the surface that the place still had [m/s]. */
 static double halt(const sw_contact *c, sw_system *s, sw_touch *t) {
   sw_press *p = &t->press;
@@ -37,7 +56,7 @@ static double halt(const sw_contact *c, sw_system *s, sw_touch *t) {
   const sw_vec v = sliding_part(sw_sub(sw_mean_of(s->v, 0, &t->spot), o), p->normal, &l);
   const sw_vec a = sliding_part(sw_mean_of(s->a, 0, &t->spot), p->normal, &l);
   if (sw_norm(v) > fmax(RESTS * c->h, LATE) * sw_norm(a)) return sw_norm(v);
-  const sw_vec rest = sw_madd(p->tangential, a, -c->candidates[t->candidate].mass);
+  const sw_vec rest = sw_madd(p->tangential, a, -mass_of(c, s, t));
   const double most = t->friction * p->normal_force;
   p->tangential = sw_scale(rest, fmin(1.0, most / fmax(sw_norm(rest), 1e-300)));
   p->next_sliding = 0;
