@@ -28,16 +28,21 @@ static sw_vec sliding_part(sw_vec v, sw_vec normal, const sw_levers *l) {
   return sw_madd(v, rolls, -sw_dot(v, rolls));
 }
 
+/* The section of a mesh that a touch belongs to: its first node, and the one after its last. */
+static void section_of(const sw_body *b, size_t node, size_t *first, size_t *end) {
+  const sw_web *web = b->plan->web;
+  size_t ring = 0;
+  while (ring + 1 < web->rings && b->first_node + web->first[ring + 1] <= node) ring++;
+  *first = b->first_node + web->first[ring], *end = b->first_node + web->first[ring + 1];
+}
+
 /* Mass that a touch holds [kg]. In a mesh particles that touch hold those of their section that do
  * not, by the force with which they press. */
 static double mass_of(const sw_contact *c, const sw_system *s, const sw_touch *t) {
   const sw_body *b = &s->bodies[t->body];
-  const sw_web *web = b->plan->web;
-  if (!web || !web->per_ring) return c->candidates[t->candidate].mass;
-  size_t ring = 0;
-  while (ring + 1 < web->rings && b->first_node + web->first[ring + 1] <= t->node) ring++;
-  const size_t first = b->first_node + web->first[ring];
-  const size_t end = b->first_node + web->first[ring + 1];
+  if (!b->plan->web || !b->plan->web->per_ring) return c->candidates[t->candidate].mass;
+  size_t first, end;
+  section_of(b, t->node, &first, &end);
   double force = 0, mass = 0;
   for (size_t i = 0; i < c->touch_count; i++) {
     const sw_touch *other = &c->touches[i];
@@ -45,6 +50,19 @@ static double mass_of(const sw_contact *c, const sw_system *s, const sw_touch *t
   }
   for (size_t i = first; i < end; i++) mass += b->plan->lumped[i - b->first_node];
   return mass * t->press.normal_force / force;
+}
+
+/* Speed of a mesh's section along the surface [m/s]: its particles tremble at any time. */
+static double section_speed(const sw_contact *c, const sw_system *s, const sw_touch *t) {
+  const sw_body *b = &s->bodies[t->body];
+  if (!b->plan->web->per_ring) return 0;
+  size_t first, end;
+  section_of(b, t->node, &first, &end);
+  sw_vec v = sw_v(0, 0, 0);
+  for (size_t i = first; i < end; i++)
+    v = sw_madd(v, sw_vec_at(s->v, i), 1.0 / (double)(end - first));
+  v = sw_sub(v, sw_obstacle_velocity(&c->now[t->obstacle], t->point));
+  return sw_norm(sw_madd(v, t->press.normal, -sw_dot(v, t->press.normal)));
 }
 
 /* Returns the speed along the surface that the place still had [m/s]. */
@@ -94,8 +112,9 @@ double sw_contact_halt(sw_contact *c, sw_system *s, double still) {
   double moving = 0;
   for (size_t i = 0; i < c->touch_count; i++) {
     sw_touch *t = &c->touches[i];
-    const int web = s->bodies[t->body].plan->web != NULL; /* its section trembles at any time */
-    if (halt(c, s, t) > still && !web) moving += most_of(t);
+    const int web = s->bodies[t->body].plan->web != NULL;
+    const double section = web ? section_speed(c, s, t) : 0.0, own = halt(c, s, t);
+    if ((web ? section : own) > still) moving += most_of(t);
   }
   return moving;
 }
