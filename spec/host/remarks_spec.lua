@@ -45,7 +45,8 @@ describe("remarks", function()
     { "s:obstacle{ name = 'peg', shape = 'box', size = {1, 1, 1}, rotation = { axis = {1, 0, 0}, "
       .. "angle = 45 } }",
       "obstacle 'peg': angle = 45 rad is 7.16 turns; did you mean sw.units.deg(45)?" },
-    { "s:obstacle{ shape = 'plane' } s:clip{ at = {0, 0, -0.05}, width = 0.01, insertion = 5, retention = 9 }",
+    { "s:obstacle{ shape = 'plane' } "
+      .. "s:clip{ at = {0, 0, -0.05}, width = 0.01, insertion = 5, retention = 9 }",
       "clip 'clip1': its seat is 50 mm inside 'plane1', where no wire can lie" },
     { "local w = " .. wire(good) .. " s:feed(w, { s = 0.5, speed = 100 })",
       "feed 'feed1': speed = 100 m/s is above 20 m/s; did you mean sw.units.mm_per_s(100)?" },

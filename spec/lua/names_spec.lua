@@ -165,10 +165,10 @@ end)
 
 describe("a measure that an object has for intervals only", function()
   it("is told to be one of over()", function()
-    local scene = sw.scene{}
-    local ball = scene:obstacle{ name = "ball", shape = "sphere", radius = 0.1 }
-    scene:wire{ E = 1e6, density = 1000, radius = 0.001, from = { 0, 0, 1 }, to = { 1, 0, 1 } }
-    scene:run{ duration = 0.01 }
+    local s = sw.scene{}
+    local ball = s:obstacle{ name = "ball", shape = "sphere", radius = 0.1 }
+    s:wire{ E = 1e6, density = 1000, radius = 0.001, from = { 0, 0, 1 }, to = { 1, 0, 1 } }
+    s:run{ duration = 0.01 }
     for _, name in ipairs{ "peak_force", "mean_force", "impulse" } do
       local fine, why = pcall(function() return ball[name] end)
       assert.is_false(fine)

@@ -85,8 +85,8 @@ local function check_idle(self, seconds)
   if self.idle_at ~= time then self.idle_at, self.idle = time, 0 end
   self.idle = self.idle + 1
   if self.idle < IDLE then return end
-  error(("p:wait: seconds = %g s was waited for %d times at t = %g s, and no time passes; wait for a time, or "
-    .. "use p:wait_until(function)"):format(seconds, self.idle, time), 3)
+  error(("p:wait: seconds = %g s was waited for %d times at t = %g s, and no time passes; wait for a time, "
+    .. "or use p:wait_until(function)"):format(seconds, self.idle, time), 3)
 end
 
 --- Waits for a time [s].
