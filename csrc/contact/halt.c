@@ -31,8 +31,7 @@ static sw_vec sliding_part(sw_vec v, sw_vec normal, const sw_levers *l) {
 /* The section of a mesh that a touch belongs to: its first node, and the one after its last. */
 static void section_of(const sw_body *b, size_t node, size_t *first, size_t *end) {
   const sw_web *web = b->plan->web;
-  size_t ring = 0;
-  while (ring + 1 < web->rings && b->first_node + web->first[ring + 1] <= node) ring++;
+  const size_t ring = sw_web_ring_of(web, node - b->first_node);
   *first = b->first_node + web->first[ring], *end = b->first_node + web->first[ring + 1];
 }
 

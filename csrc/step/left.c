@@ -43,6 +43,7 @@ void sw_stop_tell(sw_scene *s) {
   double most = 0;
   for (size_t b = 0; b < system->body_count; b++) {
     sw_body *body = &system->bodies[b];
+    if (now < body->watched - TO) body->watched = 0; /* the scene was restored */
     if (!(body->watched > 0) || now < body->watched - TO + FROM) continue;
     const sw_along sum = along_of(s, b);
     const int less = sum.most > 0 && fabs(sum.along) < ALL * sum.most;
