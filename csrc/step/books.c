@@ -142,24 +142,25 @@ static double book_gain(sw_scene *s, double gain) {
 
 /* Lowers losses that were booked too high; returns by how much [J]. A step's losses are computed
  * from its ends. They may be too high: damping, where its power changed within the step; friction,
- * where its force began in the step; impact, where the step gave some of it back. A blow changes
- * the damping's power too, a taut wire damps faster than steps follow, and the normal force of a
- * wire that strikes fast along a surface changes between a step's stages: where hardly any work is
- * done, the rest of the excess can only be these. excess: the booked losses minus the step's loss
- * [J]. */
+ * where its force began in the step; impact, where the step gave some of it back. The last two
+ * only where something touches. A blow changes the damping's power too, a taut wire damps faster
+ * than steps follow, and the normal force of a wire that strikes fast along a surface changes
+ * between a step's stages: where hardly any work is done, the rest of the excess can only be these.
+ * excess: the booked losses minus the step's loss [J]. */
 static double booked_too_high(const sw_books *b, sw_step_energy *step, double excess) {
   const double before = b->powers.damping, after = step->powers.damping;
   const double mean = sw_ledger_over_step(before, after, 1.0);
   const double least = mean > 0 ? step->damping * fmin(1.0, fmin(before, after) / mean) : 0.0;
   const double rest = step->work > LITTLE_WORK * excess ? 0.0 : 1.0;
   double left = fmax(0.0, excess);
+  const double touching = step->touching ? 1.0 : 0.0;
   struct {
     double *lost, most;
   } parts[] = {{&step->damping, step->damping - least},
-               {&step->impact, step->impact},
-               {&step->friction, 0.5 * step->friction},
+               {&step->impact, touching * step->impact},
+               {&step->friction, touching * 0.5 * step->friction},
                {&step->damping, rest * least},
-               {&step->friction, rest * 0.5 * step->friction}};
+               {&step->friction, touching * rest * 0.5 * step->friction}};
   for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
     const double part = fmin(left, fmax(0.0, parts[k].most));
     *parts[k].lost -= part, left -= part;

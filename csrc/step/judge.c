@@ -25,13 +25,14 @@ static int next_redo(sw_ladder *p) {
 }
 
 /* Where nothing touches, half of a step makes at most a quarter of its energy, for the methods are
- * of second order. A step that makes more than this share of what a longer one made only corrects
- * the last state, which is as exact as its iteration: no smaller step helps [-]. */
-static const double HELPS = 0.5;
+ * of second order. A step that makes more than HELPS of what a longer one made, and less than
+ * LITTLE of the energy in play, only corrects the last state, which is as exact as its iteration:
+ * no smaller step helps [-]. */
+static const double HELPS = 0.5, LITTLE = 5e-4;
 
 static int smaller_helps(sw_ladder *p, double excess) {
-  const double start = sw_scene_time(p->s);
-  const int helps = p->made_at != start || !(excess > HELPS * p->made);
+  const double start = sw_scene_time(p->s), least = LITTLE * sw_scene_books(p->s)->sums.play;
+  const int helps = p->made_at != start || !(excess > HELPS * p->made) || excess > least;
   p->made_at = start, p->made = excess;
   return helps;
 }
