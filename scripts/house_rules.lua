@@ -16,7 +16,11 @@ rules.ROOMS = {
   system = { "base", "state", "solve", "force" }, -- evaluates the wires' forces
   modal = { "base", "system" },
   integrate = { "base", "system" }, -- knows a system, but no force or wire
-  contact = { "base", "state", "shape", "motion", "solve", "system" }, -- a coupling of the system
+  touch = { "base", "solve", "system" }, -- the law of one touch, and its place in the equations
+  -- wires and obstacles: a coupling of the system
+  contact = { "base", "state", "shape", "motion", "solve", "system", "touch" },
+  -- wires and particles with each other: a coupling of the system, by the same law
+  mutual = { "base", "state", "solve", "system", "touch", "contact" },
   link = { "base", "motion", "state", "system" }, -- knows a wire of the system, but not the scene
   calibrate = { "base", "wire", "force" },
   record = { "base" }, -- recorded data of a run; other rooms, which know the scene, fill it
@@ -25,7 +29,8 @@ rules.ROOMS = {
   scene = { "base", "motion", "shape", "state", "wire", "force", "system", "integrate", "contact", "link",
     "record", "strand" },
   -- conversion of the scene to one system of bodies, lines and webs, and back
-  body = { "base", "state", "solve", "force", "system", "integrate", "contact", "link", "strand", "scene" },
+  body = { "base", "state", "solve", "force", "system", "integrate", "touch", "contact", "mutual", "link",
+    "strand", "scene" },
   -- grippers
   grip = { "base", "motion", "shape", "state", "wire", "solve", "system", "contact", "link", "strand",
     "scene", "body" },
@@ -33,20 +38,20 @@ rules.ROOMS = {
   edit = { "base", "motion", "shape", "state", "wire", "force", "system", "contact", "calibrate", "link",
     "record", "strand", "scene", "body", "grip" },
   -- read-outs of the state
-  read = { "base", "state", "force", "system", "modal", "contact", "link", "record", "strand", "scene",
-    "body", "grip" },
+  read = { "base", "state", "force", "system", "modal", "touch", "contact", "mutual", "link", "record",
+    "strand", "scene", "body", "grip" },
   -- recording and reporting of every accepted state
   watch = { "base", "shape", "state", "system", "modal", "contact", "link", "record", "strand", "scene",
     "body", "grip", "edit", "read" },
   -- the scene as a whole: its life, snapshots, files
-  save = { "base", "motion", "shape", "state", "wire", "force", "system", "integrate", "contact", "link",
-    "record", "strand", "scene", "body", "grip", "edit", "read", "watch" },
+  save = { "base", "motion", "shape", "state", "wire", "force", "system", "integrate", "contact", "mutual",
+    "link", "record", "strand", "scene", "body", "grip", "edit", "read", "watch" },
   -- changing the model of a wire; returns to a snapshot if that fails
   remodel = { "base", "state", "wire", "solve", "system", "contact", "link", "strand", "scene", "body",
     "grip", "edit", "read", "save" },
   -- time steps, runs and equilibria; a search for equilibrium that leads nowhere returns to a snapshot
-  step = { "base", "motion", "state", "force", "system", "integrate", "contact", "link", "scene",
-    "body", "grip", "edit", "read", "watch", "save" },
+  step = { "base", "motion", "state", "force", "system", "integrate", "touch", "contact", "mutual", "link",
+    "scene", "body", "grip", "edit", "read", "watch", "save" },
   film = { "base", "read" },
   view = { "base" }, -- bytes for pages; knows no scene
   draw = { "base", "film" }, -- uses only the compression of film
@@ -58,7 +63,8 @@ rules.ROOMS = {
 -- Headers that other rooms may include: <room>/<room>.h, unless listed here (true = all headers).
 -- state and solve have no single header, because their parts have different users.
 rules.OPEN = { base = true, bind = true,
-  contact = { "contact.h", "crowd.h", "halt.h", "jolt.h", "mutual.h", "tally.h" },
+  contact = { "contact.h", "halt.h", "jolt.h" }, mutual = { "crowd.h", "halt.h", "jolt.h", "mutual.h" },
+  touch = true,
   film = { "film.h", "pack.h", "skin.h" }, view = { "server.h" },
   read = { "frames.h" },
   force = { "force.h", "solid.h" }, link = { "hold.h", "joint.h", "spool.h" }, shape = { "tree.h" },

@@ -7,8 +7,8 @@
 
 #include "base/alloc.h"
 #include "base/each.h"
-#include "contact/mutual.h"
 #include "force/solid.h"
+#include "mutual/mutual.h"
 #include "scene/forces.h"
 #include "scene/lists.h"
 #include "scene/parts.h"

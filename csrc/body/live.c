@@ -7,7 +7,7 @@
 
 #include "base/alloc.h"
 #include "body/body.h"
-#include "contact/mutual.h"
+#include "mutual/mutual.h"
 #include "scene/course.h"
 #include "scene/parts.h"
 #include "scene/wire.h"

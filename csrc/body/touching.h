@@ -5,10 +5,10 @@
 #define SW_BODY_TOUCHING_H
 
 #include "contact/contact.h"
-#include "contact/crowd.h"
-#include "contact/mutual.h"
-#include "contact/tally.h"
+#include "mutual/crowd.h"
+#include "mutual/mutual.h"
 #include "scene/scene.h"
+#include "touch/tally.h"
 
 /* A rule of which wires touch each other, as stated. */
 typedef struct sw_scene_rule {

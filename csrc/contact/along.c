@@ -3,13 +3,12 @@
 #include <math.h>
 
 #include "contact/halt.h"
-#include "contact/meet.h"
 
 /* Touches whose friction across the wire is above this share of the most are left out [-]. */
 static const double ACROSS = 0.5;
 
-static void add(const sw_system *s, size_t body, size_t node, sw_vec friction, double most,
-                sw_along *sum) {
+void sw_along_add(const sw_system *s, size_t body, size_t node, sw_vec friction, double most,
+                  sw_along *sum) {
   const sw_body *b = &s->bodies[body];
   const size_t e = node + 1 < b->first_node + b->plan->nodes ? node : node - 1;
   const sw_vec edge = sw_sub(sw_vec_at(s->x, e + 1), sw_vec_at(s->x, e));
@@ -26,16 +25,6 @@ void sw_contact_along(const sw_contact *c, const sw_system *s, size_t body, sw_a
   for (size_t k = 0; k < count; k++) {
     if (!sw_contact_push_at(c, s, k, &p) || p.node < first || p.node >= end) continue;
     const sw_vec across = sw_madd(p.force, p.normal, -sw_dot(p.force, p.normal));
-    add(s, body, p.node, across, p.friction * p.normal_force, sum);
-  }
-}
-
-void sw_mutual_along(const sw_mutual *m, const sw_system *s, size_t body, sw_along *sum) {
-  for (size_t i = 0; i < 2 * (m->touch_count + m->still.count); i++) {
-    const size_t k = i / 2, side = i % 2;
-    const sw_meet *t = k < m->touch_count ? &m->touches[k] : &m->still.list[k - m->touch_count];
-    if (t->of.body[side] != body || !(t->press.normal_force > 0)) continue;
-    const double most = sw_mutual_rule(m, t->of.body)->friction * t->press.normal_force;
-    add(s, body, t->of.node[side], sw_scale(t->press.tangential, side ? -1 : 1), most, sum);
+    sw_along_add(s, body, p.node, across, p.friction * p.normal_force, sum);
   }
 }

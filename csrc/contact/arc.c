@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "contact/same.h"
+#include "touch/same.h"
 
 /* An arc of curvature K stands off its chord's middle by this share of K h^2, if the nodes lie so
  * far outside it that the chord is as long as the arc [-]. */

@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "contact/cross.h"
-#include "contact/same.h"
+#include "touch/same.h"
 
 /* 1 if a body presses on an obstacle, or did at the step's start. Its nodes may then cut a corner
  * that the wire itself goes round. */

@@ -8,7 +8,7 @@
 #include "contact/arc.h"
 #include "contact/pads.h"
 #include "contact/round.h"
-#include "contact/same.h"
+#include "touch/same.h"
 
 /* Stiffness over mass/hbar^2 in implicit steps. It is far above what the step resolves, so that the
  * gap closes to a thousandth of the free fall [-]. */

@@ -9,7 +9,7 @@
 #include "base/each.h"
 #include "base/halving.h"
 #include "contact/curve.h"
-#include "contact/tally.h"
+#include "touch/tally.h"
 
 sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_contact_place place,
                          void *user, sw_contact **out) {

@@ -159,7 +159,7 @@ void sw_contact_force(const sw_contact *contact, int o, sw_vec about, sw_vec *fo
                       sw_vec *moment);
 /* Deepest penetration of the accepted state, with the system's node nearest to it [m]. */
 double sw_contact_penetration(const sw_contact *contact, size_t *node);
-/* The lists of touches, for contact/tally.h: of wires that are solved, and of those that wait. */
+/* The lists of touches, for touch/tally.h: of wires that are solved, and of those that wait. */
 struct sw_presses sw_contact_presses(const sw_contact *contact);
 struct sw_presses sw_contact_still_presses(const sw_contact *contact);
 /* Pressure on a node or on a segment. */

@@ -3,8 +3,8 @@
  * touches there. */
 #include <math.h>
 
-#include "contact/lean.h"
 #include "contact/round.h"
+#include "touch/lean.h"
 
 static const double QUARTER = 0.25;
 /* Lines closer to parallel than PARALLEL have no foot. Nodes meet edges up to the angle NEARLY. The

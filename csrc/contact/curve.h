@@ -65,7 +65,7 @@ int sw_contact_goes_across(sw_vec along, sw_vec edge);
 /* Returns the place of a touch. */
 sw_place sw_contact_place_of(const sw_contact *c, const sw_touch *t);
 /* World normal of a place, for a touch with this steady normal force [N]. The normal leans, see
- * contact/lean.h. */
+ * touch/lean.h. */
 sw_vec sw_contact_leaning(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                           const sw_place *place, double steady);
 /* Steady normal force of a touch after a step of h [N]. */

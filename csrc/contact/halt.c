@@ -9,8 +9,8 @@
 
 #include <math.h>
 
-#include "contact/same.h"
 #include "contact/touch.h"
+#include "touch/same.h"
 
 /* A place rests if its speed is below what it loses in this share of the step [-], or in LATE [s].
  * Velocities of a drive that is a function are differences over the time before and after, and end

@@ -4,7 +4,6 @@
 #define SW_CONTACT_HALT_H
 
 #include "contact/contact.h"
-#include "contact/mutual.h"
 
 struct sw_kept;
 struct sw_memory;
@@ -18,31 +17,28 @@ typedef struct sw_against {
  * add the touches. sw_against_turned: 1 if friction turned round in it, because the method's error
  * carried wires past their place of rest. */
 void sw_contact_against(const sw_contact *contact, const sw_system *system, sw_against *sum);
-void sw_mutual_against(const sw_mutual *pairs, const sw_system *system, sw_against *sum);
 int sw_against_turned(const sw_against *sum);
 /* When it is the state of the system, before sw_contact_commit: sets friction at places that come
  * to rest to the force that keeps them there, and stops them. Returns the most friction of those
- * that were faster than `still` along their obstacle [m/s], [N]. sw_mutual_halt: the same between
- * wires; contact: with obstacles, or NULL. */
+ * that were faster than `still` along their obstacle [m/s], [N]. */
 double sw_contact_halt(sw_contact *contact, sw_system *system, double still);
-double sw_mutual_halt(sw_mutual *pairs, const sw_contact *contact, const sw_system *system,
-                      double still);
 
 /* Before sw_contact_commit: most friction of the touches of lines that began to press in this step
  * and slide, of those that a hold holds down on an obstacle: others hang from it, and swing [N]. */
 double sw_contact_landed(const sw_contact *contact, const sw_system *system);
 /* Most friction of all touches together [N]. */
 double sw_contact_friction(const sw_contact *contact);
-double sw_mutual_friction(const sw_mutual *pairs);
 
 /* Friction of a wire's touches along it, in the direction from its start, and the most that it can
- * be. Touches whose friction is mostly across are left out [N]. sw_mutual_along: with wires. */
+ * be. Touches whose friction is mostly across are left out [N]. */
 typedef struct sw_along {
   double along, most;
 } sw_along;
 void sw_contact_along(const sw_contact *contact, const sw_system *system, size_t body,
                       sw_along *sum);
-void sw_mutual_along(const sw_mutual *pairs, const sw_system *system, size_t body, sw_along *sum);
+/* Adds a touch's friction at a node, of at most `most` [N]. */
+void sw_along_add(const sw_system *system, size_t body, size_t node, sw_vec friction, double most,
+                  sw_along *sum);
 
 /* Displacement of friction's spring by the memory of a touch, in the obstacle's axes [m]. */
 sw_vec sw_contact_stretch(const sw_contact *contact, const struct sw_touch *touch,

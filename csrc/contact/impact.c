@@ -9,7 +9,7 @@
 #include "base/alloc.h"
 #include "contact/rebound.h"
 #include "contact/round.h"
-#include "contact/same.h"
+#include "touch/same.h"
 
 static int was_struck(const sw_contact *c, const sw_pressed *t, size_t node, size_t *looks) {
   for (uint32_t i = c->impact_at[node]; i; i = c->impacts[i - 1].before) {

@@ -5,11 +5,11 @@
 
 #include "base/alloc.h"
 #include "contact/depth.h"
-#include "contact/meet.h"
 #include "contact/rolling.h"
-#include "contact/same.h"
 #include "contact/touch.h"
 #include "system/part.h"
+#include "touch/load.h"
+#include "touch/same.h"
 
 static void apply(sw_contact *c, sw_system *s, sw_touch *t, const double *y, unsigned want) {
   double K[6];
@@ -17,7 +17,7 @@ static void apply(sw_contact *c, sw_system *s, sw_touch *t, const double *y, uns
   t->press.tangential = t->press.slip = sw_v(0, 0, 0);
   if (!t->press.active) return;
   const sw_vec f = sw_press_eval(&t->press, t->friction, c->regime != SW_CONTACT_EXPLICIT, K);
-  sw_meet_push_one(&s->bodies[t->body], &t->spot, f, want & SW_WANT_STIFFNESS ? K : NULL);
+  sw_load_add(&s->bodies[t->body], &t->spot, f, want & SW_WANT_STIFFNESS ? K : NULL);
   if (want & SW_WANT_STIFFNESS && c->regime == SW_CONTACT_STATIC)
     sw_contact_add_rolling(c, s, t, y);
   if (s->rolls) sw_levers_push(s, t, K, want);

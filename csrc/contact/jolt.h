@@ -5,7 +5,6 @@
 #define SW_CONTACT_JOLT_H
 
 #include "contact/contact.h"
-#include "contact/mutual.h"
 
 /* Longest part (substep) in which a blow is followed. The number of parts is the jolt's square, see
  * step/blow.c. Sections of a soft mesh throw a blow back within a millisecond, and the end of a
@@ -36,9 +35,5 @@ void sw_contact_forget_hardest(sw_contact *contact);
 double sw_contact_push_part(const sw_contact *contact, const sw_system *system);
 /* Length from an end of the wire (0: its start) to the next held node, or to its other end [m]. */
 double sw_contact_free_length(const sw_plan *plan, int last);
-/* Like sw_contact_jolt, for few wires that strike each other. dull: 1 if the trial used implicit
- * Euler. */
-double sw_mutual_jolt(const sw_mutual *pairs, const sw_system *system, int dull, int followed,
-                      sw_blow_of of, void *user);
 
 #endif

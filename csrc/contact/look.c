@@ -4,7 +4,7 @@
 
 #include "base/interrupt.h"
 #include "contact/curve.h"
-#include "contact/same.h"
+#include "touch/same.h"
 
 /* 1 if a mesh's particle was in the obstacle at the step's start already: with no memory, it was
  * put there, or the obstacle was. What passes into it within a step is found by the swept test. */

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "contact/same.h"
+#include "touch/same.h"
 
 /* If particles lie close enough, only particles meet a pad, not the edges between them. These edges
  * would leave and enter the pad's edges one by one, and the pad's force would jump. */

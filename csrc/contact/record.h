@@ -7,8 +7,8 @@
 #include <stdint.h>
 
 #include "contact/contact.h"
-#include "contact/law.h"
-#include "contact/mean.h"
+#include "touch/law.h"
+#include "touch/mean.h"
 
 /* A candidate: a node, or the inside of a segment that starts there, and an obstacle that it may
  * touch in this step. */

@@ -7,10 +7,10 @@
 
 #include "base/alloc.h"
 #include "base/simd.h"
-#include "contact/spot.h"
 #include "contact/touch.h"
-#include "contact/way.h"
 #include "solve/dense.h"
+#include "touch/spot.h"
+#include "touch/way.h"
 
 /* MOST_CHANGED: most touches opened and closed in an iterate; with more, the next iterate is
  * cheaper. MOST_PASSES: passes over them; after QUICK_PASSES touches change one by one, because

@@ -6,7 +6,7 @@
 #include "contact/cross.h"
 #include "contact/curve.h"
 #include "contact/jolt.h"
-#include "contact/same.h"
+#include "touch/same.h"
 
 /* 1 if a node left the reach that its candidates were chosen for. Then the reserve is widened. */
 static int went_too_far(sw_contact *c, const sw_system *s, const double *x1) {

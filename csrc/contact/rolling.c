@@ -3,8 +3,8 @@
 
 #include <math.h>
 
-#include "contact/bow.h"
-#include "contact/meet.h"
+#include "touch/bow.h"
+#include "touch/load.h"
 
 /* A wire that meets a round side at a smaller angle with its middle line rolls little on it: sine
  * squared [-]. */
@@ -53,5 +53,5 @@ void sw_contact_add_rolling(const sw_contact *c, sw_system *s, const sw_touch *t
   const double f = t->press.normal_force * R / along2;
   const double K[6] = {f * n.x * n.x, f * n.x * n.y, f * n.x * n.z,
                        f * n.y * n.y, f * n.y * n.z, f * n.z * n.z};
-  sw_meet_push_one(b, &slope, sw_v(0, 0, 0), K);
+  sw_load_add(b, &slope, sw_v(0, 0, 0), K);
 }

@@ -11,7 +11,7 @@
 #include <math.h>
 
 #include "base/halving.h"
-#include "contact/same.h"
+#include "touch/same.h"
 
 /* A wire meets a round obstacle by its curve always if the obstacle's radius plus the wire's is
  * below this many edges. Else it does so if it does not go round, and above SW_THICK only if it

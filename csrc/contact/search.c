@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Statics: touches find their states while the wires stay where they are; the wires move only when
  * all touches agree. Each solve continues from the least energy between the last update and the new
- * one (contact/way.h). Everything except the touches' forces is linear, and in balance with the
+ * one (touch/way.h). Everything except the touches' forces is linear, and in balance with the
  * solve's forces. */
 #include <math.h>
 
 #include "base/alloc.h"
 #include "contact/touch.h"
-#include "contact/way.h"
+#include "touch/way.h"
 
 size_t sw_contact_wrong(const sw_contact *c) {
   size_t count = 0;

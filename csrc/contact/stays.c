@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "contact/curve.h"
-#include "contact/same.h"
+#include "touch/same.h"
 
 /* A touch has stayed if its normal turned by at most TURNED, and its place moved by at most the
  * share MOVED of its segment [-]. */

@@ -10,8 +10,8 @@
 #include "contact/curve.h"
 #include "contact/depth.h"
 #include "contact/halt.h"
-#include "contact/same.h"
 #include "system/part.h"
+#include "touch/same.h"
 
 /* A touch continues in the next iterate if its gap is below STILL_NEAR of the radius and the cosine
  * of its normal's turn is above SAME_SIDE [-]. */

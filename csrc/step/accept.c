@@ -5,6 +5,7 @@
 #include "body/hold.h"
 #include "body/touching.h"
 #include "contact/halt.h"
+#include "mutual/halt.h"
 #include "scene/course.h"
 #include "scene/events.h"
 #include "scene/parts.h"

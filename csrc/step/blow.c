@@ -7,6 +7,7 @@
 
 #include "contact/jolt.h"
 #include "link/hold.h"
+#include "mutual/jolt.h"
 #include "scene/course.h"
 #include "scene/events.h"
 #include "scene/parts.h"

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "contact/mutual.h"
+#include "mutual/mutual.h"
 #include "scene/course.h"
 #include "scene/events.h"
 #include "scene/gripper.h"

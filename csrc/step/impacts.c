@@ -6,6 +6,7 @@
 #include "body/touching.h"
 #include "contact/halt.h"
 #include "force/force.h"
+#include "mutual/halt.h"
 #include "scene/course.h"
 #include "scene/parts.h"
 #include "step/blow.h"

@@ -4,6 +4,7 @@
 
 #include "body/touching.h"
 #include "contact/halt.h"
+#include "mutual/halt.h"
 #include "scene/events.h"
 #include "scene/parts.h"
 #include "scene/wire.h"

@@ -7,9 +7,8 @@
 
 #include "body/touching.h"
 #include "contact/contact.h"
-#include "contact/mutual.h"
-#include "contact/tally.h"
 #include "link/hold.h"
+#include "mutual/mutual.h"
 #include "scene/course.h"
 #include "scene/drive.h"
 #include "scene/gripper.h"
@@ -17,6 +16,7 @@
 #include "scene/parts.h"
 #include "step/coarse.h"
 #include "step/restart.h"
+#include "touch/tally.h"
 
 /* A drive that is slower than this rests [m/s], [rad/s]. */
 static const double STILL = 1e-9;

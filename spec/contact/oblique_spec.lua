@@ -32,7 +32,7 @@ describe("a peg without friction that a wire crosses obliquely", function()
         assert.is_true(run.ok, run.reason)
         local f = o:force()
         assert.is_true(math.abs(f[3]) > 0.05, ("the wire presses on it with %g N"):format(f[3]))
-        -- touches lean along the wire (contact/lean.h), which is 0.25 % along the axis; it was 1.3, 11, 14 %
+        -- touches lean along the wire (touch/lean.h), which is 0.25 % along the axis; it was 1.3, 11, 14 %
         assert.near(0, along(f, axis) / math.abs(f[3]), 4e-3)
       end)
     end

@@ -84,7 +84,7 @@ describe("settling", function()
 
   -- Coarse edges of a stiff cable, half a turn round a peg under a sudden load. Friction makes the way to
   -- rest long and the steps on it short. A touch at rest is no deeper than 50 um, the depth from which it
-  -- becomes stiffer (csrc/contact/law.h). The motion that remains comes from the tolerance of the touches:
+  -- becomes stiffer (csrc/touch/law.h). The motion that remains comes from the tolerance of the touches:
   -- 1 % of a normal force of 20 N, times 0.3, on some 10 g, is 2e-6 m in 0.5 ms. When a depth of 0.9 mm was
   -- accepted, wires moved 2 to 8 mm and made 2.8 J.
   it("leaves no touch deep in a peg, whatever the edges", function()

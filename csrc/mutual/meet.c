@@ -1,0 +1,358 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A touch of two bodies: how it begins from its memory, and whether it agrees with a solve. */
+#include "mutual/meet.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "contact/contact.h"
+#include "touch/same.h"
+
+/* --- one touch ------------------------------------------------------------------- */
+
+/* Carries a tangential vector at normal `from` to normal `to`. */
+static sw_vec carry(sw_vec v, sw_vec from, sw_vec to) {
+  const double share = sw_dot(to, v) / fmax(1.0 + sw_dot(from, to), 1e-12);
+  return sw_madd(v, sw_add(from, to), -share);
+}
+
+/* Share of a place that moves with free nodes [-]; *held: position of its held part [m]. */
+static double free_share(const sw_system *s, const sw_meet *t, int side, sw_vec *held) {
+  const sw_body *b = &s->bodies[t->of.body[side]];
+  const uint32_t node = t->of.node[side], other = t->of.end[side];
+  const double at = t->at[side];
+  const int *is = b->plan->held;
+  const int one = is[node - b->first_node] != SW_FREE, two = is[other - b->first_node] != SW_FREE;
+  const sw_vec start = sw_vec_at(s->x, node), end = sw_vec_at(s->x, other);
+  *held = one && two ? sw_lerp(start, end, at) : one ? start : end;
+  return (one ? 0.0 : 1.0 - at) + (two ? 0.0 : at);
+}
+
+/* Depth that holds impose: no force can part wires that are held closer together than their radii
+ * [m]. */
+static double imposed(const sw_system *s, const sw_meet *t) {
+  sw_vec a, b;
+  const double one = free_share(s, t, 0, &a), share = fmax(one, free_share(s, t, 1, &b));
+  return share < 1.0 ? (1.0 - share) * fmax(0.0, t->reach - sw_dist(a, b)) : 0.0;
+}
+
+static int is_line(const sw_system *s, uint32_t body) { return !s->bodies[body].plan->web; }
+
+/* 1 if the touch of two wires pressed at the step's start. Made stiffer within a step it would
+ * press more at the same depth, and store energy from nowhere: a twisted pair that was drawn taut
+ * redid each step, and its wires sank into each other by 0.3 of the radius
+ * (spec/contact/drawn_pair_spec). It gets stiffer from step to step, at the same force. */
+static int is_squeezed(const sw_mutual *m, const sw_system *s, const sw_met *met,
+                       const sw_meet *t) {
+  if (!met || m->regime != SW_CONTACT_IMPLICIT) return 0;
+  if (!is_line(s, t->of.body[0]) || !is_line(s, t->of.body[1])) return 0;
+  return met->kept.normal_force > 0 || met->kept.left > 0;
+}
+
+/* Axial stiffness of the softer of both edges [N/m]. */
+static double axial_of(const sw_system *s, const sw_meet *t) {
+  return fmin(sw_contact_edge_stiffness(s, t->of.body[0], t->of.node[0]),
+              sw_contact_edge_stiffness(s, t->of.body[1], t->of.node[1]));
+}
+
+/* Sets how much depth a touch leaves alone. Wires that were placed in each other come out slowly:
+ * within one step the depth would turn into speed. */
+static void forgive(const sw_mutual *m, const sw_system *s, const sw_met *met, sw_meet *t) {
+  if (m->regime == SW_CONTACT_EXPLICIT || t->press.gap >= 0) return;
+  const double always = imposed(s, t);
+  t->forgiven = always;
+  if (m->regime != SW_CONTACT_IMPLICIT) return;
+  const double depth = t->reach - sw_dot(t->square, sw_bows_apart(s->x, t->bow)) - always;
+  t->emerges |= met ? met->emerges : sw_press_was_put(depth, m->memory_count == 0);
+  sw_kept kept = met ? met->kept : (sw_kept){0};
+  t->squeezed = is_squeezed(m, s, met, t);
+  if (!t->squeezed) kept.left = 0;
+  const sw_left left =
+      sw_press_leave(depth, met ? &kept : NULL, (t->emerges ? SW_LET_OUT : SW_PART) * m->h);
+  t->forgiven += left.forgiven, t->left = left.left;
+  if (t->emerges) t->let_out = left.let_out;
+}
+
+/* Stiffness of a touch, wherever it has slid to [N/m]. */
+static double stiffness_of(const sw_mutual *m, const sw_meet *t, const sw_met *met,
+                           const sw_meet *last) {
+  if (m->regime == SW_CONTACT_EXPLICIT) return t->usual;
+  if (last) return last->stiffer;
+  return met && met->kept.normal_force > 0 ? met->kept.k : t->usual;
+}
+
+/* Wires along each other, and particles, that pressed at the step's start press in the first
+ * iterate too, unless the prediction opens them by more than this share of the sum of radii [-].
+ * Their depth is far below their motion in a step, so a prediction cannot tell whether they part.
+ * Crossings are excepted: in a tight knot they slide along both segments and would not settle. */
+static const double STILL_NEAR = 0.02;
+
+static int stays_near(const sw_mutual *m, const sw_meet *t) {
+  if (m->regime != SW_CONTACT_IMPLICIT || !(t->press.gap < STILL_NEAR * t->reach)) return 0;
+  return t->kind != SW_CROSSING || t->press.by_place;
+}
+
+/* A force that turns with its normal has negative stiffness. At a predicted place, as deep as a
+ * wire flew in the step, this would be thousands of weights. So it is left out until the last
+ * update shifted all pressing touches by at most CALM_SHIFT of the radii; a wire that flies throws
+ * its neighbours too. A touch shifted by more than NEAR_SHIFT keeps the iteration going [-]. Both
+ * apply only to depth that may be predicted: not to depth by placing or by holds, which is real,
+ * and not to crossings, which slide in knots. */
+static const double CALM_SHIFT = 0.01, NEAR_SHIFT = 0.02;
+
+static int may_fly(const sw_mutual *m, const sw_meet *t) {
+  return m->regime == SW_CONTACT_IMPLICIT && t->kind != SW_CROSSING && !(t->forgiven > 0);
+}
+
+static int is_far(const sw_mutual *m, const sw_meet *t, const sw_meet *last, int pressed) {
+  if (!t->flies) return 0;
+  if (!last) return !pressed;
+  return last->stage == m->stage && sw_norm(last->press.shift) > NEAR_SHIFT * t->reach;
+}
+
+/* Normal force of a touch without a past: from its depth, but zero if the depth may be predicted,
+ * because that would give thousands of weights. Friction then starts at zero. Enough friction to
+ * stop the lighter wire would push the wires of a bundle about that only fall on each other [N]. */
+static double first_force(const sw_meet *t) {
+  return t->flies ? 0.0 : fmax(0.0, -t->press.gap) * t->press.k;
+}
+
+static void begin_friction(const sw_mutual *m, const sw_system *s, const double *y, sw_meet *t,
+                           const sw_met *met, const sw_meet *last) {
+  sw_press *press = &t->press;
+  const int pressed = met && met->kept.normal_force > 0, went_on = last && last->press.active;
+  sw_vec u = sw_sub(sw_bows_apart(y, t->bow), sw_bows_apart(s->x, t->bow));
+  if (pressed)
+    u = sw_add(u, carry(met->kept.elastic, met->normal, press->normal));
+  else if (!press->active)
+    u = sw_v(0, 0, 0);
+  sw_press_aim(press, u, last ? &last->press : NULL, last && last->stage == m->stage, m->first);
+  if (last && m->updates > 0) press->reversals = last->press.reversals;
+  sw_press_resume(press, pressed ? &met->kept : NULL, last ? &last->press : NULL, went_on,
+                  first_force(t));
+  /* soft springs let touches creep: in such a solve also those slide that stick */
+  if (m->soft && pressed && press->active) press->sliding = met->kept.sliding;
+  sw_press_begin(press, sw_mutual_rule(m, t->of.body)->friction, went_on || pressed, HUGE_VAL);
+}
+
+sw_meet *sw_meet_new(sw_mutual *m) {
+  if (sw_grow((void **)&m->touches, &m->touch_capacity, m->touch_count + 1, sizeof *m->touches) !=
+      SW_OK)
+    return NULL;
+  return memset(&m->touches[m->touch_count], 0, sizeof *m->touches);
+}
+
+void sw_meet_add(sw_mutual *m, const sw_system *s, const double *y, sw_meet *t, double gap,
+                 sw_vec normal, const sw_met *met, const sw_meet *last) {
+  sw_press *press = &t->press;
+  const int pressed = met && met->kept.normal_force > 0;
+  t->stage = m->stage, t->known = pressed;
+  press->gap = gap, press->normal = normal;
+  if (!(sw_norm2(t->square) > 0)) t->square = normal;
+  press->k = t->stiffer = stiffness_of(m, t, met, last);
+  forgive(m, s, met, t);
+  press->gap += t->forgiven;
+  press->gap_after = press->gap;
+  sw_press_activate(press, last && m->regime != SW_CONTACT_EXPLICIT ? &last->press : NULL);
+  t->flies = may_fly(m, t);
+  t->far = is_far(m, t, last, pressed);
+  t->turns = !t->flies || (m->calm && !t->far);
+  if (pressed && !last) press->active |= stays_near(m, t);
+  begin_friction(m, s, y, t, met, last);
+  m->touch_count++;
+}
+
+/* Lines that go on to press each other become as little deep as in obstacles: with the usual depth
+ * the pull of a twisted pair of cables was 5 % too low. */
+double sw_meet_depth(const sw_meet *t) {
+  const double usual = sw_meet_deepest(t), shallow = 0.5 * SW_SHALLOW * t->reach;
+  return t->squeezed ? fmin(usual, shallow) : usual;
+}
+
+sw_met sw_meet_remember(const sw_system *s, const sw_meet *t) {
+  const double deepest = sw_meet_depth(t);
+  sw_met out = {.of = t->of,
+                .kind = t->kind,
+                .at = {t->at[0], t->at[1]},
+                .kept = sw_press_keep(&t->press, t->usual, t->stiffer, deepest),
+                .normal = t->press.normal,
+                .emerges = t->let_out > 0 || (t->emerges && t->forgiven > 0)};
+  out.kept.left = t->left;
+  if (t->squeezed) sw_kept_harden(&out.kept, axial_of(s, t), deepest);
+  return out;
+}
+
+/* Axes further apart than this share of the sum of radii did not pass each other in this iteration.
+ * The limit is needed because in a knot normals turn by more than a right angle within two segments
+ * [-]. */
+static const double PASSED = 0.5;
+
+void sw_meet_side(const sw_met *met, double reach, sw_vec *normal, double *distance) {
+  if (met && *distance < PASSED * reach && sw_dot(*normal, met->normal) < 0)
+    *normal = sw_neg(*normal), *distance = -*distance;
+}
+
+/* --- before a solve ---------------------------------------------------------------- */
+
+/* Number of first solves with softer springs. Where wires flew into each other in the prediction,
+ * every overlap would first be held at its surface, and touches beside each other would push and
+ * pull with many times their real force; half of the resulting states are wrong. Springs are SOFTER
+ * times as stiff for each soft solve that is left, this one included [-]. Falling bundles of 16 and
+ * 20 wires then need a half to a third of the solves; with one or three soft solves, or 3 or 100
+ * times as soft, 1.1 to 1.7 times as many (spec/contact/bundle_spec). */
+enum { SOFT_SOLVES = 2 };
+static const double SOFTER = 0.1;
+/* Overlaps above this share of the radii are of wires that flew in the prediction [-]. */
+static const double FLOWN = 0.005;
+/* Stiff springs throw wires about while these still pass round each other. So springs stay as soft
+ * as they are while an update shifts some pressing touch by more than this share of the radii, in
+ * at most the first LONG_SOFT solves. 24 falling bundles of 7 to 20 wires then need 0.72 times the
+ * solves, with a share of 0.05 or 0.1 as many [-]. */
+static const double PASSES_ROUND = 0.07;
+enum { LONG_SOFT = 6 };
+
+static int have_flown(const sw_mutual *m) {
+  for (size_t i = 0; i < m->touch_count; i++) {
+    const sw_meet *t = &m->touches[i];
+    if (t->flies && t->press.gap < -FLOWN * t->reach) return 1;
+  }
+  return 0;
+}
+
+void sw_mutual_soften(sw_mutual *m) {
+  if (m->regime != SW_CONTACT_IMPLICIT) return;
+  if (m->solves == 0)
+    m->soft = have_flown(m) ? SOFT_SOLVES : 0;
+  else if (m->soft > 0 && (m->solves >= LONG_SOFT || m->widest <= PASSES_ROUND))
+    m->soft--;
+  m->more_soft += m->soft > 0 && m->solves >= SOFT_SOLVES;
+  for (size_t i = 0; i < m->touch_count && m->soft; i++)
+    if (m->touches[i].flies) m->touches[i].press.k *= pow(SOFTER, m->soft);
+}
+
+/* --- after a solve ---------------------------------------------------------------- */
+
+/* Stiffens touches that are too deep; 1 = there were some. */
+static int stiffen(sw_mutual *m, const sw_system *s) {
+  const int small = sw_press_is_short(m->regime == SW_CONTACT_STATIC, m->h, m->nominal);
+  int any = 0;
+  if (m->regime == SW_CONTACT_EXPLICIT || s->rough) return 0;
+  for (size_t i = 0; i < m->touch_count; i++) {
+    sw_meet *t = &m->touches[i];
+    const double deepest = sw_meet_deepest(t);
+    double before = fmax(0.0, t->reach - sw_dot(t->square, sw_bows_apart(s->x, t->bow)));
+    before = t->squeezed ? sw_press_squeezed(t->forgiven, before, deepest) : small ? before : -1.0;
+    t->stiffer =
+        sw_press_stiffer(&t->press, t->usual, axial_of(s, t), deepest, t->forgiven, before);
+    any |= t->stiffer > t->press.k;
+  }
+  return any;
+}
+
+/* Finds force scales. For a body, forces far below its largest touch do not matter; for two bodies,
+ * the smaller scale counts. */
+static void find_scales(sw_mutual *m) {
+  for (size_t b = 0; b < m->bodies; b++) m->largest[b] = 0;
+  for (size_t i = 0; i < m->touch_count; i++)
+    for (size_t k = 0; k < 2; k++) {
+      double *largest = &m->largest[m->touches[i].of.body[k]];
+      const double lag = m->touches[i].press.lag;
+      if (lag > *largest) *largest = lag;
+    }
+}
+
+static double scale_of(const sw_mutual *m, const sw_meet *t) {
+  return fmin(m->largest[t->of.body[0]], m->largest[t->of.body[1]]);
+}
+
+typedef enum verdict { GOES_ON, ALL_BUT_FRICTION, AGREES } verdict;
+
+static verdict update(const sw_mutual *m, sw_meet *t, const double *delta, double scale) {
+  const sw_vec shift = sw_bows_apart(delta, t->bow);
+  const double friction = sw_mutual_rule(m, t->of.body)->friction;
+  const int agrees = sw_press_update(&t->press, friction, shift, scale);
+  for (int i = 0; i < 2; i++) sw_press_weigh(&t->press, friction, &m->rubbing[t->of.body[i]]);
+  if (t->press.gap_after < 0.5 * t->reach && sw_norm(shift) > SW_SMALL_SHIFT * t->reach)
+    return GOES_ON;
+  if (t->far && t->press.normal_force > 0) return GOES_ON;
+  return agrees ? AGREES : sw_press_apart(&t->press) ? ALL_BUT_FRICTION : GOES_ON;
+}
+
+/* 1 if the total error of friction is small for each body. */
+static int rubs_enough(const sw_mutual *m) {
+  if (m->regime != SW_CONTACT_IMPLICIT || m->updates <= SW_PATIENCE) return 0;
+  for (size_t b = 0; b < m->bodies; b++)
+    if (!sw_press_enough(&m->rubbing[b])) return 0;
+  return 1;
+}
+
+static int update_all(sw_mutual *m, const double *delta) {
+  verdict all = AGREES;
+  find_scales(m);
+  m->updates++;
+  m->widest = 0;
+  memset(m->rubbing, 0, m->bodies * sizeof *m->rubbing);
+  for (size_t i = 0; i < m->touch_count; i++) {
+    sw_meet *t = &m->touches[i];
+    const verdict one = update(m, t, delta, scale_of(m, t));
+    if (t->press.normal_force > 0) m->widest = fmax(m->widest, sw_norm(t->press.shift) / t->reach);
+    all = one < all ? one : all;
+  }
+  m->calm = m->widest <= CALM_SHIFT;
+  if (m->soft) return 0;
+  return all == AGREES || (all == ALL_BUT_FRICTION && rubs_enough(m));
+}
+
+/* Touches agree within this many solves, or they are about to cycle. Later updates are shortened to
+ * the energy's minimum if the energy's slope at the end is more than RISES times its initial fall.
+ * This limit falls by FALLS from solve to solve; two touches that alternate need a very small one.
+ * For 20 wires whose nodes do not lie beside each other, in steps of 2.5 ms: without shortening
+ * most steps are halved, some for ever; with half of RISES, twice of FREE_SOLVES, or a limit that
+ * falls half or twice as fast, at most 1.2 times the solves (spec/contact/bundle_spec). Further
+ * soft solves do not count. */
+enum { FREE_SOLVES = 12 };
+static const double RISES = 0.5, FALLS = 0.8; /* [-] */
+
+static double share_of(sw_mutual *m, sw_contact *contact, sw_system *s) {
+  sw_ways *w = &m->ways;
+  const int solves = ++m->solves - m->more_soft - FREE_SOLVES;
+  if (solves <= 0 || m->regime != SW_CONTACT_IMPLICIT || !sw_bridges_solves_again(s)) return 1.0;
+  w->count = 0, w->work = sw_bridges_work(s);
+  if (contact) sw_contact_add_ways(contact, s, w);
+  for (size_t i = 0; i < m->touch_count; i++) {
+    sw_meet *t = &m->touches[i];
+    sw_ways_add(w, &t->press, sw_mutual_rule(m, t->of.body)->friction,
+                sw_bows_apart(s->delta, t->bow));
+  }
+  return sw_ways_share(w, RISES * pow(FALLS, solves - 1));
+}
+
+double sw_mutual_refine(sw_mutual *m, sw_contact *contact, sw_system *s) {
+  m->spots.count = 0;
+  if (contact) sw_contact_add_spots(contact, s, &m->spots);
+  find_scales(m);
+  for (size_t i = 0; i < m->touch_count; i++) {
+    sw_meet *t = &m->touches[i];
+    const double friction = sw_mutual_rule(m, t->of.body)->friction;
+    const sw_spot spot = {.press = &t->press, .friction = friction, .scale = scale_of(m, t)};
+    sw_spots_add(&m->spots, s, spot, &t->bow[0].spot, t->of.body[0], &t->bow[1].spot,
+                 t->of.body[1]);
+  }
+  sw_spots_follow(&m->spots, s);
+  return share_of(m, contact, s);
+}
+
+int sw_mutual_settled(sw_mutual *m, sw_system *s, const double *delta) {
+  const int fine = update_all(m, delta);
+  if (fine && stiffen(m, s)) return 0;
+  for (size_t i = 0; fine && i < m->touch_count; i++) {
+    const sw_meet *t = &m->touches[i];
+    if (!(t->press.normal_force > 0 || t->press.gap_after < 0)) continue;
+    if (sw_grow((void **)&m->hits, &m->hit_capacity, m->hit_count + 1, sizeof *m->hits) != SW_OK)
+      break; /* the impact is then dealt with in the next step */
+    m->hits[m->hit_count++] =
+        (sw_hit){.bow = {t->bow[0], t->bow[1]}, .normal = t->press.normal, .reach = t->reach};
+  }
+  return fine;
+}

@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Contact between bodies: wires with wires and themselves; objects of particles with wires, each
+ * other and themselves. The law is that of obstacles. Two finders (pairs.c, grains.c) give the
+ * places of touch and how these depend on nodes; the rest is common. The effect on both bodies
+ * stays in the matrix as bridges between their nodes. */
+#ifndef SW_MUTUAL_MUTUAL_H
+#define SW_MUTUAL_MUTUAL_H
+
+#include <stddef.h>
+
+#include "base/status.h"
+#include "contact/contact.h"
+#include "system/system.h"
+
+typedef struct sw_mutual sw_mutual;
+
+/* How two bodies touch. */
+typedef struct sw_pair_rule {
+  int on;          /* 0: they pass through each other */
+  double friction; /* [-] */
+} sw_pair_rule;
+
+/* Makes contact of wires with wires and with themselves. rules (bodies x bodies, symmetric) are
+ * copied. Segments are round rods. Wires that cross touch where their smooth curves, or their
+ * segments, are nearest; nearly parallel segments touch at each other's nodes. SW_ENOMEM. */
+sw_status sw_pairs_new(const sw_system *system, const sw_pair_rule *rules, sw_mutual **out);
+/* Makes contact of objects of particles and of wires that are meshes with each other, with
+ * themselves and with wires that are lines. A particle at the surface is a ball, an edge of the
+ * surface a round rod, a line a chain of such. Joined particles, and particles with a common
+ * partner, do not touch. Between edges there is no surface: a thin wire passes through the gaps.
+ * *out = NULL: no such rule. SW_ENOMEM. */
+sw_status sw_grains_new(const sw_system *system, const sw_pair_rule *rules, sw_mutual **out);
+/* 1 if an object of particles is among the bodies of such contact. */
+int sw_grains_have_loose(const sw_mutual *grains);
+/* Makes a copy with the same rules and memory, for a look ahead. *out must be NULL before; the
+ * caller frees it, also on failure. SW_ENOMEM. */
+sw_status sw_mutual_copy(const sw_mutual *mutual, const sw_system *system, sw_mutual **out);
+void sw_mutual_free(sw_mutual *mutual); /* NULL is allowed */
+
+/* 1: nothing can touch in this step. */
+int sw_mutual_idle(const sw_mutual *mutual);
+
+/* Marks the bodies that may touch others or themselves in this step as coupled (system/part.h). */
+void sw_pairs_mark(const sw_mutual *pairs, sw_system *system);
+/* 1 if a body that waits is among them. */
+int sw_pairs_meet_waiting(const sw_mutual *pairs, const sw_system *system);
+/* Before a step begins: wakes the bodies that may touch one that does not wait. SW_ENOMEM. Before
+ * that, sw_mutual_regard tells how long the step is. */
+void sw_mutual_regard(sw_mutual *mutual, const sw_system *system, sw_contact_regime regime,
+                      double h, double nominal);
+sw_status sw_mutual_wake(sw_mutual *mutual, sw_system *system);
+/* As sw_contact_keep_moving. */
+void sw_mutual_keep_moving(const sw_mutual *mutual, sw_system *system);
+
+/* These correspond to the functions of sw_contact. */
+sw_status sw_mutual_begin_step(sw_mutual *mutual, sw_system *system, sw_contact_regime regime,
+                               double h, double nominal, sw_error *err);
+void sw_mutual_begin_stage(sw_mutual *mutual, double first);
+sw_status sw_mutual_begin_look(sw_mutual *mutual, sw_system *system, sw_error *err);
+sw_status sw_mutual_eval(sw_mutual *mutual, sw_system *system, const double *y, unsigned want,
+                         sw_error *err);
+/* Like sw_contact_refine, with all touches of bridged bodies. contact: touches with obstacles, or
+ * NULL. Returns the share of the solution that should be applied [-]. */
+double sw_mutual_refine(sw_mutual *mutual, sw_contact *contact, sw_system *system);
+int sw_mutual_settled(sw_mutual *mutual, sw_system *system, const double *delta);
+/* 1 if, at their velocities, wires (of sw_pairs_new) will strike each other in a step of size h
+ * from now. */
+int sw_pairs_expect(const sw_mutual *pairs, const sw_system *system, double h);
+/* dull: 1 if the trial does not rebound. */
+sw_contact_verdict sw_mutual_review(sw_mutual *mutual, sw_system *system, const double *x1,
+                                    double h, int dull);
+/* 1 = solve again. */
+int sw_mutual_review_static(sw_mutual *mutual, sw_system *system, const double *x1);
+void sw_mutual_commit(sw_mutual *mutual, sw_system *system);
+
+/* Memory between steps, like sw_contact_memory. */
+const void *sw_mutual_memory(const sw_mutual *mutual, size_t *bytes);
+sw_status sw_mutual_set_memory(sw_mutual *mutual, const void *memory, size_t bytes);
+/* first (bodies + 1): the first node of each body. */
+int sw_mutual_memory_fits(const void *memory, size_t bytes, const size_t *first, size_t bodies);
+int sw_mutual_memory_names(const void *memory, size_t bytes, size_t node);
+/* 1: more bodies than `most` (at most SW_NEAR_MOST) touch others or themselves, or nearly do. */
+enum { SW_NEAR_MOST = 16 };
+int sw_mutual_crowded(const sw_mutual *mutual, size_t most);
+/* Like sw_contact_seen. */
+const void *sw_mutual_seen(sw_mutual *mutual, size_t *bytes);
+sw_status sw_mutual_set_seen(sw_mutual *mutual, const void *seen, size_t bytes,
+                             const sw_system *system);
+size_t sw_mutual_layout(void); /* like sw_contact_layout */
+/* new_node, new_body: new numbers of old nodes and bodies; SIZE_MAX: gone. */
+sw_status sw_mutual_inherit(sw_mutual *mutual, const void *memory, size_t bytes,
+                            const size_t *new_node, const size_t *new_body);
+
+/* A place where two things press on each other. */
+typedef struct sw_pair_place {
+  size_t body[2];         /* in the system's arrays */
+  size_t node[2], end[2]; /* each place is between these nodes, or at a particle (end = node) */
+  double at[2];           /* from node to end [-] */
+  sw_vec normal;          /* towards the first body [-] */
+  double normal_force;    /* [N] */
+  sw_vec friction;        /* on the first body [N] */
+  sw_vec slip;            /* sliding way in the last step [m] */
+  double gap;             /* [m] */
+} sw_pair_place;
+
+/* Reads the next place with a force, from touch *next on (0 to begin with), of this body, or of any
+ * body (SIZE_MAX). 0: there are no more. sw_presses_count (touch/tally.h) counts the places of
+ * all bodies. */
+int sw_mutual_next_place(const sw_mutual *mutual, size_t body, size_t *next, sw_pair_place *out);
+double sw_mutual_penetration(const sw_mutual *mutual, size_t *node); /* [m] */
+/* Like those of sw_contact. */
+struct sw_presses sw_mutual_presses(const sw_mutual *mutual);
+struct sw_presses sw_mutual_still_presses(const sw_mutual *mutual); /* between bodies that wait */
+int sw_mutual_steady(const sw_mutual *mutual);
+size_t sw_mutual_impacts(const sw_mutual *mutual); /* [-] */
+
+#endif
