@@ -3,6 +3,7 @@
  * buckles at once or bears the push, so forces and places after it are those of one of two
  * outcomes, and a little decides which one: the step, an edge, a hundredth of the friction. */
 #include <math.h>
+#include <stdio.h>
 
 #include "contact/jolt.h"
 #include "scene/events.h"
@@ -109,19 +110,26 @@ static void tell_both(sw_scene *s, const sw_scene_wire *w, const sw_contact_push
                 times);
 }
 
+/* A change of friction by a share of itself, in words. */
+static const char *percent(double share, char text[24]) {
+  snprintf(text, 24, share < 1e-3 ? "less than 0.1 %%" : "%.2g %%", 100 * share);
+  return text;
+}
+
 static void tell(sw_scene *s, const sw_scene_wire *w, const sw_contact_push *p, double part) {
+  char much[24];
   const char *name = sw_scene_obstacle_in(s, (size_t)p->obstacle)->name;
   const double at = p->place - w->mesh.s[0];
   if (part < 1)
     sw_scene_tell(s, "threshold", w->name, at, part,
                   "the end of wire '%s' sticks to '%s' with %.3g %% of the friction there, under "
-                  "%.3g N: with %.2g %% less it slips, and forces and places may be others",
-                  w->name, name, 100 * part, p->normal_force, 100 * (1 - part));
+                  "%.3g N: with %s less it slips, and forces and places may be others",
+                  w->name, name, 100 * part, p->normal_force, percent(1 - part, much));
   else
     sw_scene_tell(s, "threshold", w->name, at, 1 / part,
-                  "the end of wire '%s' slips on '%s' under %.3g N: with %.2g %% more friction it "
+                  "the end of wire '%s' slips on '%s' under %.3g N: with %s more friction it "
                   "sticks, and forces and places may be others",
-                  w->name, name, p->normal_force, 100 * (part - 1));
+                  w->name, name, p->normal_force, percent(part - 1, much));
 }
 
 static void watch_end(sw_scene *s, const sw_body *b, sw_scene_wire *w, int last) {

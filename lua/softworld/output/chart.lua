@@ -10,6 +10,7 @@ local front = require "softworld.output.front"
 local gnuplot = require "softworld.output.gnuplot"
 local map = require "softworld.output.map"
 local number = require "softworld.output.number"
+local range = require "softworld.output.range"
 local series = require "softworld.output.series"
 local sink = require "softworld.output.sink"
 
@@ -73,9 +74,14 @@ local function wanted_columns(data, names)
   return list
 end
 
+local straight = 1e6 -- bend radii above this are rounding [m]
+
+local function is_bend(name) return name:find "%.bend_radius$" ~= nil end
+
 local function has_values(column)
+  local most = is_bend(column.name) and straight or math.huge
   for _, x in ipairs(column.values) do
-    if finite(x) then return true end
+    if finite(x) and x < most then return true end
   end
   return false
 end
@@ -84,13 +90,11 @@ local steep = 100 -- bend radii above this multiple of the smallest count as str
 
 -- Returns bend radii without those of almost straight wire, which would leave no room for the others.
 local function tight(all)
-  local least, values = math.huge, {}
+  local least, values = straight / steep, {}
   for _, x in ipairs(all) do if x > 0 then least = math.min(least, x) end end
   for i, x in ipairs(all) do values[i] = x <= steep * least and x or 0 / 0 end
   return values
 end
-
-local function is_bend(name) return name:find "%.bend_radius$" ~= nil end
 
 -- Returns one panel per unit, in the order of first use; bend radii have a panel of their own.
 local function panels_of(columns)
@@ -107,6 +111,7 @@ local function panels_of(columns)
         bend and { name = column.name, unit = column.unit, values = tight(column.values) } or column)
     end
   end
+  if by_unit["N m"] then by_unit["N m"].rounding = range.moment_rounding(columns) end
   if #panels == 0 then sink.fail("a chart: no series has a finite value to draw") end
   return panels
 end
@@ -125,17 +130,25 @@ local function nice_step(span)
   return power * (lead < 1.5 and 1 or lead < 3.5 and 2 or lead < 7.5 and 5 or 10)
 end
 
-local function value_axis(script, panel)
+-- Names the peaks beyond the range above the panel's corner.
+local function peaks_label(script, peaks, unit)
+  if #peaks == 0 then return end
+  script.add("set label 1 %s at graph 1, graph 1 right offset 0,0.6 noenhanced font ',11' %s",
+    quote(range.beyond(peaks, unit)), "textcolor rgb '#555555'")
+end
+
+-- Sets the vertical axis; only peaks of few steps may be beyond it, and are named.
+local function value_axis(script, time, panel)
   script.add(panel.bend and "set logscale y" or "unset logscale y")
+  script.add "unset label 1"
   if panel.bend then
     script.add "set yrange [*:*]\nset ytics autofreq"
     return
   end
-  local low, high = math.huge, -math.huge
-  for _, column in ipairs(panel) do
-    for _, x in ipairs(column.values) do
-      if finite(x) then low, high = math.min(low, x), math.max(high, x) end
-    end
+  local low, high, peaks = range.of(time, panel)
+  if panel.rounding and math.max(-low, high) <= panel.rounding then
+    script.add("set yrange [%g:%g]\nset ytics (0)", -panel.rounding, panel.rounding)
+    return
   end
   if high - low <= 1e-12 * math.max(math.abs(low), math.abs(high)) then
     script.add "set yrange [*:*]\nset ytics autofreq"
@@ -144,6 +157,7 @@ local function value_axis(script, panel)
   local step = nice_step(high - low)
   script.add("set yrange [%s:%s]\nset ytics %s", gnuplot.number(math.floor(low / step) * step),
     gnuplot.number(math.ceil(high / step) * step), gnuplot.number(step))
+  peaks_label(script, peaks, panel.unit)
 end
 
 local quantities = { N = "force", ["N m"] = "moment", J = "energy", m = "length", ["m/s"] = "speed",
@@ -158,7 +172,7 @@ local function panel_plot(script, time, panel, text)
     if text then title = "title " .. quote(series.head(column.name, panel.unit)) end
     curves[k] = curve(script, time, column, k, title)
   end
-  if not text then value_axis(script, panel) end
+  if not text then value_axis(script, time, panel) end
   local name = single and panel[1].name or panel.bend and "bend radius" or quantities[panel.unit] or ""
   local axis = text and "" or series.head(name, panel.unit)
   script.add("set ylabel %s noenhanced", quote(axis))
@@ -190,7 +204,7 @@ local function natural_size(panels)
   local most = 0
   for _, panel in ipairs(panels) do most = math.max(most, #panel) end
   local panel_height = math.max(184, key_line * (most + 1))
-  local height = #panels > 1 and 100 + (panel_height + 36) * #panels or math.max(420, panel_height + 110)
+  local height = #panels > 1 and 108 + (panel_height + 36) * #panels or math.max(420, panel_height + 110)
   return math.max(900, 116 + key_room(panels) + 480), math.ceil(height)
 end
 
@@ -200,7 +214,7 @@ local function stack(script, panels, title, size, path)
   local wide, high = dot / size[1], dot / size[2]
   script.add("set multiplot layout %d,1%s margins %.4f,%.4f,%.4f,%.4f spacing 0,%.4f", #panels,
     title and " title " .. quote(title) .. " noenhanced" or "", 116 * wide,
-    math.max(0.3, 1 - key_room(panels) * wide), 66 * high, 1 - (title and 44 or 20) * high, 36 * high)
+    math.max(0.3, 1 - key_room(panels) * wide), 66 * high, 1 - (title and 52 or 20) * high, 36 * high)
   script.add "set format x ''\nset key at graph 1.02,graph 1 left top vertical"
 end
 

@@ -8,6 +8,8 @@ import { limitsOf } from "./check.js";
 import { robust } from "./scale.js";
 
 const MANY = 8;       // curves of a unit beyond which components of vectors wait to be asked for
+const ROUNDING = 1e-11; // moments up to this times the forces at 1 m are rounding
+const ROUND = 1e6;    // [m]; radii above it are rounding
 const STRAIGHT = 100; // times the smallest bend radius: what is drawn of radii
 
 /** Columns of all runs by unit; radii have a chart of their own. */
@@ -19,12 +21,14 @@ function groupsOf(data) {
       const radius = /bend_radius$/.test(column.name);
       const key = radius ? "radius" : column.unit;
       if (!groups.has(key)) groups.set(key, { unit: column.unit, radius, curves: [] });
-      if (!column.values.some((x) => !Number.isNaN(x))) continue;
+      if (!column.values.some((x) => (radius ? x < ROUND : !Number.isNaN(x)))) continue;
       groups.get(key).curves.push({ ...column, run, r,
         label: data.runs.length > 1 ? `${r + 1}: ${column.name}` : column.name });
     }
   });
   const list = [...groups.values()].filter((g) => g.curves.length);
+  const forces = (groups.get("N")?.curves ?? []).reduce((most, c) => c.values.reduce((m, x) => Math.max(m, Math.abs(x) || 0), most), 0);
+  if (groups.has("N m")) groups.get("N m").rounding = ROUNDING * forces;
   for (const limit of limitsOf(data)) addLimit(list, limit);
   return list;
 }
@@ -47,7 +51,7 @@ function rowsOf(group) {
   let top = Infinity;
   if (group.radius) {
     const least = Math.min(...group.curves.filter((c) => !c.limit).flatMap((c) => [Math.min(...c.values.filter((x) => !Number.isNaN(x)))]));
-    top = STRAIGHT * least;
+    top = Math.min(STRAIGHT * least, ROUND);
   }
   const shown = (x) => (Number.isNaN(x) || !(x <= top) ? NaN : x);
   if (runs.length === 1) {
@@ -134,17 +138,18 @@ class Chart {
     if (!this.graph || this.fitting || this.group.radius) return;
     const window = this.graph.xAxisRange();
     const found = robust(this.group.curves.filter((c) => c.on), window);
-    const range = found && !this.whole ? found.range : null;
+    const { rounding = 0 } = this.group, rounded = rounding > 0 && this.group.curves.every((c) => !c.on || c.values.every((x) => !(Math.abs(x) > rounding)));
+    const range = rounded ? [-rounding, rounding] : found && !this.whole ? found.range : null;
     if (String(range) !== String(this.range ?? null)) {
       this.range = range;
       this.fitting = true; // it draws
       this.graph.updateOptions({ axes: { y: { valueRange: range } } });
       this.fitting = false;
     }
-    this.scale.hidden = !found;
+    this.scale.hidden = !found || rounded;
     this.scale.setAttribute("aria-pressed", String(this.whole));
     this.scale.textContent = this.whole ? "Cut the peaks" : "Show whole peaks";
-    this.mark(range ? found.peaks : []);
+    this.mark(range && !rounded ? found.peaks : []);
   }
 
   /** A triangle at the edge for each curve that goes beyond it; the largest has its value beside it. */
