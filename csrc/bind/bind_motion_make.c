@@ -26,6 +26,9 @@ static const sw_param rows[] = {
         "turn", "rad",
         "{axis=, angle=}: turn over the whole path, any number of revolutions; without way-points "
         "in place"),
+    OTHER("about", "m",
+          "centre of the turns, {x,y,z}: what moves goes round it; way-points, which are relative "
+          "then, displace it; default: the place of the object itself"),
     {"law", SW_PARAM_CHOICE, "-", -1, -INFINITY, INFINITY, 0, law_names, AT(law),
      "law of progress; default minimum-jerk, with three or more timed way-points spline"},
     POSITIVE("speed", speed, "m/s", "highest speed along the path; never exceeded"),
@@ -192,16 +195,28 @@ static sw_status make_path(lua_State *L, int table, const char *what, const lsw_
   plan.acceleration = args->acceleration, plan.angular_acceleration = args->angular_acceleration;
   plan.duration = args->duration, plan.blend = args->blend, plan.stop = args->stop;
   plan.start = args->start, plan.relative = args->relative;
+  lua_pushfstring(L, "%s: about", what);
+  plan.about = lua_getfield(L, table, "about") != LUA_TNIL;
+  if (plan.about) plan.centre = lsw_place(L, -1, lua_tostring(L, -2));
   if (plan.count == 0 && sw_norm(plan.turn) > 0) plan.relative = 1; /* a turn in place */
   return sw_motion_create(&plan, out, err);
 }
 
 /* Raises if a key for way-points is given with a func. */
 static void check_func(lua_State *L, int table, const char *what) {
-  static const char *const theirs[] = {
-      "points", "path",  "times",         "scale",        "turn",
-      "law",    "speed", "angular_speed", "acceleration", "angular_acceleration",
-      "blend",  "stop"};
+  static const char *const theirs[] = {"points",
+                                       "path",
+                                       "times",
+                                       "scale",
+                                       "turn",
+                                       "about",
+                                       "law",
+                                       "speed",
+                                       "angular_speed",
+                                       "acceleration",
+                                       "angular_acceleration",
+                                       "blend",
+                                       "stop"};
   if (!lua_isfunction(L, -1))
     luaL_error(L, "%s: func must be a function of time [s], got %s", what, luaL_typename(L, -1));
   for (size_t i = 0; i < sizeof theirs / sizeof theirs[0]; i++) {

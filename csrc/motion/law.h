@@ -88,6 +88,8 @@ struct sw_motion {
   double length;   /* [m] */
   size_t count;    /* way-points [-] */
   int relative;
+  int about;              /* 1: turns go about `centre` [-] */
+  sw_vec centre;          /* at the start, see sw_motion_plan [m] */
   void *body;             /* the law's data */
   sw_motion_given *given; /* input of a law for way-points; NULL for views and callbacks */
   sw_motion *inner;       /* of a view: the motion behind it, else NULL */

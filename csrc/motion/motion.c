@@ -70,6 +70,13 @@ static sw_status check_plan(const sw_motion_plan *plan, const char *name, sw_err
   if (!isfinite(plan->start))
     return sw_fail(err, SW_EINVAL, "%s: start = %g s must be a finite number", name, plan->start);
   if (!sw_finite(plan->turn)) return sw_fail(err, SW_EINVAL, "%s: turn must be finite [rad]", name);
+  if (plan->about && !sw_finite(plan->centre))
+    return sw_fail(err, SW_EINVAL, "%s: about must be a finite place [m]", name);
+  if (plan->about && !plan->relative)
+    return sw_fail(err, SW_EINVAL,
+                   "%s: about needs way-points that are displacements, of the centre: set relative "
+                   "= true, or leave them out",
+                   name);
   return SW_OK;
 }
 
@@ -85,6 +92,10 @@ static sw_status plan_motion(const sw_motion_plan *plan, sw_route *route, sw_mot
   SW_TRY(sw_route_time(plan, route, err));
   motion->start = plan->start + (route->timed ? route->t[0] : 0);
   motion->relative = plan->relative;
+  motion->about = plan->about, motion->centre = plan->centre;
+  if (plan->about && !(route->angle > 0))
+    return sw_fail(err, SW_EINVAL, "%s: about needs a turn, or way-points with rotations",
+                   route->name);
   motion->count = route->count;
   return law->plan(law, plan, route, motion, err);
 }
@@ -162,6 +173,15 @@ sw_status sw_motion_shifted(sw_motion *motion, double delay, sw_motion **out) {
 
 /* --- reading ---------------------------------------------------------------- */
 
+/* What is at `at` before the motion goes round its centre: an arm that turns, carried along. */
+static void go_about(const sw_motion *motion, sw_vec at, sw_motion_state *out) {
+  const sw_vec rest = sw_sub(at, motion->centre), arm = sw_rotate(out->pose.q, rest);
+  const sw_vec v = sw_cross(out->omega, arm);
+  out->pose.p = sw_add(out->pose.p, sw_sub(arm, rest));
+  out->v = sw_add(out->v, v);
+  out->a = sw_add(out->a, sw_add(sw_cross(out->alpha, arm), sw_cross(out->omega, v)));
+}
+
 sw_status sw_motion_eval(const sw_motion *motion, double t, sw_motion_state *out, sw_error *err) {
   if (isnan(t)) return sw_fail(err, SW_EINVAL, "trajectory: the time is not a number");
   if (t == HUGE_VAL && motion->duration == HUGE_VAL)
@@ -170,6 +190,7 @@ sw_status sw_motion_eval(const sw_motion *motion, double t, sw_motion_state *out
   const double since = early ? 0 : t - motion->start;
   const sw_motion *law = motion->inner ? motion->inner : motion;
   SW_TRY(law->law->eval(law, late || since > law->duration ? law->duration : since, out, err));
+  if (motion->about) go_about(motion, motion->inner ? motion->base.p : sw_v(0, 0, 0), out);
   if (early || late) out->v = out->a = out->omega = out->alpha = sw_v(0, 0, 0);
   if (motion->inner) {
     out->pose.p = sw_add(motion->base.p, out->pose.p);

@@ -55,6 +55,8 @@ typedef struct sw_motion_plan {
   const sw_waypoint *points;
   size_t count;                /* way-points [-] */
   sw_vec turn;                 /* of the whole path, world axes; 0 = none [rad] */
+  int about;                   /* 1: relative; what moves goes round `centre` as it turns [-] */
+  sw_vec centre;               /* at the start; the way-points displace it, world axes [m] */
   double speed;                /* highest [m/s] */
   double angular_speed;        /* highest [rad/s] */
   double acceleration;         /* highest along the path [m/s2] */

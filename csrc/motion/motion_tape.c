@@ -24,8 +24,10 @@ static void tape_point(sw_tape *t, sw_waypoint *p) {
 
 /* All numbers of a plan, without names and points. */
 static void tape_numbers(sw_tape *t, sw_motion_plan *p) {
-  SW_TAPE_STRUCT(t, sw_motion_plan, 128);
+  SW_TAPE_STRUCT(t, sw_motion_plan, 160);
   sw_tape_vec(t, &p->turn);
+  sw_tape_int(t, &p->about);
+  sw_tape_vec(t, &p->centre);
   sw_tape_double(t, &p->speed);
   sw_tape_double(t, &p->angular_speed);
   sw_tape_double(t, &p->acceleration);

@@ -186,6 +186,7 @@ local rotate = rows.call("gripper:rotate", "{...}", "turns the tool about its ce
   gives = "the gripper",
   { "axis", "vector", "-", "of the turn", required = true },
   { "angle", "number", "rad", "of the turn", required = true },
+  { "about", "vector", "m", "centre of the turn, instead of the tool's own" },
   { "duration", "number", "s", "of the turn" },
   { "angular_speed", "number", "rad/s", "instead of a duration" },
   { "angular_acceleration", "number", "rad/s2", "for law = 'trapezoidal'" },
