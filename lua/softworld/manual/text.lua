@@ -14,16 +14,22 @@ end
 
 local function width_of(text) return utf8.len(text) or #text end
 
--- The widest columns give way until the table fits.
+-- The widest columns give way until the table fits; none becomes narrower than its longest word.
 local function widths_of(rows)
-  local widths, sum = {}, 0
+  local widths, least, sum = {}, {}, 0
   for _, row in ipairs(rows) do
-    for k, cell in ipairs(row) do widths[k] = math.max(widths[k] or 0, width_of(cell)) end
+    for k, cell in ipairs(row) do
+      widths[k] = math.max(widths[k] or 0, width_of(cell))
+      for word in cell:gmatch "%S+" do least[k] = math.max(least[k] or 0, width_of(word)) end
+    end
   end
   for k = 1, #widths do sum = sum + widths[k] + GAP end
   while sum > WIDEST do
-    local widest = 1
-    for k = 2, #widths do if widths[k] > widths[widest] then widest = k end end
+    local widest
+    for k, width in ipairs(widths) do
+      if width > (least[k] or 0) and width > (widest and widths[widest] or 0) then widest = k end
+    end
+    if not widest then break end
     widths[widest], sum = widths[widest] - 1, sum - 1
   end
   return widths
