@@ -237,13 +237,14 @@ static void write_weak(const sw_clip_args *args, const double *h, sw_force_news 
   out->kind = "askew";
   if (what == SW_CLIP_PEELED_IN || what == SW_CLIP_PEELED_OUT)
     snprintf(out->text, sizeof out->text,
-             "the wire goes %s askew (%.2g degrees), end after end, at %.3g N; straight it takes "
-             "%.4g N, and so may lips that yield only as one",
+             "the wire goes %s askew (%.2g degrees), one end first, at %.3g N; straight, or "
+             "with lips that yield only together, it takes %.4g N",
              way, 180.0 / M_PI * atan(fabs(h[SW_CLIP_PEAK_SLOPE])), h[SW_CLIP_NEWS_VALUE], given);
   else
     snprintf(out->text, sizeof out->text,
-             "the wire goes %s and %.3g N is seen, but it takes %.4g N; take smaller steps", way,
-             h[SW_CLIP_NEWS_VALUE], given);
+             "the wire goes %s at %.3g N, as the steps see it, but it takes %.4g N; take "
+             "smaller steps",
+             way, h[SW_CLIP_NEWS_VALUE], given);
 }
 
 int sw_clip_news(const void *args, const double *history, sw_force_news *out) {

@@ -46,6 +46,13 @@ sw_event *sw_events_go_on(sw_events *e, const char *kind, const char *object, do
   return event;
 }
 
+/* Ends a text that is too long with three dots, after a whole letter of UTF-8. size: [B]. */
+static void mark_cut(char *text, size_t size) {
+  size_t end = size - sizeof "...";
+  while (end > 0 && ((unsigned char)text[end] & 0xC0) == 0x80) end--;
+  memcpy(text + end, "...", sizeof "...");
+}
+
 void sw_scene_tell(sw_scene *s, const char *kind, const char *object, double arc, double value,
                    const char *format, ...) {
   sw_course *c = sw_scene_course(s);
@@ -69,8 +76,9 @@ void sw_scene_tell(sw_scene *s, const char *kind, const char *object, double arc
   e->time = sw_scene_time(s), e->s = arc, e->value = value;
   va_list arguments;
   va_start(arguments, format);
-  vsnprintf(e->text, sizeof e->text, format, arguments);
+  const int length = vsnprintf(e->text, sizeof e->text, format, arguments);
   va_end(arguments);
+  if (length >= (int)sizeof e->text) mark_cut(e->text, sizeof e->text);
 }
 
 size_t sw_scene_events_dropped(const sw_scene *s) { return sw_scene_events_of(s)->dropped; }

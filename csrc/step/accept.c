@@ -59,16 +59,15 @@ static const double TOLD = 0.1;
 static void tell_rest(sw_scene *s, const char *what, double h, double friction) {
   sw_scene_tell(
       s, "coarse", "", NAN, friction,
-      "a drive stops %s %.3g ms: forces at rest may be others, by up to their friction of "
-      "%.3g N; run again with dt = 0.0005 s and compare them",
+      "a drive stops %s %.3g ms: forces at rest may be off by the friction of %.3g N; run "
+      "again with dt = 0.0005 s and compare them",
       what, 1e3 * h, friction);
 }
 
 /* moving: most friction of the wires that tremble [N]. */
 static void tell_trembling(sw_scene *s, double h, double dt, double moving) {
   if ((h > FINE || dt > LONG) && moving > TOLD * friction_of(s))
-    tell_rest(s, "while wires still tremble on what they slide on, in steps of", dt > LONG ? dt : h,
-              moving);
+    tell_rest(s, "while wires that slide still tremble, in steps of", dt > LONG ? dt : h, moving);
 }
 
 /* A drive has stopped at once, and wires that slid with it land: blows, friction that turns round

@@ -273,8 +273,8 @@ static void tell_unknown(sw_scene *s) {
   if (!(share > UNKNOWN)) return;
   sw_scene_tell(
       s, "energy", "", NAN, share,
-      "%.3g J come from nowhere, %.2g %% of the energy in play: the work of holds, their forces "
-      "and moments are not more exact than that; smaller steps make them more exact",
+      "%.3g J come from nowhere, %.2g %% of the energy in play: work, forces and moments of "
+      "holds may be off by this share; take smaller steps",
       l->gap, 100.0 * share);
 }
 

@@ -53,8 +53,8 @@ void sw_stop_tell(sw_scene *s) {
   }
   if (most > 0)
     sw_scene_tell(s, "coarse", "", NAN, most,
-                  "a drive stopped at once, and a wire does not keep its friction of %.3g N: waves "
-                  "and the give of its touches decide how much is left, and dt with them; let the "
-                  "drive slow down, or run again with dt = 0.0005 s and compare the forces at rest",
+                  "a drive stopped at once, and a wire lost part of its friction of %.3g N: "
+                  "dt decides how much remains. Let the drive slow down, or run again with "
+                  "dt = 0.0005 s and compare the forces at rest",
                   most);
 }

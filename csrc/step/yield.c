@@ -229,9 +229,9 @@ void sw_yield_tell(sw_scene *s) {
     if (!(fabs(force - want) > TOLD * sw_slip_scale(s, h, want))) continue;
     const sw_scene_wire *wire = sw_scene_wire_in(s, h->wire);
     sw_scene_tell(s, "held", h->name, h->s1 - wire->mesh.s[0], force,
-                  "feed '%s' of wire '%s' bears %.4g N at rest, and %.4g N are asked: no stable "
-                  "equilibrium with that force was found, so it was held while the scene settled; "
-                  "a run begins with letting it go",
+                  "feed '%s' of wire '%s' bears %.4g N at rest instead of %.4g N: no stable "
+                  "equilibrium with that force was found. It was held while the scene "
+                  "settled; the next run lets it go",
                   h->name, wire->name, force, want);
   }
 }

@@ -81,7 +81,7 @@ void sw_scene_watch_between(sw_scene *s, size_t wire, const sw_wire_extremes *no
   if (!(error > TOLD * T)) return;
   sw_events_go_on(sw_scene_events_of(s), "edges", w->name, sw_scene_time(s));
   sw_scene_tell(s, "edges", w->name, now->tension.s - w->mesh.s[0], error,
-                "the largest tension of wire '%s', %.3g N, lies between two holds that are %.3g mm "
-                "apart, within %.3g edges: %.2g N of it may be false",
+                "the largest tension of wire '%s', %.3g N, is between two holds %.3g mm "
+                "(%.3g edges) apart: %.2g N of it may be false",
                 w->name, T, 1e3 * (p->s[j] - p->s[i]), (p->s[j] - p->s[i]) / edge, error);
 }

@@ -68,13 +68,12 @@ static void tell(sw_scene *s, const sw_scene_wire *w, const sw_extreme *bend, co
                  double edge) {
   const int rest = w->beam.curved;
   sw_scene_tell(s, "corner", w->name, bend->s - w->mesh.s[0], c.apart / c.turn,
-                "the sharpest bend of wire '%s', %.3g mm at s = %.4g m, is a corner of %s, where "
-                "its path turns by %.3g degrees: it gets sharper with shorter edges; a smooth "
-                "curve through the path's points has %.3g mm there. Give points every %.3g mm%s",
+                "the sharpest bend of wire '%s', %.3g mm at s = %.4g m, is a corner of %s "
+                "(%.3g degrees); shorter edges make it sharper. A smooth curve has %.3g mm. "
+                "Give points every %.3g mm%s",
                 w->name, 1e3 / bend->value, bend->s - w->mesh.s[0],
-                rest ? "its unloaded shape" : "the shape it was drawn in", c.turn * 180.0 / M_PI,
-                1e3 * c.apart / c.turn, 1e3 * edge,
-                rest ? "" : ", or let the wire come to rest first, by scene:settle");
+                rest ? "its unloaded shape" : "its drawn path", c.turn * 180.0 / M_PI,
+                1e3 * c.apart / c.turn, 1e3 * edge, rest ? "" : ", or call scene:settle first");
 }
 
 /* The corner decides the bend if this is nearer to that of an edge than to that of a smooth curve.

@@ -140,9 +140,9 @@ static void watch_taut(sw_scene *s, size_t wire, const sw_wire_extremes *now, do
   const double at = now->curvature.s - w->mesh.s[0];
   sw_events_go_on(sw_scene_events_of(s), "edges", w->name, sw_scene_time(s));
   sw_scene_tell(s, "edges", w->name, at, segments,
-                "taut wire '%s' bends within an edge of %.4g mm near s = %.4g m: where only its "
-                "stretch decides the tension, %.4g of its %.4g N may be too much; try segments = "
-                "%.0f",
+                "taut wire '%s' bends within an edge of %.4g mm near s = %.4g m: if only "
+                "its stretch sets the tension, %.4g of its %.4g N may be too much; try "
+                "segments = %.0f",
                 w->name, 1e3 * edge, at, more, T, segments);
 }
 

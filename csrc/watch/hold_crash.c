@@ -139,7 +139,8 @@ sw_status sw_hold_look_out(sw_scene *s, sw_hold *h, sw_error *err) {
     return SW_OK;
   }
   sw_scene_tell(s, "crash", h->name, arc, now.depth,
-                "%s '%s' pushes wire '%s' %.3g mm deep into '%s'; no force can stop that",
+                "%s '%s' pushes wire '%s' %.3g mm deep into '%s'; holds follow their "
+                "motion, whatever the force",
                 h->cls->name, h->name, sw_scene_wire_in(s, h->wire)->name, 1e3 * now.depth,
                 sw_scene_obstacle_in(s, now.obstacle)->name);
   return SW_OK;

@@ -57,8 +57,8 @@ static void tell(sw_scene *s, const sw_hold *h, size_t obstacle, double force, c
                  const char *mend) {
   const sw_plan *plan = sw_scene_system(s)->bodies[h->wire].plan;
   sw_scene_tell(s, "pressed", h->name, 0.5 * (h->s1 + h->s2) - plan->s[0], force,
-                "%s '%s' presses wire '%s' %s '%s' with %.3g N; a rod's section is rigid, so this "
-                "force depends on its edges: %s the hold, or take pads or a mesh",
+                "%s '%s' presses wire '%s' %s '%s' with %.3g N. A rod's section is rigid: "
+                "its edges decide this force; %s the hold, or take pads or a mesh",
                 h->cls->name, h->name, sw_scene_wire_in(s, h->wire)->name, how,
                 sw_scene_obstacle_in(s, obstacle)->name, force, mend);
 }
@@ -66,9 +66,9 @@ static void tell(sw_scene *s, const sw_hold *h, size_t obstacle, double force, c
 static void tell_mesh(sw_scene *s, const sw_hold *h, size_t obstacle, double force, double depth) {
   const sw_plan *plan = sw_scene_system(s)->bodies[h->wire].plan;
   sw_scene_tell(s, "pressed", h->name, 0.5 * (h->s1 + h->s2) - plan->s[0], force,
-                "%s '%s' presses wire '%s' %.3g mm into '%s' with %.3g N; held sections keep their "
-                "shape, so this depth decides the force: lift the hold. A mesh may be wider than "
-                "its radius says: wire:width(s, direction)",
+                "%s '%s' presses wire '%s' %.3g mm into '%s' with %.3g N. Held sections are "
+                "rigid: the depth decides this force; lift the hold. Meshes may be wider "
+                "than 2 radius: see wire:width",
                 h->cls->name, h->name, sw_scene_wire_in(s, h->wire)->name, 1e3 * depth,
                 sw_scene_obstacle_in(s, obstacle)->name, force);
 }

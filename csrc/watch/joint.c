@@ -93,8 +93,9 @@ static void watch(sw_scene *s, const sw_joint *j, const sw_joint_end *one,
   if (!(fmax(plane, turn) > TOLD)) return;
   const double degrees = 180.0 / M_PI * fmax(plane, turn);
   sw_scene_tell(s, "joint", j->name, NAN, fmax(plane, turn),
-                "'%s' passes no twist from wire '%s' to '%s', and between '%s' and '%s' %s by %.3g "
-                "degrees: one wire would twist there; bends, forces and moments may be off",
+                "'%s' passes no twist from wire '%s' to '%s'; between '%s' and '%s' %s by "
+                "%.3g degrees. One wire would twist there: bends, forces and moments may be "
+                "off",
                 j->name, sw_scene_wire_in(s, one->wire)->name, sw_scene_wire_in(s, two->wire)->name,
                 a.hold->name, b.hold->name,
                 turn > plane ? "the holds turn" : "the wires leave a plane", degrees);

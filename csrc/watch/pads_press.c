@@ -102,9 +102,9 @@ void sw_scene_watch_pads_press(sw_scene *s, size_t wire) {
         !(force > OF_TENSION * largest_tension(of.system, b, from, to)))
       continue;
     sw_scene_tell(s, "pressed", t->name, most.place - b->plan->s[0], force,
-                  "the pads of '%s' press wire '%s' into '%s' with %.3g N, more than lies there or "
-                  "bends it; neither yields, so micrometres of height or of slide decide this "
-                  "force: end the move a little higher, or use gripper:press",
+                  "the pads of '%s' press wire '%s' into '%s' with %.3g N. All three are "
+                  "rigid: micrometres decide this force. End the move a little higher, or "
+                  "use gripper:press",
                   t->name, sw_scene_wire_in(s, wire)->name,
                   sw_scene_obstacle_in(s, most.obstacle)->name, force);
   }
@@ -126,10 +126,9 @@ void sw_scene_watch_sinking(sw_scene *s, size_t wire) {
     const double force = force_there(s, &of, from, to, &most);
     if (!(force > 0)) continue;
     sw_scene_tell(s, "pressed", t->name, most.place, force,
-                  "the pads of '%s' squeeze wire '%s', a mesh of springs, on '%s', which pushes it "
-                  "with %.3g N; in poses its touches there do not resist the widening of its "
-                  "section, so this force and the gripper's may be wrong by a factor of 20: take "
-                  "section = \"solid\", or a run without quasistatic",
+                  "the pads of '%s' squeeze wire '%s', a mesh of springs, on '%s' (%.3g N). "
+                  "In poses its touches there are too soft: forces may be wrong by a factor "
+                  "of 20. Take solid elements, or a run of motion",
                   t->name, sw_scene_wire_in(s, wire)->name,
                   sw_scene_obstacle_in(s, most.obstacle)->name, force);
   }

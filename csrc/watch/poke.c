@@ -94,8 +94,9 @@ static int strikes(sw_poke *p, double time, double push) {
 static void tell_again(sw_scene *s, const sw_scene_wire *w, const sw_contact_push *p,
                        double after) {
   sw_scene_tell(s, "rebound", w->name, p->place - w->mesh.s[0], p->normal_force,
-                "the end of wire '%s' strikes '%s' hard again, after %.2g ms, with %.3g N: whether "
-                "it rebounds is decided by little, and forces and places may be others",
+                "the end of wire '%s' strikes '%s' hard again, after %.2g ms, with %.3g N. "
+                "Small differences decide whether it rebounds: forces and places are "
+                "uncertain",
                 w->name, sw_scene_obstacle_in(s, (size_t)p->obstacle)->name, 1e3 * after,
                 p->normal_force);
 }
@@ -103,9 +104,9 @@ static void tell_again(sw_scene *s, const sw_scene_wire *w, const sw_contact_pus
 /* Both ends are struck: the rod buckles between them, in waves that its smallest bends decide. */
 static void tell_both(sw_scene *s, const sw_scene_wire *w, const sw_contact_push *p, double times) {
   sw_scene_tell(s, "buckling", w->name, p->place - w->mesh.s[0], p->normal_force,
-                "wire '%s' is struck hard at both ends, by '%s' with %.3g N, %.3g times what "
-                "buckles it: how it buckles, and whether it springs out, is decided by little, and "
-                "forces and places may be others",
+                "wire '%s' is struck hard at both ends, by '%s' with %.3g N, %.3g times its "
+                "buckling load. Small differences decide how it buckles and whether it "
+                "springs out: forces and places are uncertain",
                 w->name, sw_scene_obstacle_in(s, (size_t)p->obstacle)->name, p->normal_force,
                 times);
 }
@@ -122,13 +123,14 @@ static void tell(sw_scene *s, const sw_scene_wire *w, const sw_contact_push *p, 
   const double at = p->place - w->mesh.s[0];
   if (part < 1)
     sw_scene_tell(s, "threshold", w->name, at, part,
-                  "the end of wire '%s' sticks to '%s' with %.3g %% of the friction there, under "
-                  "%.3g N: with %s less it slips, and forces and places may be others",
+                  "the end of wire '%s' sticks to '%s' with %.3g %% of the friction there, "
+                  "under %.3g N. With %s less friction it slips: forces and places are "
+                  "uncertain",
                   w->name, name, 100 * part, p->normal_force, percent(1 - part, much));
   else
     sw_scene_tell(s, "threshold", w->name, at, 1 / part,
-                  "the end of wire '%s' slips on '%s' under %.3g N: with %s more friction it "
-                  "sticks, and forces and places may be others",
+                  "the end of wire '%s' slips on '%s' under %.3g N. With %s more "
+                  "friction it sticks: forces and places are uncertain",
                   w->name, name, p->normal_force, percent(part - 1, much));
 }
 

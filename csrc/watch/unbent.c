@@ -123,13 +123,11 @@ static int shape_of(const sw_system *system, const sw_body *b) {
 
 static void tell(sw_scene *s, size_t wire, const sw_unbent *u) {
   const char *name = sw_scene_wire_in(s, wire)->name;
-  sw_scene_tell(
-      s, "buckling", name, u->at, u->push,
-      "wire '%s' stayed %s up to a push of %.3g N, until rounding let it buckle; a "
-      "real wire buckles under %.3g N at most: forces until then depend on the step; draw "
-      "it bent %sby a thousandth of its length",
-      name, u->plane ? "in a plane" : "straight", u->push, u->due,
-      u->plane ? "out of that plane " : "");
+  sw_scene_tell(s, "buckling", name, u->at, u->push,
+                "wire '%s' stayed %s up to a push of %.3g N, until rounding let it buckle. A real "
+                "wire buckles under %.3g N at most: draw it bent %sby a thousandth of its length",
+                name, u->plane ? "in a plane" : "straight", u->push, u->due,
+                u->plane ? "out of that plane " : "");
 }
 
 void sw_scene_watch_unbent(sw_scene *s, size_t wire) {

@@ -44,7 +44,7 @@ describe("pads that squeeze a mesh on a table, in poses", function()
         assert.equal(1, #told)
         assert.equal("hand", told[1].object)
         t.above(0, told[1].value, "push told [N]")
-        assert.matches("squeeze wire 'w', a mesh of springs, on 'table'", told[1].text)
+        assert.matches("squeeze wire 'w', a mesh of springs, on 'table' .* or a run of motion$", told[1].text)
       end
     end)
   end

@@ -33,7 +33,8 @@ local function drawn(o, dt)
   local run = scene:run{ dt = dt, duration = 0.6, tolerance = o.tolerance }
   local told = 0
   for _, e in ipairs(run.events) do
-    if e.kind == "coarse" and e.text:find("stopped at once", 1, true) then told = told + 1 end
+    local words = "stopped at once.* compare the forces at rest$"
+    if e.kind == "coarse" and e.text:find(words) then told = told + 1 end
   end
   scene:close()
   return told

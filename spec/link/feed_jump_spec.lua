@@ -50,7 +50,7 @@ describe("a feed whose force jumps past the asked one", function()
               t.above(least_told, e and math.abs(e.value) or 0, "told deviation [N]")
               if e then
                 told = told + 1
-                local is, at, asked = e.text:match "force is (%S+) N at t = (%S+) s, and (%S+) N are asked"
+                local is, at, asked = e.text:match "force is (%S+) N at t = (%S+) s instead of (%S+) N:"
                 t.near(-force, tonumber(asked), 1e-6, "asked force")
                 t.near(e.value, is - asked, 1e-6, "deviation")
                 t.near(e.time, tonumber(at), 1e-6, "time")

@@ -172,7 +172,7 @@ describe("a scene with a feed that obeys a force", function()
       assert.equal(still.length, wire.length)
       assert.equal(0, feed:fed())
       t.below(1e-12, t.distance(still:position(length), wire:position(length)), "off the held wire by")
-      local bears, asked = rest.held:match "bears (%S+) N at rest, and (%S+) N are asked"
+      local bears, asked = rest.held:match "bears (%S+) N at rest instead of (%S+) N:"
       t.share(-weight, tonumber(bears), 1e-3, "the text's force, of four digits")
       t.share(-case[1], tonumber(asked), 1e-3, "the text's asked force")
       local run, told = t.fine(scene:run{ duration = 0.01, dt = 1e-3 }), nil

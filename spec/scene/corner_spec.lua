@@ -54,6 +54,7 @@ describe("a bend that is a corner of the path", function()
           t.near(RADIUS, told[1].value, 0.01 * RADIUS, "radius of the smooth curve told [m]")
           t.near(radius, 1e-3 * tonumber(told[1].text:match ", ([%d.]+) mm at s"), 0.01 * radius,
             "radius told [m]")
+          assert.matches(rest == "path" and "every [%d.]+ mm$" or "call scene:settle first$", told[1].text)
           -- Why it is told: by a quarter too small at least, and smaller with shorter edges.
           t.below(0.85 * (last or RADIUS), radius, "radius with these edges [m]")
           last = radius

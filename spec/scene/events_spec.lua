@@ -50,6 +50,19 @@ describe("events", function()
     assert.equal(2000 - 512, dropped)
   end)
 
+  -- A text has at most 223 bytes, three of them dots if it is cut. "ü" has two bytes; eight reach beyond.
+  it("with a text that is too long end with three dots, after a whole letter", function()
+    local s = scene()
+    for k, start in ipairs{ 216, 217 } do
+      local text = ("a"):rep(start) .. ("ü"):rep(8)
+      s:tell{ kind = "long" .. k, text = text }
+      s:tell{ kind = "fits" .. k, text = text:sub(1, start + (k == 1 and 6 or 4)) }
+    end
+    local list = s:events()
+    assert.same({ ("a"):rep(216) .. "üü...", ("a"):rep(216) .. "üüü" }, { list[1].text, list[2].text })
+    assert.same({ ("a"):rep(217) .. "ü...", ("a"):rep(217) .. "üü" }, { list[3].text, list[4].text })
+  end)
+
   it("told after a snapshot are gone once it is restored", function()
     local s = scene()
     s:run{ duration = 0.1 }

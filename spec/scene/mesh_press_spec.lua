@@ -36,6 +36,7 @@ end
 local function check_told(told, peak, weight, depth, tolerance)
   assert.equal(1, #told)
   assert.equal("h", told[1].object)
+  assert.matches("see wire:width$", told[1].text)
   t.near(1e3 * depth, tonumber(told[1].text:match "presses wire 'w' ([%d.e-]+) mm into 'table'"),
     1e3 * tolerance, "depth told [mm]")
   -- The peak is a mean over 10 ms, the event has the largest force at a step's end, without the friction.

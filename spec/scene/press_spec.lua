@@ -52,6 +52,7 @@ describe("gripper:press", function()
           t.near(FREE, way, 1e-5, "way")
           if hand:over().raw_peak_force > 2 * wanted then
             assert.equal(1, #told)
+            assert.matches("on dt and on the speed of the press$", told[1].text)
             t.above(1.1 * wanted, told[1].value, "push that is told")
           end
         end

@@ -36,9 +36,9 @@ rows.calls{
     "T [N], s [m], t [s]" },
   { "wire:min_bend_radius", "{ now = }", "smallest of the run", "radius [m], s [m], t [s]" },
   { "wire:bend_sharpness", "{ now = }",
-    "of that bend for its edges, as shares of its curvature: how much it changes from node to node, what the "
-      .. "acceleration of nodes makes of this, how much more and less a wire at rest may be bent between "
-      .. "nodes, the bend around the round obstacle that presses there or 0", "five numbers [-]" },
+    "how coarse the edges are for that bend, as shares of its curvature: its change from node to node; the "
+      .. "part of this by acceleration; how much more, and how much less, a wire at rest may be bent between "
+      .. "nodes; the curvature of the round obstacle that presses there, or 0", "five numbers [-]" },
   { "wire:max_strain", "{ now = }", "largest of a fibre in the run", "strain, s [m], t [s]" },
   { "wire:max_stress", "{ now = }", "largest of a fibre in the run", "stress [Pa], s [m], t [s]" },
   { "wire:max_torsion", "{ now = }", "largest of the run", "torsion [rad/m], s [m], t [s]" },

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Rows of a run in which a wire passed a clip's lips askew (event `askew`): the lips took less than the
--- given force, because they yield place by place. Lips that yield only as one take all of it. No error bar
+-- given force, because they yield place by place. Lips that yield only together take all of it. No error bar
 -- contains this.
 -- @module softworld.check.askew
 local askew = {}
@@ -24,7 +24,7 @@ end
 --- Returns what the row of a clip says if its wire passed the lips askew, or nil.
 function askew.why(clip, run)
   if not has_event(run, clip) then return nil end
-  return ("a wire passed the lips askew (event 'askew'): lips that yield only as one take up to %.4g N on "
+  return ("a wire passed the lips askew (event 'askew'): lips that yield only together take up to %.4g N on "
     .. "the way in and %.4g N on the way out"):format(clip.insertion, clip.retention)
 end
 
@@ -57,7 +57,7 @@ function askew.widen(value, member, entry, context)
   else
     value.high = (value.high or value.value) * share
   end
-  value.note = ("%sa wire passed a clip askew (event 'askew'): lips that yield only as one take %.3g times "
+  value.note = ("%sa wire passed a clip askew (event 'askew'): lips that yield only together take %.3g times "
     .. "the force"):format(value.note and value.note .. "; " or "", factor)
   return value
 end

@@ -15,17 +15,18 @@ local doubted = {}
 --   only, unless: pattern of the event's text that such an event has, or has not
 local kinds = {
   coarse = { "a step was too long for peaks" },
-  threshold = { "an end nearly slips, or hardly: little decides its peaks", own = true, places = true },
-  rebound = { "an end strikes again: little decides its peaks", own = true, places = true },
-  energy = { "steps made energy: smaller steps would tell", only = "^steps made .* from nowhere" },
+  threshold = { "an end is near the limit of friction: small differences decide its peaks", own = true,
+    places = true },
+  rebound = { "an end strikes again: small differences decide its peaks", own = true, places = true },
+  energy = { "steps made energy: take smaller steps", only = "^steps made .* from nowhere" },
   buckling = { "a straight or plane wire should have buckled", own = true, places = true, always = true },
-  integrator = { "the integrator gains energy in contact; tr-bdf2 would tell", always = true },
+  integrator = { "the integrator gains energy in contact: take tr-bdf2", always = true },
   crash = { "forces are wrong after a crash", always = true },
   pressed = { "a hold presses a wire into something: depth or edges decide the force" },
   overload = { "a hold overloads a wire: forces are wrong", always = true },
-  breaking = { "the wire would have torn; the run goes on with a whole one", always = true },
+  breaking = { "the wire would have broken; the run went on as if it held", always = true },
   walls = { "walls of a mesh meet, which its springs do not feel", own = true, always = true },
-  kink = { "the walls of a fold do not touch each other: forces are too low", own = true, always = true },
+  kink = { "walls in a fold do not touch each other: forces are too low", own = true, always = true },
   clip = { "the clip's model does not cover this", always = true, unless = "OVERLOADED" },
   undamped = { "damping of solid elements is missing", own = true, always = true },
   unbalanced = { "forces after a change of model may be too large", own = true, always = true },
@@ -78,7 +79,7 @@ function doubted.widen(value, member, run)
     if e.kind == "energy" and e.text:find(UNKNOWN, 1, true) then
       value.low, value.high = (value.low or value.value) * (1 - math.min(1, e.value)),
         (value.high or value.value) * (1 + e.value)
-      value.note = ("%senergy from nowhere: not more exact than %.2g %%"):format(
+      value.note = ("%senergy from nowhere: may be off by %.2g %%"):format(
         value.note and value.note .. "; " or "", 100 * e.value)
     end
   end

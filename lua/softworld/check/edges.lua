@@ -63,7 +63,7 @@ local function widen_bend(value, entry)
   value.low = math.max(0, math.min(value.low or value.value, axis / more - inside))
   value.high = math.max(value.high or value.value, axis * wider - inside)
   local most = number.text(value.high, "m")
-  return ("between %s and %s: edges of %s are coarse for this bend; more segments, or tolerance, would tell")
+  return ("between %s and %s: edges of %s are coarse for this bend; take more segments, or tolerance")
     :format(number.text(value.low, "m"), most, number.text(wire.length / wire.segments, "m"))
 end
 
@@ -102,7 +102,7 @@ function edges.widen(value, way, entry, run)
   local factor = limited(math.max(1, event.value / entry.object.segments), value.sharp)
   if way ~= "high" then value.low = math.min(value.low or low, (low + inside) / factor - inside) end
   if way ~= "low" then value.high = (value.high or value.value) * factor end
-  add_note(value, ("edges are too long for a bend: segments = %.0f, or tolerance, would tell"):format(
+  add_note(value, ("edges are too long for a bend: take segments = %.0f, or tolerance"):format(
     event.value))
   return value
 end

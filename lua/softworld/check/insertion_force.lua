@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Largest force of a clip's lips on the wire, at the last insertion in the run, or the one under way.
--- A wire that goes in askew takes less than lips that yield only as one.
+-- A wire that goes in askew takes less than lips that yield only together.
 -- @module softworld.check.insertion_force
 local askew = require "softworld.check.askew"
 

@@ -65,8 +65,8 @@ end
 -- Tells that the push rose far beyond the wanted one in a step.
 local function tell(self, args, seen, f)
   local first = seen.last.f
-  self.scene:tell{ kind = "coarse", object = self.name, value = first, text = ("gripper '%s': the push that "
-    .. "was to end a press at %s rose to %s within a step of %s, a way of %s; it was set to %s then. That "
+  self.scene:tell{ kind = "coarse", object = self.name, value = first, text = ("gripper '%s': the press "
+    .. "was to end at %s. Its force rose to %s within a step of %s, over %s, and was then set to %s. This "
     .. "peak depends on dt and on the speed of the press"):format(self.name, number.text(args.force, "N"),
       number.text(first, "N"), number.text(seen.step, "s"), number.text(seen.last.x - seen.before.x, "m"),
       number.text(f, "N")) }
