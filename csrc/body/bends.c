@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Bends of a wire that gets other edges or holds. A wire's nodes are not on its axis: all free
- * nodes lie k h^2/12 further from a clamp's tangent (state/near.c), with their own edges h. Where
- * edges become longer or shorter, or a hold comes or goes, the nodes beside it must lie elsewhere,
- * too. What little wire there is between two holds must fit between the places and directions of
+/* Keeps the bends of a wire when its edges change, or when a hold comes or goes. A wire's nodes are
+ * not on its axis: all free nodes lie k h^2/12 further from a clamp's tangent (state/near.c), with
+ * their own edges h and the curvature k. With other edges or holds, the nodes beside must lie
+ * elsewhere, too. A short piece of wire between two holds must fit the places and directions of
  * both: an error of direction of 0.05 rad on 1.5 mm of wire is a bend radius of 30 mm. So the nodes
- * on both sides are put where the wire has the bends that it had (body/chain.c). */
+ * on both sides are put where the wire has its old bends (body/chain.c). */
 #include "body/bends.h"
 
 #include <math.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A wire's bends, which stay when it gets other edges or holds. Of the scene's inside. */
+/* Keeps the bends of a wire when its edges change, or when a hold comes or goes. Of the scene's
+ * inside. */
 #ifndef SW_BODY_BENDS_H
 #define SW_BODY_BENDS_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The mesh beside guides: nodes come out of them and go into them. */
+/* The mesh beside a guide, such as a feed: nodes come out of the guide and go into it. */
 #include "body/guide.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A line with its holds, before the scene is built: the turns at its nodes and clamps. */
 #include "body/held_wire.h"
 
 #include "body/chain.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Histories of forces outlive a change of the system: clamps put on and taken off, nodes moved and
- * inserted, other forces made. */
+/* Carries the histories of forces over a change of the system: clamps put on and taken off, nodes
+ * moved and inserted, other forces made. */
 #include "body/history.h"
 
 #include <string.h>

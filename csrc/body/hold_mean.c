@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Mean loads of holds over a step with a jerk. A hold that starts or stops abruptly gives its wire
  * an impulse. The stages' forces add up to this impulse as the stages add up to the velocity. Each
- * of them grows without bound as steps get shorter, and the one at the step's end does not give the
- * impulse. */
+ * of these forces grows without bound as steps get shorter, and the force at the step's end does
+ * not give the impulse. */
 #include <math.h>
 
 #include "body/hold.h"

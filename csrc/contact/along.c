@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Friction of a wire along itself. */
+/* Friction of a wire along itself: sums of the touches' friction along its axis. */
 #include <math.h>
 
 #include "contact/halt.h"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How far the chords and the smooth curve of a wire may come nearer to a round side (see arc.h). */
 #include "contact/arc.h"
 
 #include <math.h>

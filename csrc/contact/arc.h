@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The arc of a wire that goes round something. The wire is as long as its edges, so its nodes lie
- * outside the curve that it follows, and the middles of its chords inside: on a circle of radius R,
- * by h^2/(24 R) and h^2/(12 R). Chords that lay on the circle would be too long by h^2/(12 R^2): a
- * stiff cable led round a drum would be taut too early. So chords and curves at a round side may
+/* The arc of a wire that goes round something. The wire is as long as its edges. So on a circle of
+ * radius R the nodes lie outside the wire's curve by h^2/(24 R), and the middles of the chords
+ * inside by h^2/(12 R). Chords that lay on the circle would be too long by h^2/(12 R^2): a stiff
+ * cable led round a drum would be taut too early. Therefore chords and curves at a round side may
  * come nearer by h^2 K/12, with the wire's curvature K. */
 #ifndef SW_CONTACT_ARC_H
 #define SW_CONTACT_ARC_H

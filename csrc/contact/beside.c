@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Round obstacles beside a node of a wire. */
+/* Finds round obstacles beside a node of a wire. */
 #include <math.h>
 
 #include "contact/touch.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Brushes: within a long step a fast wire may pass an edge so near that its surface overlaps it,
+/* Brushes: a fast wire passes an edge within a long step. Its surface overlaps the edge on the way,
  * although it is clear of the obstacle at both ends of the step. */
 #include <math.h>
 

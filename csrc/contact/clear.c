@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Moves wires that are meshes of elements out of what they were drawn a little inside. Their
- * section is a polygon, wider than the radius by 2.7 % over its corners: drawn at the height of the
- * radius over a table, it is that deep. On its way out at SW_LET_OUT, for 10 ms, pads that close
- * kept it there, and what was left of the depth turned into force: 2.9 N for 0.62 N
- * (spec/contact/drawn_wide_spec). So such a wire begins to move where it only touches. In
+/* Moves meshes of elements out of the obstacles that they were drawn a little inside. The section
+ * of such a mesh is a polygon, wider than the radius by 2.7 % over its corners: drawn at the height
+ * of the radius over a table, it is that deep. It came out at SW_LET_OUT, for 10 ms. Pads that
+ * closed meanwhile kept it there, and the rest of the depth turned into force: 2.9 N for 0.62 N
+ * (spec/contact/drawn_wide_spec). Therefore such a wire begins to move where it only touches. In
  * poses it comes out at once anyway. */
 #include <math.h>
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Making and freeing the contact with obstacles, its steps, and its read-outs. */
+/* Contact with obstacles: making and freeing it, its steps, and its read-outs. */
 #include "contact/contact.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Allowed depth of touches with obstacles, and the depth of an accepted state. */
 #include "contact/depth.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Depth of touches with obstacles: how much there may be, how much there was, and how much a step
+/* Depth of touches with obstacles: how deep a touch may be, how deep it was, and which depth a step
  * leaves alone. */
 #ifndef SW_CONTACT_DEPTH_H
 #define SW_CONTACT_DEPTH_H

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A wire that slides and is slowed down at a m/s2 until it rests: friction was mu N, the wire's
- * inertia m a helped its drive, and the wire has the strain of mu N - m a. At rest friction holds
- * just that strain. Friction's spring, however, is still stretched by mu N/k. It would draw the
- * wire until the wire has the strain of mu N: micrometres suffice, and an axially stiff cable
- * yields less than the spring. So the spring is set to the force at rest. Where a wire rolls, only
- * friction along the wire is set: what rolls across has the inertia of its spin too. */
+/* Sets the friction of a wire that comes to rest together with its drive. While the wire was slowed
+ * down at a m/s2, friction was mu N, its inertia m a helped the drive, and the wire had the strain
+ * of mu N - m a. At rest friction holds this strain. Friction's spring, however, is still stretched
+ * by mu N/k. It would draw the wire until the wire has the strain of mu N: micrometres suffice, and
+ * an axially stiff cable yields less than the spring. So the spring is set to the force at rest. If
+ * a wire rolls, only friction along the wire is set: a wire that rolls across has the inertia of
+ * its spin too. */
 #include "contact/halt.h"
 
 #include <math.h>

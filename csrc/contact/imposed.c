@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Depth that holds impose and no force can take away. */
+/* Finds depth that holds impose: no force can take it away. */
 #include <math.h>
 
 #include "contact/touch.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Loads of obstacles in a step: the impulse that changed the wires' momentum. A method's stages
- * build it from forces as they build the velocity; impacts that change velocities at the step's
- * start add theirs. */
+/* Loads of obstacles in a step: the impulse that changed the wires' momentum. The stages of a
+ * method build it from forces as they build the velocity. Impacts change velocities at the step's
+ * start; they add their own. */
 #include <math.h>
 
 #include "contact/jolt.h"

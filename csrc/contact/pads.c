@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Pads of grippers (pads.h): samples of a wire under them, and the stiffness of touches there. */
 #include "contact/pads.h"
 
 #include <math.h>

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lists of touches of an iterate and of the previous one, of all bodies or of the part that is
- * solved now. In a stage that is solved by parts, touches of finished parts stay in the list and
- * those of the current part are its tail; the previous list begins with the touches of the previous
- * stage. The part of the coupled bodies is the last one: its touches are then put in order between
- * those of the other bodies. */
+/* Lists of touches of an iterate and of the previous one. The system may solve a stage in parts,
+ * each with some of the bodies. Touches of finished parts stay in the list, and those of the
+ * current part are its tail. The previous list begins with the touches of the previous stage. The
+ * part of the coupled bodies is the last one: its touches are then put in order between those of
+ * the other bodies. */
 #include "system/part.h"
 
 #include <string.h>

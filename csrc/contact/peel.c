@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Finds where a wire lifts off, in statics. If the last touches of a row should be free, a solve
- * shows a pull at the end and a push beside it: the couple of a clamp. Releasing the pull moves the
- * end by one touch, so a fine mesh would need one solve per node. But the wire is free up to where
- * its bending moment vanishes, and the forces of this solve give that moment. */
+ * shows a pull at the end and a push beside it, like the couple of a clamp. To release the pull
+ * moves the end by one touch only: a fine mesh would need one solve per node. But the wire is free
+ * up to the place where its bending moment vanishes, and the forces of this solve give that moment.
+ * */
 #include <math.h>
 #include <stdint.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Wires that are pushed onto an obstacle by their ends. A stiff cable bears far more than its
- * buckling load for a moment, because its inertia holds it straight. Steps longer than that moment
- * let it buckle at once, or slip off, as chance has it. */
+/* Wires that are pushed onto an obstacle by their ends. For a moment inertia holds a stiff cable
+ * straight, and it bears far more than its buckling load. In a step longer than this moment it
+ * buckles at once, or slips off, by chance. */
 #include <math.h>
 
 #include "contact/jolt.h"

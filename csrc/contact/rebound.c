@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* When a place meets its obstacle within a step, and what the rebound may change (rebound.h). */
 #include "contact/rebound.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Makes the touches of one wire agree with an iterate's solution, by more solves with the same
- * factor: friction follows the normal force, touches that pull open, and touches that the wire
- * passes close. The next iterate does the rest. */
+ * factor. Friction follows the normal force; touches that pull open; touches that the wire passes
+ * close. The next iterate does the rest. */
 #include <math.h>
 #include <string.h>
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Stiffness of a wire that rolls on a round side. */
 #include "contact/rolling.h"
 
 #include <math.h>

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Statics: touches find their states while the wires stay where they are; the wires move only when
- * all touches agree. Each solve continues from the least energy between the last update and the new
- * one (touch/way.h). Everything except the touches' forces is linear, and in balance with the
- * solve's forces. */
+/* Statics: finds the states of the touches (open, sticking, sliding) while the wires stay where
+ * they are. The wires move only when all touches agree. Each solve continues from the least energy
+ * between the last update and the new one (touch/way.h). Everything except the touches' forces is
+ * linear, and in balance with the solve's forces. */
 #include <math.h>
 
 #include "base/alloc.h"

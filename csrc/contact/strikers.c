@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Wires that strike an obstacle and wires that rest on it, and the blow of each. */
 #include "contact/strikers.h"
 
 #include "base/alloc.h"

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Shifts particles of some meshes for contact. These stand outside the section that they represent,
- * so that its bending stiffness is right. Contact must meet the section's surface, so it sees these
- * particles further in, along the normal of their neighbours at the step's start. */
+/* Moves the outer particles of some meshes inwards, for contact only. These particles stand outside
+ * the section that they represent, because this gives the right bending stiffness. Contact must
+ * meet the section's surface. It sees the particles further in, along the normal of their
+ * neighbours at the step's start. */
 #include <string.h>
 
 #include "base/alloc.h"

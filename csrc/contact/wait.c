@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Sets aside the touches of bodies that wait, and puts them back (wait.h). */
 #include "contact/wait.h"
 
 #include <math.h>

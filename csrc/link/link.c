@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The registry of links: finds a class by its name. */
 #include "link/link.h"
 
 #include <math.h>

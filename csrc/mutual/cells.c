@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A hash table of grid cells, each with the points and edges in it. */
 #include "mutual/cells.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Particles that push each other apart: finds the pairs of a step and adds their force. */
 #include "mutual/crowd.h"
 
 #include <math.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Wires that slide on wires and come to rest together with what drives them (contact/halt.c). */
+/* Friction of wires that slide on other wires and come to rest together with their drive (see
+ * contact/halt.c). */
 #include "mutual/halt.h"
 
 #include <math.h>

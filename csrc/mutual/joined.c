@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A table of joined particles: for each particle its partners, in order. */
 #include "mutual/joined.h"
 
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Makes a trial the state: commits, observes and books it. */
+/* Makes an accepted trial the state of the scene: commits, observes and books it. */
 #include <math.h>
 
 #include "body/hold.h"

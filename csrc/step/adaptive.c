@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A step whose size follows its error. */
+/* Steps by `tolerance`: the size of a step follows its error. */
 #include <math.h>
 
 #include "scene/course.h"

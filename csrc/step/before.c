@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Brings wires to rest before obstacles move on. Wires that begin far from equilibrium (drawn
- * straight or let go) do not come to rest while obstacles drag them: continuation then takes steps
- * so long that inertia gives no direction, and Newton's iteration may end anywhere. With obstacles
- * at rest both find the way. */
+/* Brings wires to rest before obstacles move on. Wires may begin far from equilibrium (drawn
+ * straight or let go). They do not come to rest while obstacles drag them: continuation then takes
+ * steps so long that inertia gives no direction, and Newton's iteration may end anywhere. With
+ * obstacles at rest both find the equilibrium. */
 #include <math.h>
 
 #include "body/live.h"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Divides steps of fixed size that are too coarse for the motion of a wire (coarse.h). */
 #include "step/coarse.h"
 
 #include <math.h>

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Jaws of tools in a step, or from one pose to the next. Their opening changes evenly within it.
- * With a force to reach or not to exceed, the step's speed is the one for which the fingers' force
- * at its end is as wanted. It is found between a speed with too little force and one with too
- * much. */
+/* Jaws of tools in a step, or from one pose to the next. Their opening changes evenly within it. If
+ * the jaws have a force to reach or not to exceed, the step's speed gives the fingers the wanted
+ * force at its end. It is found between a speed with too little force and one with too much. */
 #include "step/jaw.h"
 
 #include <math.h>
@@ -17,11 +16,11 @@ static const double PRECISION = 1e-3; /* of the wanted force [-] */
 /* The same in scene:settle, where a repeated search would go on: with PRECISION the jaws moved by
  * 12 nm more (spec/physics/gripper_still_spec) [-]. */
 static const double EXACT = 1e-5;
-static const double ROUGHLY = 0.015;  /* the same in the step that first reaches it [-] */
-static const double REACHED = 0.02;   /* the force counts as reached from this share below it [-] */
-enum { MOST_TRIALS = 10 };            /* the last one is taken as it is [-] */
-enum { MOST_FIRST = 20 };             /* the same, until there is a force for the first time [-] */
-enum { MOST_RESTS = 12 };             /* the same for equilibria [-] */
+static const double ROUGHLY = 0.015; /* the same in the step that first reaches it [-] */
+static const double REACHED = 0.02;  /* the force counts as reached from this share below it [-] */
+enum { MOST_TRIALS = 10 };           /* the last one is taken as it is [-] */
+enum { MOST_FIRST = 20 };            /* the same, until there is a force for the first time [-] */
+enum { MOST_RESTS = 12 };            /* the same for equilibria [-] */
 static const double SAME_OPENING = 1e-9; /* at a step's end [m] */
 static const double TELLS =
     1e-7;                  /* openings nearer to each other than this give no stiffness [m] */

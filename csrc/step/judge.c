@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The energy referee's rung: a step that makes energy is redone. */
+/* The rung of the energy referee: redoes a step that makes energy. */
 #include "scene/course.h"
 #include "scene/parts.h"
 #include "step/energy.h"

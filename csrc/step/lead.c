@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Short parts before a drive comes softly to rest while rods slide. */
+/* Shortens the parts of a step before a drive comes softly to rest while rods slide. */
 #include <math.h>
 
 #include "body/touching.h"

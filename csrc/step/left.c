@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Friction that wires keep after a drive has stopped at once. */
+/* Watches the friction that wires keep after a drive has stopped at once, and tells a loss. */
 #include <math.h>
 
 #include "body/touching.h"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Repeats a step until a drive has the wanted force (obey.h). */
 #include "step/obey.h"
 
 sw_status sw_obey(sw_ladder *p, const sw_rung *below, double h, const sw_obeyer *what,

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Divides steps that would take a wire past a force of short reach (passing.h). */
 #include "step/passing.h"
 
 #include <math.h>

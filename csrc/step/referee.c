@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The referee: finds steps that make energy. */
+/* The energy referee: finds steps that gain more energy than the method's errors explain. */
 #include <math.h>
 #include <stdio.h>
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reasons for a method to start anew (restart.h). */
 #include "step/restart.h"
 
 #include "contact/contact.h"

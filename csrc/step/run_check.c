@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Arguments of a run, and checks of a scene before it runs. */
 #include "step/run_check.h"
 
 #include <math.h>

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Feeds that yield to a force. The speed at which wire slips changes evenly within a step, because
- * a jump of it would be a blow to the wire. Its rate is the one for which the drive's force at the
- * step's end is as wanted. It is found by false position, since the force is nearly linear in it.
- * With a limit wire slips, like a slipping clutch, until it has the asked speed again. */
+/* Feeds that yield to a force. The slipping speed of the wire changes evenly within a step, because
+ * a jump of it would be a blow to the wire. Its rate gives the drive the wanted force at the step's
+ * end. Regula falsi (false position) finds it, since the force is nearly linear in the rate. With a
+ * limit wire slips, like a slipping clutch, until it has the asked speed again. */
 #include "step/slip.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Steps in which a drive comes to rest while wires slide, and steps that end early because the
- * velocity of a drive jumps or a drive so comes to rest. */
+/* Steps in which a drive comes to rest while wires slide. Also steps that end early, because the
+ * velocity of a drive jumps or because a drive comes to rest in this way. */
 #include "step/stop.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Work of holds, feeds and moving obstacles over a step: force times way and moment times turn. For
- * holds and obstacles it comes from their impulse on the wire in the step, where the method gives
- * that, because stages may be off at the step's ends; else from the trapezoid of the ends. */
+ * holds and obstacles it comes from their impulse on the wire in the step, if the method gives it,
+ * because stages may be off at the step's ends. Otherwise it is the trapezoid of the ends. */
 #include <math.h>
 
 #include "base/alloc.h"

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Equilibria in which feeds obey a force: each pays wire out or draws it in until its force is the
- * asked one. More wire means less tension, so the length is found by false position. All trials of
- * a round begin with the same state, because friction remembers the way. A round changes the length
- * by at most part of an edge; then nodes come or go, and the next round begins. Where more wire
- * means more tension, as of a wire that hangs free, the drive goes on in the direction of its
- * surplus, as it would in motion, up to the next place where it stays. If there is none the feed is
- * held where it was, and an event says so. */
+/* Equilibria with feeds that obey a force: each feed pays wire out or draws it in until it has this
+ * force. More wire means less tension, so false position finds the length. All trials of a round
+ * begin with the same state, because friction remembers the way. A round changes the length by at
+ * most part of an edge; then nodes come or go, and the next round begins. A wire that hangs free
+ * has more tension with more wire. There the drive goes on in the direction of its surplus, as it
+ * would in motion, up to the next stable place. If there is none, the feed is held where it was,
+ * and an event says so. */
 #include <math.h>
 
 #include "base/alloc.h"

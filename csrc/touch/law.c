@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The law of one touch (see law.h): its states, forces and stiffness. */
 #include "touch/law.h"
 
 #include <math.h>

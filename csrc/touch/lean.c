@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How much a touch leans along the wire (see lean.h). */
 #include "touch/lean.h"
 
 #include <math.h>

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Under a push a wire bends deeper in the middle between two nodes, which its smooth curve does not
- * show. The missing bend would hold the wire there, so a touch leans a little along the wire. */
+/* Lean of a touch along the wire. Under a push a wire bends deeper in the middle between two nodes;
+ * its smooth curve does not show this bend. The missing bend would hold the wire there, so the
+ * touch leans a little along the wire. */
 #ifndef SW_TOUCH_LEAN_H
 #define SW_TOUCH_LEAN_H
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Touches in the equations (spot.h): iterates friction until it agrees with the normal forces. */
 #include "touch/spot.h"
 
 #include <math.h>

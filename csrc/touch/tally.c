@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Sums over lists of touches of any kind. */
 #include "touch/tally.h"
 
 #include "touch/law.h"

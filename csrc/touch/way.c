@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Finds the least energy on the way from an iterate to its solution (way.h). */
 #include "touch/way.h"
 
 #include <math.h>

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The way from an iterate to its solution. A solve holds for assumed states of touches (pressing,
- * sticking), and taking its new states may cycle for ever. With given normal forces for friction
- * the energy is convex along the way and has a minimum there; a sequence of steps to such minima
- * always ends. Finding the minimum needs only the touches' own forces; the rest is linear. */
+/* The way from an iterate to its solution: a line search that keeps touches from cycling. A solve
+ * holds for assumed states of touches (pressing, sticking); with the new states taken at once, the
+ * iteration may cycle for ever. With given normal forces for friction the energy is convex along
+ * the way and has a minimum there. A sequence of steps to such minima always ends. The minimum
+ * needs only the touches' own forces; the rest is linear. */
 #ifndef SW_TOUCH_WAY_H
 #define SW_TOUCH_WAY_H
 
