@@ -156,7 +156,7 @@ local take = rows.call("gripper:grasp", "wire, {...}", "takes hold of a wire, or
   jaws.force_row, jaws.distance_row, jaws.speed_row,
   reactions.on_slip_row,
   { "freeze", "boolean", "-", "of mixed: false keeps the pads until gripper:freeze()", usual = "true" },
-  { "margin", "number", "-", "of mixed: load over what the pads bear, above which the pads take over again",
+  { "margin", "number", "-", "of mixed: margin above which the pads take over again",
     min = 0,
     max = 1, above = true, usual = "0.9" },
   { "region", "number", "m", "of mixed: length of the wire that becomes a mesh", min = 0, above = true,

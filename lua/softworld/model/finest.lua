@@ -65,7 +65,7 @@ end
 -- Gives up a rung whose edges of a comparison show another state than the finest run. was: the rung's words.
 local function moved_on(context, state, was)
   context.given_up[#context.given_up + 1] = { kind = "model", time = context.scene.time, count = 1,
-    text = ("%s: %s given up, as finer edges show something else than the coarse ones of the comparison: "
+    text = ("%s: %s given up: finer edges show another state than the coarse edges of the comparison: "
       .. "%s"):format(state.choice.name, was, state.why) }
   decide.settle(context)
   return true
