@@ -7,7 +7,7 @@ local t = require "physics.tools"
 -- case: cable, friction mu, length [m], segments, height [m], duration [s], way [m], damping [s], direction
 -- turn [rad], law of the drive or the share of its way as a function of the share of the duration, rest [s]
 -- after it (0.5), tolerance of the run; swap: the clamp is at the wire's other end. Returns the pull on the
--- clamp at the end over mu m g, and whether an event said that forces at rest may be others.
+-- clamp at the end over mu m g, and whether an event said that forces at rest may be off.
 return function(case, dt, swap)
   local scene, r = sw.scene{}, sw.cable(case.cable).outer_diameter.value / 2
   local c, s, way = math.cos(case.turn), math.sin(case.turn), case.way
@@ -29,7 +29,7 @@ return function(case, dt, swap)
   local told = false
   for _, e in ipairs(t.fine(scene:run{ dt = dt, tolerance = case.tolerance,
     duration = case.duration + (case.rest or 0.5) }).events) do
-    told = told or e.kind == "coarse" and e.text:find("forces at rest", 1, true) ~= nil
+    told = told or e.kind == "coarse" and e.text:find("forces at rest may be off", 1, true) ~= nil
   end
   local f = hold:force()
   return (f[1] * c + f[2] * s) / (case.mu * 9.81 * wire.beam.mass_per_length * case.length), told
