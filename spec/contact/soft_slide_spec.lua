@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- A soft wire is drawn along a table, or laid down on it, and its hold slows down until it rests. Friction
 -- stretches the wire by mu rho g L^2 / (2 E), up to a millimetre, and waves of stretch take 3 to 55 ms to
--- run along it: what is left of them decides the friction at rest. Steps whose error was a tenth of up to a
+-- run along it: what is left of them decides the friction at rest. Steps whose error was a tenth of a
 -- millimetre left 0.92 of mu N for 0.65 in steps of 20 ms, and 0.87 by tolerance, without an event.
 local lay = require "contact.laid_down"
 local t = require "physics.tools"
