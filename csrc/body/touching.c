@@ -9,6 +9,7 @@
 #include "body/hold.h"
 #include "scene/drive.h"
 #include "scene/obstacle.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 #include "system/join.h"
 #include "system/linear.h"
@@ -126,10 +127,15 @@ void sw_scene_inform_contact(sw_scene *s) {
   sw_contact_recall(s->contact, past_of, may_move);
 }
 
+static int is_remade(void *user, size_t body) {
+  const sw_scene *s = user;
+  return body < sw_scene_wire_slots(s) && sw_scene_wire_in(s, body)->remade;
+}
+
 sw_status sw_scene_clear_meshes(sw_scene *s, sw_error *err) {
   if (!s->contact) return SW_OK;
   if (!sw_contact_informed(s->contact)) sw_scene_inform_contact(s);
-  return sw_contact_clear(s->contact, &s->system, s->time, err);
+  return sw_contact_clear(s->contact, &s->system, s->time, is_remade, s, err);
 }
 
 /* 1 if the hold does not move after time t. */

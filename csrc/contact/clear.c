@@ -120,11 +120,14 @@ static void clear(const sw_contact *c, sw_system *s, const sw_body *b) {
   if (d.most > FREE) shift(s, b, sw_neg(way));
 }
 
-sw_status sw_contact_clear(sw_contact *c, sw_system *s, double t, sw_error *err) {
-  if (!c->fresh) return SW_OK;
+sw_status sw_contact_clear(sw_contact *c, sw_system *s, double t, int (*is_new)(void *, size_t),
+                           void *user, sw_error *err) {
+  int any = c->fresh;
+  for (size_t b = 0; b < s->body_count && !any; b++) any = is_new(user, b);
+  if (!any) return SW_OK;
   SW_TRY(sw_contact_open(c, t, 0, err));
   if (sw_contact_sink(c, s) != SW_OK) return sw_fail(err, SW_ENOMEM, "contact: out of memory");
   for (size_t b = 0; b < s->body_count; b++)
-    if (is_loose(c, &s->bodies[b])) clear(c, s, &s->bodies[b]);
+    if ((c->fresh || is_new(user, b)) && is_loose(c, &s->bodies[b])) clear(c, s, &s->bodies[b]);
   return SW_OK;
 }

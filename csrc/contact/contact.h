@@ -75,8 +75,9 @@ sw_status sw_contact_wake(sw_contact *contact, sw_system *system, sw_error *err)
 sw_status sw_contact_begin_step(sw_contact *contact, sw_system *system, sw_contact_regime regime,
                                 double nominal, sw_error *err);
 /* Before the first motion of a body: moves it out of what it was drawn a little inside, if it is a
- * mesh of elements that nothing holds (contact/clear.c). */
-sw_status sw_contact_clear(sw_contact *contact, sw_system *system, double t, sw_error *err);
+ * mesh of elements that nothing holds (contact/clear.c). is_new: 1 for a body just remodelled. */
+sw_status sw_contact_clear(sw_contact *contact, sw_system *system, double t,
+                           int (*is_new)(void *, size_t), void *user, sw_error *err);
 /* After the step: keeps bodies from stopping that are on their way out of an obstacle. */
 void sw_contact_keep_moving(const sw_contact *contact, sw_system *system);
 /* Begins evaluations at the accepted state. A touch's stiffness is its last force over its depth.

@@ -77,6 +77,7 @@ static void replace(sw_scene *s, size_t wire, sw_scene_wire *with) {
   sw_free(w->twisted);
   w->cls = with->cls, w->mesh = with->mesh, w->strand = with->strand;
   w->twisted = with->twisted, w->twisted_count = with->twisted_count, w->untwisted = 0;
+  w->remade = with->strand.web != NULL;
   w->wear.holds = 0; /* the directions across the wire differ, even at the same places */
   sw_scene_forget_mesh(s, wire);
 }

@@ -89,7 +89,7 @@ void sw_tape_wire(sw_tape *t, sw_scene_wire *x, int placed) {
   sw_tape_wear(t, &x->wear);
   sw_tape_zone_watch(t, &x->zones);
   for (int end = 0; end < 2; end++) tape_poke(t, &x->pokes[end]);
-  DOUBLE(blow), INT(untwisted);
+  DOUBLE(blow), INT(untwisted), INT(remade);
   sw_tape_expect(t, x->blow >= 0 && isfinite(x->blow), "the hardest blow of a wire");
   sw_tape_list(t, &x->twisted, &x->twisted_count, sizeof *x->twisted);
 }

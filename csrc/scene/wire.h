@@ -62,6 +62,7 @@ typedef struct sw_scene_wire {
   size_t twisted_count;
   double blow;   /* its hardest blow of this run that was followed in parts [N] */
   int untwisted; /* 1: lies as drawn, without its unloaded twist; nothing has moved */
+  int remade;    /* 1: has just become a mesh; nothing has moved since */
 } sw_scene_wire;
 
 /* Data kept of a body that was taken away. */

@@ -116,7 +116,7 @@ static void tell_news(sw_scene *s) {
 
 sw_status sw_scene_observe(sw_scene *s, sw_error *err) {
   sw_system *system = sw_scene_system(s);
-  SW_EACH(wire, wire, s) wire->untwisted = 0;
+  SW_EACH(wire, wire, s) wire->untwisted = wire->remade = 0;
   SW_TRY(sw_system_place_holds(system, sw_scene_time(s), system->x, NULL, NULL, err));
   sw_system_refresh(system);
   sw_scene_watch_ties(s);
