@@ -11,6 +11,7 @@ change.FAINT = 1 / 64 -- change over the allowed one that finer edges hardly bri
 
 local SAFETY = 1.5 -- on estimates for finer levels [-]
 local ELSEWHERE = 1 / 4 -- error of a coarse value, over the value, up to which a comparison counts [-]
+local STEADY = 1 / 2 -- largest change over the allowed one that finer edges need not confirm [-]
 local NONE = 0 / 0 -- value of a check's row that a computation lacks
 
 local function is_finite(v) return v ~= nil and quantity.size(v) < math.huge end
@@ -124,28 +125,42 @@ local function may_hide(context, state, q)
   return choice.blurred(there.here.facts[choice.name], there.above.facts[choice.name], share)
 end
 
+-- True if a comparison on this level found about the same as on the level before, and at most half of what is
+-- allowed. Then a finer level will find about the same, where wires are at the same place.
+local function is_steady(there)
+  local before = there.before
+  return before ~= nil and there.worst <= STEADY and there.worst <= SAFETY * before.worst
+end
+
+-- True if a comparison tells nothing of a quantity on the edges of the finest run, whose values and shape are
+-- `fine`: see change.is_elsewhere. jumped: poses jumped in the comparison.
+local function is_off(context, state, q, fine, jumped)
+  local there = state.compared
+  local coarse, value = there.here.values[q.name] or NONE, fine.values[q.name] or NONE
+  if not quantity.alike(coarse, value) then return false end
+  local off, hides = quantity.distance(coarse, value), not jumped and may_hide(context, state, q)
+  local far = off > ELSEWHERE * quantity.size(value)
+  if not (far or jumped or hides) or off <= quantity.asked(q, value) then return false end
+  if hides and not q.own then return true end
+  local clear = there.worst < change.FAINT or not far and is_steady(there)
+  return not (clear and is_there(context, there, fine.shape))
+end
+
 --- Returns true if a choice was compared on edges so coarse that the wire was somewhere else there: the
 -- rung's values were off those of the finest run by a quarter, and by more than the tolerance. On such edges
 -- both rungs may agree on a shape that fine edges do not have. A pushed trunk may buckle to the other side.
 -- Values alone may also be off because a sharp bend needs fine edges. So if the shape is the same, a change
 -- far below the allowed one counts. Where poses jump, friction may hold the wire elsewhere after the jump, so
--- the coarse values must be right to the tolerance. So must peaks of fast motion: a coarse peak may be at
--- another place and time than a fine one, and the same for both rungs. There even a change far below the
--- allowed one does not count, except of the script's own quantities, which are mostly no peaks. fine: values
--- and shape of the finest run.
+-- the coarse values must be right to the tolerance. If they are only right to a quarter, the shape must be
+-- the same, and the change far below the allowed one, or one that two levels agree on. Peaks of fast motion
+-- must be right to the tolerance: a coarse peak may be at another place and time than a fine one, and the same
+-- for both rungs. There even a change far below the allowed one does not count, except of the script's own
+-- quantities, which are mostly no peaks. fine: values and shape of the finest run.
 function change.is_elsewhere(context, state, fine)
   local there = state.by == "compared" and state.compared
   local jumped = there and there.here.facts.motion.jumps > 0
   for _, q in ipairs(there and context.job.quantities or {}) do
-    local coarse, value = there.here.values[q.name] or NONE, fine.values[q.name] or NONE
-    if quantity.alike(coarse, value) then
-      local off, hides = quantity.distance(coarse, value), not jumped and may_hide(context, state, q)
-      local far = (jumped or hides) and 0 or ELSEWHERE
-      if off > far * quantity.size(value) and off > quantity.asked(q, value) then
-        local faint = there.worst < change.FAINT and is_there(context, there, fine.shape)
-        return hides and not q.own or not faint
-      end
-    end
+    if is_off(context, state, q, fine, jumped) then return true end
   end
   return false
 end

@@ -159,8 +159,10 @@ local function refined(context)
   local total = { wall = kept and kept.run.wall or 0, cpu = kept and kept.run.cpu or 0 }
   context.last = nil
   local result = trust.work(job, function(k, name)
+    local begun = os.clock()
     local run = refine.computer(job, steps, context.run_once, total)(k, name)
     context.run_of[k] = { iterations = run.iterations, steps = run.steps }
+    if k <= decide.levels then probe.keep(context, decide.rungs(context), k, run, os.clock() - begun) end
     return run
   end)
   result.wall, result.cpu = total.wall, total.cpu
@@ -261,6 +263,7 @@ end
 local function new_context(scene, job, args, run_once)
   local data = build.data(scene)
   local context = { scene = scene, data = data, job = job, args = args, run_once = run_once, probes = {},
+    levels = {},
     probe_count = 0, skipped = 0, states = {}, given_up = {}, vain = {},
     scripted_contact = data.touching }
   context.spread = spread.new(context)

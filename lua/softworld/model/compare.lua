@@ -19,6 +19,7 @@ local FEIGNED = 16 -- change over the allowed one that coarse edges cause only i
 local HIDDEN = 4   -- coarse edges and steps that blur a change may hide this many times as much [-]
 local HIDES = 2 / 3 -- largest change with hidden part over the allowed one; the rest is for edges, steps [-]
 local SEEN = 0.1   -- least share of a swing that steps must show to accept a blurred change [-]
+local TOILS = 8    -- wide steps over those of the rung above which they save nothing [-]
 local NONE = 0 / 0 -- value of a check's row that a computation lacks
 
 compare.levels = 3 -- coarse levels on which rungs are compared [-]
@@ -89,16 +90,15 @@ local function mark_astray(now, last)
   end
 end
 
---- Compares a rung with the next one on wide steps. Returns the change if it is so small that it stays within
--- what is allowed even if these steps hide most of it; nil: computing the next rung in full tells, or costs
--- little anyway.
-function compare.glance(context, state, rungs, above)
-  local choice, k = state.choice, state.from or 1
-  local here = choice.widen and probe.of(context, rungs, k)
-  if not here or not here.ok or here.work < compare.BRIEF or jumps(here) then return nil end
+-- Returns the change on level k by wide steps; nil: they show too little, or they are no saving. Also returns
+-- whether the next rung failed, or its steps were far too many.
+local function glance_at(context, state, rungs, above, k)
+  local choice, here = state.choice, probe.of(context, rungs, k)
+  if not here.ok or here.work < compare.BRIEF or jumps(here) then return nil end
   if choice.toils and choice.toils(state.rung, here) then return nil end -- the full cost must be known
-  local there = probe.glance(context, above, k, choice)
-  if not there.ok or jumps(there) then return nil end
+  local there = probe.glance(context, above, k, choice, TOILS * here.steps)
+  if not there.ok then return nil, true end
+  if jumps(there) then return nil end
   local now = { k = k, here = here, above = there, wide = true }
   local c, f = change.between(context, state, now, change.left_by_others), there.facts[choice.name]
   local all = change.hidden(c, HIDDEN)
@@ -108,11 +108,38 @@ function compare.glance(context, state, rungs, above)
   return choice.blurred(here.facts[choice.name], f, share) and all or c
 end
 
---- Compares a rung with the next on the coarsest level, and on finer levels while a too large change becomes
--- smaller: coarse steps must not rule out a cheap rung. Returns the change, and why the next rung failed.
-function compare.rungs(context, state, rungs, above)
+--- Compares a rung with the next one on wide steps. Returns the change if it is so small that it stays within
+-- what is allowed even if these steps hide most of it; nil: computing the next rung in full tells, or costs
+-- little anyway. Also returns the level on which the next rung can be computed, as far as wide steps tell: on
+-- the coarsest edges they may fail.
+function compare.glance(context, state, rungs, above)
+  local k = state.from or 1
+  if not state.choice.widen then return nil, k end
+  local c, failed = glance_at(context, state, rungs, above, k)
+  if not failed or k >= compare.last(context, state.choice) then return c, k end
+  c, failed = glance_at(context, state, rungs, above, k + 1)
+  return c, failed and k or k + 1
+end
+
+--- Returns the computation of the next rung on the coarsest edges on which both rungs can be computed, and
+-- its level: the first, or for a rung that may be replaced, the second, as contact on coarse edges may make
+-- steps collapse. first: the level to begin with. If both fail, returns that of the first level.
+function compare.above(context, state, rungs, above, first)
+  local other = state.choice.instead and compare.last(context, state.choice) > 1 and 2 or 1
+  for _, k in ipairs { first > 1 and other or 1, first > 1 and 1 or other } do
+    local there = probe.of(context, above, k)
+    if there.ok and probe.of(context, rungs, k).ok then return there, k end
+  end
+  return probe.of(context, above, 1), 1
+end
+
+--- Compares a rung with the next on the coarsest level, or from level `begin` on, and on finer levels while a
+-- too large change becomes smaller: coarse steps must not rule out a cheap rung. Returns the change, and why
+-- the next rung failed.
+function compare.rungs(context, state, rungs, above, begin)
   local rung, levels = state.choice.rungs[state.rung], compare.last(context, state.choice)
-  local first = state.compared and state.compared.wide and state.from or 1 -- wide steps tell no change
+  local wide = state.compared and state.compared.wide -- wide steps tell no change
+  local first = math.max(begin or 1, wide and state.from or 1)
   local c, before, doubtful
   for k = first, levels do
     local again = before and before.before and before.before.above

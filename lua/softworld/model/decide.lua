@@ -4,6 +4,7 @@
 -- @module softworld.model.decide
 local change = require "softworld.model.change"
 local compare = require "softworld.model.compare"
+local dearer = require "softworld.model.dearer"
 local number = require "softworld.output.number"
 local probe = require "softworld.model.probe"
 local quantity = require "softworld.quantity"
@@ -13,7 +14,6 @@ local decide = {}
 
 local MODEL = change.MODEL
 local LONG = 1     -- expected time of a mesh on the second level above which in_vain is asked [s]
-local GROWTH = 2   -- least iterations of a run over those of the level before [-]
 local HARDLY = 1e-6 -- change over the allowed one that is not worth a number [-]
 local NONE = 0 / 0 -- value of a check's row that a computation lacks
 
@@ -26,31 +26,13 @@ function decide.rungs(context)
   return rungs
 end
 
-local function with(rungs, name, rung)
-  local copy = {}
-  for key, value in pairs(rungs) do copy[key] = value end
-  copy[name] = rung
-  return copy
-end
-
--- Returns the least iterations that the next rung of a choice needs on level k, from known computations, or
--- from one on the coarsest level; nil: it cannot be computed.
-local function iterations_above(context, state, k)
-  local up = with(decide.rungs(context), state.choice.name, state.rung + 1)
-  for j = k, 2, -1 do
-    local above = probe.known(context, up, j)
-    if above and above.ok then return GROWTH ^ (k - j) * above.iterations end
-  end
-  local above = probe.of(context, up, 1)
-  return above.ok and GROWTH ^ (k - 1) * above.iterations or nil
-end
-
 --- Returns the choice whose rung costs more than the next one, judged by a run on level k, and why; nil:
 -- there is none. This may compute another run and leave the scene in its final state.
 function decide.wasteful(context, k, run)
+  local rungs = decide.rungs(context)
   for _, state in ipairs(context.states) do
     local open = state.by ~= "given" and not state.went_on and state.rung < state.last and state.choice.toils
-    local above = open and open(state.rung, run) and iterations_above(context, state, k)
+    local above = open and open(state.rung, run) and dearer.iterations(context, state, rungs, k)
     local why = above and state.choice.costly(state.rung, run, { iterations = above },
       k + context.job.skipped)
     if why then return state, why end
@@ -202,7 +184,7 @@ end
 local function climb(context, state, rungs, here)
   local choice, rung = state.choice, state.rung
   local name, f = choice.name, here.facts[choice.name]
-  local up = with(rungs, name, rung + 1)
+  local up = dearer.with(rungs, name, rung + 1)
   local next_as = choice.rungs[rung + 1].as
   if not state.from and stays_faint(state, here) then return true end -- from: finer edges are asked for
   if choice.rungs[rung].own and probe.expected(context, up, 2) == math.huge then -- one level tells nothing
@@ -214,19 +196,20 @@ local function climb(context, state, rungs, here)
     state.doubt = vain
     return stay(state, "skipped", vain)
   end
-  local seen = compare.glance(context, state, rungs, up)
+  local seen, first = compare.glance(context, state, rungs, up)
   if seen then return stays(state, seen, next_as, here) end
-  local above = probe.of(context, up, 1)
+  local above, k = compare.above(context, state, rungs, up, first)
   if not above.ok then
     local why = ("%s cannot be computed: %s"):format(next_as, above.reason)
     return stays_as_before(context, state, why) or unknown(context, state, f, here, why)
   end
-  local costly = choice.costly and choice.costly(rung, here, above, 1 + context.job.skipped)
+  local costly = choice.costly and choice.costly(rung, probe.of(context, rungs, k), above,
+    k + context.job.skipped)
   if costly then
     decide.raise(context, state, costly)
     return false
   end
-  local c, blind = compare.rungs(context, state, rungs, up)
+  local c, blind = compare.rungs(context, state, rungs, up, k)
   if blind then
     return unknown(context, state, f, here, ("%s: no computation on finer edges: %s"):format(next_as, blind))
   end
@@ -265,8 +248,7 @@ local function begins_later(context, state, rungs, here)
   local fails_late = state.choice.instead and state.rung < state.last and (here.steps or 0) > 0
   if not fails_late or here.raised or context.unskip then return false end
   for k = 2, compare.levels do
-    local above = iterations_above(context, state, k)
-    if not above or here.iterations > above then return false end
+    if not dearer.is_next(context, state, rungs, k, here.iterations) then return false end
     if probe.of(context, rungs, k).ok then return probe.skip(context, rungs, k - 1) end
   end
   return false
@@ -354,7 +336,7 @@ end
 -- others leave out was found with the rung above, and the change between the two rungs is added to it.
 local function may_fall(context, state)
   local now = decide.rungs(context)
-  local below = with(now, state.choice.name, state.rung - 1)
+  local below = dearer.with(now, state.choice.name, state.rung - 1)
   if not state.rose or state.choice.steady or state.rose == probe.key(below, 1) then return false end
   state.rose = probe.key(below, 1)
   local here, above, costly = probe.of(context, below, 1), probe.of(context, now, 1), state.choice.costly

@@ -142,16 +142,35 @@ local function nodes_of(scene)
   return sum
 end
 
--- Returns the steps of levels widened by a choice.
-local function widened(steps, choice)
+-- Returns the steps of levels widened by a choice, no more than `most`.
+local function widened(steps, choice, most)
   return function(k)
     local options = steps(k)
     choice.widen(options)
+    options.max_steps = most
     return options
   end
 end
 
-local function compute(context, rungs, k, factors, choice)
+-- Reads what a run on level k tells, while the scene is in its final state. cpu: its time [s]; asked: a set
+-- of choices, or nil for all.
+local function read_all(context, k, run, cpu, result, asked)
+  local job, scene = context.job, context.scene
+  result.work = run.iterations * nodes_of(scene)
+  result.facts, result.contact = probe.facts(context, run, asked), trust.touches(scene)
+  result.moves, result.shape = job.moves, facts.shape(scene)
+  result.values = {}
+  for name, read in pairs(trust.read(job, run)) do result.values[name] = read.value end
+  result.level = { segments = trust.counts(job, k), ok = true, cpu = cpu }
+end
+
+local function note_finest(context, k, result)
+  local finest = context.finest
+  if k >= (finest and finest.k or 0) then context.finest = { k = k, values = result.values } end
+end
+
+-- wide: nil; or { choice = that widens the steps, most = number of steps }.
+local function compute(context, rungs, k, factors, wide)
   local job, scene = context.job, context.scene
   local time = probe.expected(context, rungs, k)
   if time and time > LONGEST and time < math.huge then
@@ -159,29 +178,23 @@ local function compute(context, rungs, k, factors, choice)
   end
   context.last = nil
   job.restore()
-  local steps, own = probe.arrange(context, rungs, factors), factors or choice
-  if choice then steps = widened(steps, choice) end
+  local steps, own = probe.arrange(context, rungs, factors), factors or wide
+  if wide then steps = widened(steps, wide.choice, wide.most) end
   core.remesh(scene, trust.counts(job, k))
   local begun = os.clock()
   local run = refine.computer(job, steps, context.run_once, { wall = 0, cpu = 0 })(k, "choosing a model")
   if job.unmade then return { ok = false, unmade = true, reason = job.unmade } end
   local cpu = os.clock() - begun
   local result = { ok = run.ok, reason = run.reason, iterations = run.iterations, steps = run.steps }
-  if not run.ok then
+  if wide and run.steps >= wide.most then result.ok, result.reason = false, "it takes too many steps" end
+  if not result.ok then
     result.facts = facts_of_failed(context, run)
     return result
   end
-  result.work = run.iterations * nodes_of(scene)
-  local asked = choice and { [choice.name] = true } or nil -- wide steps tell about their choice only
-  result.facts, result.contact = probe.facts(context, run, asked), trust.touches(scene)
-  result.moves, result.shape = job.moves, facts.shape(scene)
-  result.values = {}
-  for name, read in pairs(trust.read(job, run)) do result.values[name] = read.value end
-  if not choice then context.iterations = run.iterations / 2 ^ (k - 1) end
-  result.level = { segments = trust.counts(job, k), ok = true, cpu = cpu }
-  if not own and k >= (context.finest and context.finest.k or 0) then
-    context.finest = { k = k, values = result.values }
-  end
+  local asked = wide and { [wide.choice.name] = true } or nil -- wide steps tell about their choice only
+  read_all(context, k, run, cpu, result, asked)
+  if not wide then context.iterations = run.iterations / 2 ^ (k - 1) end
+  if not own then note_finest(context, k, result) end
   context.last = not own and { key = probe.key(rungs, k), run = run, level = result.level } or nil
   return result
 end
@@ -190,7 +203,7 @@ end
 -- still coarse.
 function probe.finer(context)
   if not coarsest.finer(context.job) then return false end
-  context.most, context.probes, context.finest = context.job.most, {}, nil
+  context.most, context.probes, context.levels, context.finest = context.job.most, {}, {}, nil
   return true
 end
 
@@ -200,39 +213,67 @@ function probe.skip(context, rungs, n)
   local undo = coarsest.skip(job, n)
   if not undo then return false end
   local first = probes[probe.key(rungs, n + 1)]
-  context.probes, context.last = { [probe.key(rungs, 1)] = first }, nil
+  context.probes, context.levels, context.last = { [probe.key(rungs, 1)] = first }, {}, nil
   context.finest = { k = 1, values = first.values }
   context.most, context.skipped = job.most, n
   function context.unskip()
     undo()
-    context.probes, context.last, context.finest, context.most = probes, nil, finest, most
+    context.probes, context.levels, context.last = probes, {}, nil
+    context.finest, context.most = finest, most
     context.unskip, context.skipped = nil, 0
   end
   return true
 end
 
---- Same with the steps that the choice `state` widens.
-function probe.glance(context, rungs, k, choice) return probe.of(context, rungs, k, nil, "wide", choice) end
+--- Same with the steps that a choice widens. It counts as failed if it takes `most` steps.
+function probe.glance(context, rungs, k, choice, most)
+  return probe.of(context, rungs, k, nil, "wide", { choice = choice, most = most })
+end
+
+-- True if the script tells which frames its run stores. They may tell less than those of other computations.
+local function has_own_frames(context)
+  local args = context.args
+  return args.frames ~= false and (args.frame or args.frames ~= nil)
+end
+
+--- Keeps what level k of the script's run tells, because a later comparison may need the same computation.
+-- The scene is in its final state. Not for meshes, nor if the run has changed its rungs on the way.
+function probe.keep(context, rungs, k, run, cpu)
+  if not run.ok or has_own_frames(context) or context.job.shape then return end
+  for _, state in ipairs(context.states) do
+    if state.went_on then return end
+  end
+  local result = { ok = true, reason = run.reason, iterations = run.iterations, steps = run.steps }
+  read_all(context, k, run, cpu, result)
+  context.levels[probe.key(rungs, k)] = result
+end
 
 --- Returns what was computed of rungs on level k, or nil.
-function probe.known(context, rungs, k) return context.probes[probe.key(rungs, k)] end
+function probe.known(context, rungs, k)
+  local key = probe.key(rungs, k)
+  local kept = context.levels[key]
+  if kept and not context.probes[key] then
+    context.probes[key] = kept
+    note_finest(context, k, kept)
+  end
+  return context.probes[key]
+end
 
 --- Returns the run of rungs on level k and its level, if the scene is still in its final state and its frames
 -- are those that the kept run would have; else nil.
 function probe.as_it_ended(context, rungs, k)
-  local last, args = context.last, context.args
-  local own_frames = args.frames ~= false and (args.frame or args.frames ~= nil)
-  return last and not own_frames and last.key == probe.key(rungs, k) and last or nil
+  local last = context.last
+  return last and not has_own_frames(context) and last.key == probe.key(rungs, k) and last or nil
 end
 
 --- Returns the values and facts of rungs (by the choices' names) on level k; each is computed only once.
 -- A computation that raises an error counts as failed. A variant has a label: factors on the stiffness of
--- wires, or the choice that widens the steps.
-function probe.of(context, rungs, k, factors, label, choice)
+-- wires, or what widens the steps.
+function probe.of(context, rungs, k, factors, label, wide)
   local key = probe.key(rungs, k, label)
-  local known = context.probes[key]
+  local known = label and context.probes[key] or not label and probe.known(context, rungs, k)
   if known then return known end
-  local fine, result = pcall(compute, context, rungs, k, factors, choice)
+  local fine, result = pcall(compute, context, rungs, k, factors, wide)
   if not fine then
     if checks.is_interrupt(result) then error(result, 0) end
     result = { ok = false, reason = build.plain(tostring(result)), raised = result }
