@@ -153,9 +153,9 @@ end
 -- far below the allowed one counts. Where poses jump, friction may hold the wire elsewhere after the jump, so
 -- the coarse values must be right to the tolerance. If they are only right to a quarter, the shape must be
 -- the same, and the change far below the allowed one, or one that two levels agree on. Peaks of fast motion
--- must be right to the tolerance: a coarse peak may be at another place and time than a fine one, and the same
--- for both rungs. There even a change far below the allowed one does not count, except of the script's own
--- quantities, which are mostly no peaks. fine: values and shape of the finest run.
+-- must be right to the tolerance: a coarse peak may be at another place and time than a fine one, and the
+-- same for both rungs. There even a change far below the allowed one does not count, except of the script's
+-- own quantities, which are mostly no peaks. fine: values and shape of the finest run.
 function change.is_elsewhere(context, state, fine)
   local there = state.by == "compared" and state.compared
   local jumped = there and there.here.facts.motion.jumps > 0
