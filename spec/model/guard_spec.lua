@@ -59,6 +59,25 @@ describe("a run that chose its model", function()
     assert.is_true(off ^ 0.5 <= q.error + t.error, ("%g off, %g stated"):format(off ^ 0.5, q.error))
   end)
 
+  -- 12 first periods long, so poses are slow enough on coarse edges, but not on fine ones.
+  it("says that nothing is left of poses where it went back to the start", function()
+    local scene = sw.scene { name = "twisted" }
+    local w = scene:wire { name = "w", EA = 2e4, EI = 3e-3, GJ = 2.4e-3, mass_per_length = 0.04,
+      radius = 0.002, from = { 0, 0, 0 }, to = { 0.3, 0, 0 }, segments = 32 }
+    scene:clamp(w, { s = 0, name = "left" })
+    scene:clamp(w, { s = 0.3, name = "right" }):follow { relative = true, duration = 3,
+      points = { { 0, 0, 0 }, { -0.03, 0.02, 0 } }, turn = { axis = { 1, 0, 0 }, angle = 5 } }
+    scene:force { kind = "damping", mass = 4 }
+    scene:settle()
+    local run = scene:run { duration = 3, model = "auto", tolerance = {
+      ["right.moment"] = { relative = 0.03 }, ["left.force"] = { relative = 0.03 } } }
+    local c, why = choice(run, "motion"), tostring(run:why())
+    assert.equal("switched", c.by, why)
+    assert.truthy(c.why:find("^poses given up: the run went back to its start, because by "), why)
+    assert.truthy(c.why:find("; dynamics from there; on coarse edges: the run lasts", 1, true), why)
+    assert.falsy(why:find("until", 1, true), why)
+  end)
+
   it("gives the same bits in a second run", function()
     local one, two = sets_off(), sets_off()
     assert.equal(tostring(one:error_bars()), tostring(two:error_bars()))

@@ -47,7 +47,8 @@ local function choice_of(state)
   if on then
     rung = state.choice.rungs[state.rung + 1]
     return { name = state.choice.name, rung = rung.name, leaves = rung.leaves, by = "switched",
-      why = on.text .. "; until then: " .. state.why, error = state.change }
+      why = ("%s; %s: %s"):format(on.text, on.whole and "on coarse edges" or "until then", state.why),
+      error = state.change }
   end
   return { name = state.choice.name, rung = rung.name, leaves = rung.leaves, by = state.by,
     why = state.why or state.doubt or "there is no more expensive one", error = state.change }

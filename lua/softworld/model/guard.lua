@@ -115,9 +115,12 @@ local function switch(self, i, why, options, total)
     error(setmetatable({ state = state, time = moment }, Broken), 0)
   end
   local rungs = state.choice.rungs
-  state.went_on = { time = self.scene.time, text = ("%s until %s, where the run went back to a snapshot, "
-    .. "because by %s %s; %s from there"):format(rungs[state.rung].as, number.text(self.scene.time, "s"),
-    number.text(moment, "s"), why, rungs[state.rung + 1].as) }
+  local time, as, next_as = self.scene.time, rungs[state.rung].as, rungs[state.rung + 1].as
+  local whole = time <= self.start -- nothing of the run is left
+  local where = whole and ("%s given up: the run went back to its start, because by"):format(as)
+    or ("%s until %s, where the run went back to a snapshot, because by"):format(as, number.text(time, "s"))
+  state.went_on = { time = time, whole = whole, text = ("%s %s %s; %s from there"):format(where,
+    number.text(moment, "s"), why, next_as) }
   self.from = self.scene.time
 end
 
