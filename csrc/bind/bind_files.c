@@ -19,7 +19,9 @@
 static const char lock_name[] = "softworld.part";
 
 typedef struct part_lock {
-  int fd; /* -1: unlocked */
+  int fd;        /* -1: unlocked */
+  int part;      /* 1: of a temporary file or folder, whose path is the user value */
+  pid_t process; /* that made it: one forked from it must not remove its files */
 } part_lock;
 
 static int unlock(lua_State *L) {
@@ -29,11 +31,13 @@ static int unlock(lua_State *L) {
   return 0;
 }
 
+static int forget(lua_State *L); /* with what removes files, below */
+
 static part_lock *new_lock(lua_State *L) {
-  part_lock *lock = lua_newuserdatauv(L, sizeof *lock, 0);
-  lock->fd = -1;
+  part_lock *lock = lua_newuserdatauv(L, sizeof *lock, 1);
+  lock->fd = -1, lock->part = 0, lock->process = getpid();
   if (luaL_newmetatable(L, lock_name)) {
-    lua_pushcfunction(L, unlock), lua_setfield(L, -2, "__gc");
+    lua_pushcfunction(L, forget), lua_setfield(L, -2, "__gc");
     lua_pushcfunction(L, unlock), lua_setfield(L, -2, "__close");
     lua_pushcfunction(L, unlock), lua_setfield(L, -2, "__call");
   }
@@ -84,6 +88,23 @@ static void remove_if_left(int parent, const char *name) {
   close(fd);
 }
 
+/* The lock of a temporary file that nobody ended: Ctrl-C came between two steps of writing it. */
+static int forget(lua_State *L) {
+  const part_lock *lock = luaL_checkudata(L, 1, lock_name);
+  if (lock->fd >= 0 && lock->part && lock->process == getpid()) {
+    struct stat info;
+    lua_getiuservalue(L, 1, 1);
+    const char *path = lua_tostring(L, -1);
+    if (path && fstat(lock->fd, &info) == 0) {
+      if (S_ISDIR(info.st_mode))
+        remove_folder(AT_FDCWD, lock->fd, path);
+      else
+        unlinkat(AT_FDCWD, path, 0);
+    }
+  }
+  return unlock(L);
+}
+
 /* core.sweep(folder): removes temporary files of processes that have ended. */
 static int mod_sweep(lua_State *L) {
   DIR *folder = opendir(luaL_checkstring(L, 1));
@@ -126,6 +147,8 @@ static int mod_part(lua_State *L) {
     lock->fd = make(path, folder);
     if (lock->fd < 0 && errno != EEXIST) return lsw_failed(L);
     if (lock->fd >= 0 && keep(lock->fd, path)) {
+      lua_pushvalue(L, -1), lua_setiuservalue(L, 3, 1);
+      lock->part = 1;
       lua_insert(L, -2);
       return 2;
     }

@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 local csv = require "softworld.csv"
 local files = require "spec.output.files"
+local program = require "host.program"
 local series = require "softworld.output.series"
 local sink = require "softworld.output.sink"
 
@@ -59,6 +60,45 @@ describe("sink", function()
     io.open = open -- luacheck: ignore
     assert.is_false(ok)
     assert.truthy(why:find("No space left", 1, true), why)
+  end)
+
+  -- Ctrl-C is an error that a hook raises; here it comes after each number of instructions in turn.
+  it("leaves no temporary file wherever an error of a hook comes", function()
+    local script = folder .. "/script.lua"
+    local file <close> = assert(io.open(script, "w"))
+    file:write([[
+      local sink = require "softworld.output.sink"
+      local path = arg[1] .. "/x.txt"
+      local function text(write) for i = 1, 5 do write(("a"):rep(i)) end end
+      local n, cut, seen = 0, 0, 0
+      for _, f in ipairs{ function() sink.write_file(path, text) end,
+          function() sink.discard(sink.temporary(path)) end,
+          function()
+            local kept = sink.temporary(path, true)
+            sink.write_file(kept .. "/part", "x")
+            sink.remove_folder(kept, { "part" })
+          end } do
+        n = 0
+        repeat
+          n = n + 1
+          local ok, why = pcall(function()
+            debug.sethook(function()
+              debug.sethook()
+              error("interrupted", 0)
+            end, "", n)
+            f()
+            debug.sethook()
+          end)
+          assert(ok or why == "interrupted", why)
+          if not ok then cut = cut + 1 end
+        until ok
+      end
+      print(cut > 200)
+    ]])
+    file:close()
+    local out, err = program.run{ script, folder }
+    assert.same({ "true\n", "" }, { out, err })
+    assert.same({ "script.lua", "x.txt" }, files.list(folder))
   end)
 
   it("makes folders, with or without LuaFileSystem", function()

@@ -214,17 +214,14 @@ function sink.write_file(path, content, options)
   local kind = core.kind(path)
   if kind and kind ~= "file" and kind ~= "folder" then return write_through(path, content) end
   local temporary = sink.temporary(path, false, options and options.swept)
+  local _ <close> = setmetatable({}, { __close = function() sink.discard(temporary) end }) -- also on Ctrl-C
   local file, why = io.open(temporary, "wb")
-  if not file then
-    sink.discard(temporary)
-    sink.fail("cannot write %s: %s", path, reason_of(why, temporary))
-  end
+  if not file then sink.fail("cannot write %s: %s", path, reason_of(why, temporary)) end
   local failure = fill_and_close(file, content)
   if not failure then
     sink.commit(temporary, path, options and options.safe)
     return path
   end
-  sink.discard(temporary)
   if type(failure) ~= "table" or not failure.sink_reason then error(failure, 0) end
   return sink.fail("cannot write %s: %s", path, reason_of(failure.sink_reason, temporary))
 end
