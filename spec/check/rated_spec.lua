@@ -105,6 +105,37 @@ describe("a gripper's rating", function()
     assert.is_false((select(2, lift(false))):get().rating)
   end)
 
+  it("may be replaced by gripper:set, for later checks; snapshots undo it", function()
+    local run, hand = lift()
+    local limits = { max_sidewall = false }
+    assert.equal("OPEN", run:check{ limits = limits }.verdict)
+    hand:set{ rating = { force = 20, moment = 1, source = "sheet 8" } }
+    local check = run:check{ limits = limits }
+    assert.equal("PASS", check.verdict, tostring(check))
+    local row = check:row "hand.peak_force"
+    assert.same({ 20, "rating", "sheet 8" }, { row.limit, row.from, row.source })
+    local before = run.scene:snapshot()
+    hand:set{ rating = { force = hand.peak_force / 2 } } -- the whole of it: the moment is open again
+    check = run:check{ limits = limits }
+    assert.equal("FAIL", check:row "hand.peak_force".verdict)
+    assert.equal("OPEN", check:row "hand.peak_moment".verdict)
+    hand:set{ slip_tolerance = 1e-3 } -- leaves it
+    assert.same({ force = hand.peak_force / 2 }, hand.rating)
+    local folder = program.folder()
+    run.scene:script(folder .. "/a.lua")
+    local text = program.read(folder .. "/a.lua")
+    assert.truthy(text:find(":set { rating = { force = 20", 1, true), text)
+    run.scene:restore(before)
+    assert.same({ force = 20, moment = 1, source = "sheet 8" }, hand.rating)
+    hand:set{ rating = false }
+    assert.is_false(hand:get().rating)
+    for _, wrong in ipairs{ { force = 0 }, { torque = 1 }, 20 } do
+      assert.error_matches(function() hand:set{ slip_tolerance = 2e-3, rating = wrong } end,
+        "gripper:set: rating")
+      assert.same({ false, 1e-3 }, { hand.rating, hand.slip_tolerance })
+    end
+  end)
+
   it("is refused if it is none", function()
     for _, case in ipairs{
       { { force = -1 }, "rating.force = -1 N is not allowed; it must be above 0 N" },

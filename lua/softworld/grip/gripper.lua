@@ -27,6 +27,7 @@ local measures = require "softworld.grip.measures"
 local pads = require "softworld.grip.pads"
 local press = require "softworld.grip.press"
 local process = require "softworld.run.process"
+local rating = require "softworld.grip.rating"
 local remarks = require "softworld.remarks"
 local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
@@ -49,16 +50,6 @@ local function has_pads(given)
   return false
 end
 
--- What the gripper can bear and do, by its data sheet; rows of checks are judged by it.
-local rating = rows.list{
-  { "force", "number", "N", "largest force on its wires, or false: no rating is needed", min = 0,
-    above = true, off = true },
-  { "moment", "number", "N m", "largest moment about its centre, or false", min = 0, above = true,
-    off = true },
-  { "stroke", "number", "m", "largest opening of its pads, or false", min = 0, above = true, off = true },
-  { "source", "text", "-", "where the rating is from" },
-}
-
 local new = rows.call("scene:gripper", "{...}", "a gripper that grasps wires, moves them and lets go", {
   gives = "a gripper", example = 'scene:gripper { name = "left", pads = { friction = 0.6 } }',
   { "name", "text", "-", "name in messages and series", usual = "gripper1, ..." },
@@ -72,8 +63,7 @@ local new = rows.call("scene:gripper", "{...}", "a gripper that grasps wires, mo
   { "on_crash", "reaction", "-",
     "reaction when pads or arm run into an obstacle: one of these, or a function(gripper, event)",
     choices = reactions.words, usual = "record" },
-  { "rating", "table", "-", "limits of its data sheet, by which run:check judges its rows; false: no "
-    .. "rating is needed", rows = rating, off = true },
+  rating.row,
 })
 
 -- Fields that a gripper keeps if a restored snapshot does not contain it.
@@ -324,7 +314,7 @@ rows.calls{
   { "gripper.events", nil, "what happened; may be set to {}",
     "{ kind = 'slip', 'lost', 'crash', ..., time [s] }, ..." },
   { "gripper.slip_tolerance", nil, "see scene:gripper; may be set", "m" },
-  { "gripper.rating", nil, "see scene:gripper", "a table, false or nil" },
+  { "gripper.rating", nil, "see scene:gripper; gripper:set replaces it", "a table, false or nil" },
   { "gripper.on_slip", nil, "see gripper:grasp; may be set" },
   { "gripper.on_crash", nil, "see scene:gripper; may be set" },
 }

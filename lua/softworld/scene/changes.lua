@@ -5,6 +5,7 @@
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
+local rating = require "softworld.grip.rating"
 local reactions = require "softworld.grip.reactions"
 local stand = require "softworld.grip.stand"
 local remarks = require "softworld.remarks"
@@ -83,6 +84,7 @@ local of_gripper = rows.call("gripper:set", "{...}", "changes the gripper from n
   { "on_crash", "reaction", "-", "reaction when pads or arm run into an obstacle: one of these, or a "
     .. "function",
     choices = reactions.words },
+  rating.row,
 })
 rows.calls{ { "gripper:get", "", "present values of its parameters",
   "name, pads, at [m], rotation, arm, slip_tolerance [m], rating, on_slip, on_crash, force [N]" } }
@@ -100,11 +102,11 @@ end
 
 function Gripper:get()
   stand.check_there(self, 3)
-  local rating = self.rating -- it may be false, and so may its parts
-  if rating then
-    rating = { force = rating.force, moment = rating.moment, stroke = rating.stroke, source = rating.source }
+  local rated = self.rating -- it may be false, and so may its parts
+  if rated then
+    rated = { force = rated.force, moment = rated.moment, stroke = rated.stroke, source = rated.source }
   end
-  return { name = self.name, pads = copied(self.pads), rating = rating, at = self:position(),
+  return { name = self.name, pads = copied(self.pads), rating = rated, at = self:position(),
     rotation = copied(self.rotation),
     arm = copied(self.arm), slip_tolerance = self.slip_tolerance, on_slip = self.on_slip,
     on_crash = self.on_crash, force = kept_force(self) }
@@ -120,6 +122,8 @@ function Gripper:set(args)
   self.slip_tolerance = given.slip_tolerance or self.slip_tolerance
   if given.on_crash ~= nil then self.on_crash = given.on_crash end
   if given.on_slip ~= nil then self.on_slip = given.on_slip end
+  if given.rating ~= nil then self.rating = given.rating end
+  remarks.on("rating", ("gripper '%s': rating"):format(self.name), given.rating)
   if given.slip_tolerance or given.on_slip ~= nil then reactions.watch(self) end
   if given.force then
     self.order = { mode = "force", speed = self.order.speed, force = given.force }
