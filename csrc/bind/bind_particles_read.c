@@ -91,8 +91,8 @@ static const double *read_masses(lua_State *L, int table, size_t count) {
   lua_getfield(L, table, "masses");
   const int list = lua_gettop(L), one = lua_type(L, list) == LUA_TNUMBER;
   if (!one && length_of(L, list, "masses") != count)
-    luaL_error(L, "particles: masses has %d items for %d particles", (int)lua_rawlen(L, list),
-               (int)count);
+    luaL_error(L, "particles: masses has %d item%s for %d particle%s", (int)lua_rawlen(L, list),
+               lua_rawlen(L, list) == 1 ? "" : "s", (int)count, count == 1 ? "" : "s");
   double *out = new_array(L, count, sizeof *out);
   for (size_t i = 0; i < count; i++)
     out[i] = one ? lua_tonumber(L, list) : number_at(L, list, i, "masses");

@@ -350,8 +350,8 @@ static int describe(lua_State *L) {
   if (sw_scene_wire_length(w.scene, w.id, &length, &err) != SW_OK ||
       sw_scene_wire_nodes(w.scene, w.id, &nodes, &err) != SW_OK)
     return lsw_say(L, "wire (gone)");
-  return lsw_say(L, "wire '%s': %.6g m, %zu segments, t = %.6g s", name, length, nodes - 1,
-                 sw_scene_time(w.scene));
+  return lsw_say(L, "wire '%s': %.6g m, %zu segment%s, t = %.6g s", name, length, nodes - 1,
+                 nodes == 2 ? "" : "s", sw_scene_time(w.scene));
 }
 
 #define READOUT(name) {#name, read_##name},

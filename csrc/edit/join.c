@@ -123,8 +123,8 @@ sw_status sw_scene_add_join(sw_scene *s, const sw_join_args *args, const sw_join
                             size_t count, sw_handle *out, sw_error *err) {
   SW_TRY(sw_scene_ready(s, err));
   if (count < 2 || count > SW_JOIN_ENDS)
-    return sw_fail(err, SW_EINVAL, "scene:join: ends lists %zu wires; it must be from 2 to %d",
-                   count, SW_JOIN_ENDS);
+    return sw_fail(err, SW_EINVAL, "scene:join: ends lists %zu wire%s; it must be from 2 to %d",
+                   count, count == 1 ? "" : "s", SW_JOIN_ENDS);
   for (size_t k = 0; k < count; k++) {
     SW_TRY(check_end(s, ends, k, err));
     SW_TRY(sw_scene_check_line(sw_scene_wire_in(s, ends[k].wire.slot), "scene:join", err));

@@ -27,9 +27,10 @@ typedef struct hull_args {
 static const char object[] = "obstacle hull";
 
 static sw_status check_points(const sw_shape_source *source, sw_error *err) {
-  if (!source->points || source->point_count < FEWEST_POINTS)
-    return sw_fail(err, SW_EINVAL, "%s: points has %zu points; a hull needs at least %d", object,
-                   source->points ? source->point_count : 0, FEWEST_POINTS);
+  const size_t count = source->points ? source->point_count : 0;
+  if (count < FEWEST_POINTS)
+    return sw_fail(err, SW_EINVAL, "%s: points has %zu point%s; a hull needs at least %d", object,
+                   count, count == 1 ? "" : "s", FEWEST_POINTS);
   if (source->point_count > MOST_POINTS)
     return sw_fail(err, SW_ELIMIT, "%s: points has %zu points; at most %d are allowed", object,
                    source->point_count, MOST_POINTS);

@@ -262,8 +262,8 @@ sw_status sw_ledger_pose(sw_scene *s, int jumped, sw_error *err) {
 
 static void tell_retries(sw_scene *s, const char *what, const sw_retries *r) {
   if (!r->count) return;
-  sw_scene_tell(s, "energy", r->object, r->s, r->largest,
-                "%zu steps were %s, the worst at t = %.6g s", r->count, what, r->time);
+  sw_scene_tell(s, "energy", r->object, r->s, r->largest, "%zu step%s %s, the worst at t = %.6g s",
+                r->count, r->count == 1 ? " was" : "s were", what, r->time);
 }
 
 /* Logs energy from nowhere that no step gained: work or losses that the steps do not know. */

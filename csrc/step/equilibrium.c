@@ -268,8 +268,8 @@ static sw_status transient(sw_statics *p, sw_error *err) {
   }
   return sw_fail(
       err, SW_ENOCONV,
-      "not at rest after %zu iterations: the last iteration still moved the wires by %.3g m",
-      p->report->iterations, p->report->residual);
+      "not at rest after %zu iteration%s: the last iteration still moved the wires by %.3g m",
+      p->report->iterations, p->report->iterations == 1 ? "" : "s", p->report->residual);
 }
 
 /* Steps of continuation of at most its first size bring stiff modes to rest, while slow swings

@@ -322,7 +322,8 @@ static sw_status iterate(sw_system *s, const sw_stage *stage, const sw_newton *n
     if (share < 1.0) continue;
     if (sw_stage_converged(s, stage, newton, report, mass_rate(stage))) return SW_OK;
   }
-  return sw_fail(err, SW_ENOCONV, "no convergence in %d iterations", report->iterations);
+  return sw_fail(err, SW_ENOCONV, "no convergence in %d iteration%s", report->iterations,
+                 report->iterations == 1 ? "" : "s");
 }
 
 /* Solves one part. The report shows the part that took most iterations. */

@@ -5,6 +5,7 @@
 -- A first row that is not numbers names the columns.
 -- @module softworld.csv
 local checks = require "softworld.checks"
+local counted = require "softworld.output.number".count
 local sink = require "softworld.output.sink"
 
 local csv = {}
@@ -83,7 +84,7 @@ end
 local function add_row(data, cells, columns, line, text)
   if #cells ~= #data.names then
     fail(data.name, line, columns[math.min(#cells, #data.names + 1)],
-      "%d cells in this row, but %d columns (%s)", #cells, #data.names,
+      "%s in this row, but %s (%s)", counted(#cells, "cell"), counted(#data.names, "column"),
       table.concat(data.names, ", "))
   end
   local row = data.count + 1

@@ -2,6 +2,8 @@
 --- Keeps track of failed runs that the script has not looked at, and of a script that runs nothing. The host
 -- program reports them when the script is over.
 -- @module softworld.unread
+local counted = require "softworld.output.number".count
+
 local unread = {}
 
 local MOST = 20 -- texts kept and reported at most
@@ -61,9 +63,10 @@ function unread.judged(verdict) verdicts[verdict] = verdicts[verdict] + 1 end
 --- Returns the exit code of `softworld --check` at the end of a script, and a line that explains it.
 function unread.exit()
   local made = verdicts.PASS + verdicts.FAIL + verdicts.OPEN
-  local text = ("softworld: %d checks: %d pass, %d fail, %d open"):format(made, verdicts.PASS, verdicts.FAIL,
-    verdicts.OPEN)
-  if bad > 0 then text = ("%s; %d runs failed or were cut short"):format(text, bad) end
+  local text = ("softworld: %s: %d pass, %d fail, %d open"):format(counted(made, "check"), verdicts.PASS,
+    verdicts.FAIL, verdicts.OPEN)
+  if bad > 0 then text = ("%s; %s failed or %s cut short"):format(text, counted(bad, "run"),
+    bad == 1 and "was" or "were") end
   if verdicts.FAIL > 0 or bad > 0 then return 3, text end
   if verdicts.OPEN > 0 then return 4, text end
   if made == 0 then return 2, "softworld: no check was made; run:check{} makes one" end
@@ -86,9 +89,9 @@ end
 -- means; checks within it do not count either.
 function unread.excused(f, ...)
   local before, more_before, bad_before = last, more, bad
-  local counted = { PASS = verdicts.PASS, FAIL = verdicts.FAIL, OPEN = verdicts.OPEN }
+  local verdicts_before = { PASS = verdicts.PASS, FAIL = verdicts.FAIL, OPEN = verdicts.OPEN }
   local function done(...)
-    bad, verdicts = bad_before, counted
+    bad, verdicts = bad_before, verdicts_before
     for number in pairs(texts) do
       if number > before then texts[number], kept = nil, kept - 1 end
     end

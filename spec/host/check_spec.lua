@@ -25,8 +25,8 @@ describe("softworld --check", function()
   after_each(program.clean)
 
   for _, case in ipairs{
-    { "all pass", 0, "run():check{ limits = none, checks = own(2) }", "1 checks: 1 pass, 0 fail, 0 open" },
-    { "a row fails", 3, "run():check{ limits = none, checks = own(0.5) }", "1 checks: 0 pass, 1 fail" },
+    { "all pass", 0, "run():check{ limits = none, checks = own(2) }", "1 check: 1 pass, 0 fail, 0 open" },
+    { "a row fails", 3, "run():check{ limits = none, checks = own(0.5) }", "1 check: 0 pass, 1 fail" },
     { "a row is open", 4, "run():check{ limits = none, checks = own() }", "0 fail, 1 open" },
     { "one fails, one is open", 3, "run():check{ limits = none, checks = own() }\n"
       .. "run():check{ limits = none, checks = own(0.5) }", "2 checks: 0 pass, 1 fail, 1 open" },
@@ -36,7 +36,7 @@ describe("softworld --check", function()
     { "wrong arguments of a check", 1, "run():check{ limit = 1 }", "did you mean 'limits'?" },
     { "a run cut short", 3, "run{ duration = 1, max_steps = 3 }:check{}", "1 fail" },
     { "a run cut short beside a check that passes", 3, "run{ duration = 1, max_steps = 3 }\n"
-      .. "run():check{ limits = none }", "1 runs failed or were cut short" },
+      .. "run():check{ limits = none }", "1 run failed or was cut short" },
     { "a row fails, and the script leaves early", 3, "run():check{ limits = none, checks = own(0.5) }\n"
       .. "os.exit(0)", "1 fail" },
     { "a row fails, and the script leaves as one that is well", 3,
@@ -44,7 +44,7 @@ describe("softworld --check", function()
     { "the script leaves with a code of its own", 7, "run():check{ limits = none }\nos.exit(7)", "1 pass" },
     { "a check that is a trial", 2, "run():check{ trial = true, checks = own(0.5) }", "no check was made" },
     { "a trial, then one that counts", 0, "run():check{ trial = true, checks = own(0.5) }\n"
-      .. "run():check{ limits = none, checks = own(2) }", "1 checks: 1 pass" },
+      .. "run():check{ limits = none, checks = own(2) }", "1 check: 1 pass" },
   } do
     it(("exits with %d: %s"):format(case[2], case[1]), function()
       local _, err, code = check(case[3])
@@ -78,7 +78,7 @@ local r = bad:run{ duration = 1, dt = 1.2 * bad:stable_dt(), integrator = "veloc
       end }
       run():check{ limits = none, checks = own(2) }]])
     assert.equal(0, code, err)
-    assert.truthy(err:find("1 checks: 1 pass", 1, true), err)
+    assert.truthy(err:find("1 check: 1 pass", 1, true), err)
   end)
 
   it("keeps the exit code unchanged without the option", function()

@@ -39,7 +39,7 @@ describe("csv.read", function()
     assert.matches("^text:2:3: '0,5' in column 'b' has a decimal comma.*: 0%.5$", message(csv.read,
       "a;b\n1;0,5\n"))
     assert.matches("^text:3:5: 3 cells in this row, but 2 columns", message(csv.read, "a,b\n1,2\n1,2,3\n"))
-    assert.matches("^text:3:1: 1 cells in this row, but 2 columns", message(csv.read, "a,b\n1,2\n7\n"))
+    assert.matches("^text:3:1: 1 cell in this row, but 2 columns", message(csv.read, "a,b\n1,2\n7\n"))
     assert.matches("^text:1:3: there are two columns named 'a'", message(csv.read, "a,a\n1,2\n"))
     assert.matches("^text:2:1: '1e999' in column 'a' is too large", message(csv.read, "a\n1e999\n"))
     assert.matches("^text:1:1: the first row must name the columns", message(csv.read, "1,2\n"))

@@ -180,7 +180,7 @@ describe("study:fit with evaluations that fail", function()
   it("is an error with the first reason when every evaluation fails", function()
     assert.error_matches(function()
       study({ x = { 0, 1 } }, function() error("no luck", 0) end):fit { data = { y = 1 } }
-    end, "none of 1 evaluations succeeded; the first: no luck")
+    end, "none of 1 evaluation succeeded; the first: no luck")
   end)
 
   it("uses another start when the first one fails", function()

@@ -5,6 +5,7 @@ local build = require "softworld.scene.build"
 local cells = require "softworld.check.cells"
 local json = require "softworld.output.json"
 local methods = require "softworld.methods"
+local counted = require "softworld.output.number".count
 local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
 
@@ -101,8 +102,6 @@ for _, name in ipairs{ "csv", "json" } do Comparison[name] = build.placed(Compar
 -- --- the object --------------------------------------------------------------------------------------
 
 methods.found("comparison", Comparison, { "same", "reason", "rows" })
-
-local function counted(count, what) return ("%d %s%s"):format(count, what, count == 1 and "" or "s") end
 
 local function reason_of(list)
   local count = { changed = 0, values = 0, verdicts = 0, limits = 0, ["only in a"] = 0, ["only in b"] = 0,

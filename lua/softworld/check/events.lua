@@ -2,6 +2,7 @@
 --- Counts events of some kinds in a run.
 -- @module softworld.check.events
 local checks = require "softworld.checks"
+local counted = require "softworld.output.number".count
 
 --- Returns a function that counts events of these kinds (a text of words), with place and time of the first.
 return function(kinds)
@@ -17,7 +18,8 @@ return function(kinds)
     local _, lost = context.scene:events()
     if lost > 0 then -- of any kind
       v.low, v.high = v.value, math.huge
-      v.note = ("%s%d events had no room in the record"):format(v.note and v.note .. "; " or "", lost)
+      v.note = ("%s%s had no room in the record"):format(v.note and v.note .. "; " or "",
+        counted(lost, "event"))
     end
     return v
   end

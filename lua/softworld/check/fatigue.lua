@@ -8,6 +8,7 @@
 -- only the tensions of the stored frames count, and no bending, because curvature is stored without its sign.
 -- @module softworld.check.fatigue
 local core = require "softworld.core"
+local counted = require "softworld.output.number".count
 local rainflow = require "softworld.check.rainflow"
 local stored = require "softworld.check.stored"
 local tension = require "softworld.check.tension"
@@ -115,7 +116,8 @@ local function of_frames(entry, context, strength, given)
     end
   end
   if not stored.whole(context, count) then
-    worn.at_least(best, ("of %d frames, the steps between are not known: %s"):format(count, worn.HOW))
+    worn.at_least(best, ("of %s, the steps between are not known: %s"):format(counted(count, "frame"),
+      worn.HOW))
   end
   return best
 end

@@ -7,6 +7,7 @@
 local bendrule = require "softworld.wire.bendrule"
 local build = require "softworld.scene.build"
 local core = require "softworld.core"
+local counted = require "softworld.output.number".count
 local stored = require "softworld.check.stored"
 local tension = require "softworld.check.tension"
 
@@ -42,7 +43,8 @@ local function value(entry, context)
   if best.value == 0 and #data.obstacles + #data.fixings == 0 then return nil end
   if not stored.whole(context, count) then
     best.low, best.high = best.value, math.max(best.value, bound(entry, context.run.start))
-    best.note = ("of %d frames; at every step at most %.4g N/m"):format(count or 0, best.high)
+    best.note = ("of %s; at every step at most %.4g N/m"):format(counted(count or 0, "frame"),
+      best.high)
   end
   return best
 end

@@ -8,6 +8,7 @@ local checks = require "softworld.checks"
 local grasped = require "softworld.grip.grasped"
 local jaws = require "softworld.grip.jaws"
 local mixed = require "softworld.grip.mixed"
+local counted = require "softworld.output.number".count
 local process = require "softworld.run.process"
 local reactions = require "softworld.grip.reactions"
 local remarks = require "softworld.remarks"
@@ -195,7 +196,8 @@ end
 -- Raises an error if the gripper cannot hold these wires in addition to those it holds.
 local function check_free(self, wires, approach, args)
   if type(args.s) == "table" and #args.s ~= #wires then
-    error(("gripper '%s': s has %d places for %d wires"):format(self.name, #args.s, #wires), 0)
+    error(("gripper '%s': s has %s for %s"):format(self.name, counted(#args.s, "place"),
+      counted(#wires, "wire")), 0)
   end
   if approach == "mixed" and #wires > 1 then
     error(("gripper '%s': a mixed grasp is of one wire; take several by 'plates' or 'imposed'")

@@ -5,6 +5,7 @@
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local meshfile = require "softworld.meshfile"
+local counted = require "softworld.output.number".count
 local rows = require "softworld.rows"
 local vec = require "softworld.vec"
 
@@ -89,8 +90,8 @@ function pads.check(args, what)
   local p = pads.rows:read(args, what, what .. ".")
   for _, key in ipairs{ "friction", "kinetic_friction" } do -- may be lists, one value per finger
     if type(p[key]) == "table" and #p[key] ~= p.fingers then
-      error(("%s.%s has %d values; it must have one, or one for each of %d fingers"):format(what, key,
-        #p[key], p.fingers), 0)
+      error(("%s.%s has %s; it must have one, or one for each of %s"):format(what, key,
+        counted(#p[key], "value"), counted(p.fingers, "finger")), 0)
     end
   end
   if (p.shape == "mesh") ~= (args.file ~= nil) then

@@ -259,7 +259,7 @@ end
 function motion.free(context, rung, f, share)
   if rung ~= 1 then return nil end
   if f.jumps > 0 then
-    return nil, ("poses jump from one equilibrium to another, %d times"):format(f.jumps)
+    return nil, ("poses jump from one equilibrium to another, %s"):format(number.count(f.jumps, "time"))
   end
   local against = reference(context, f.weight) -- now known even if f is of the first run
   if not f.acceleration or not f.period or not against then return nil end
@@ -312,8 +312,8 @@ end
 function motion.costly(rung, here, above, k, in_doubt)
   local least = (in_doubt and 1 or COSTLY) * 2 ^ math.max(0, ENDS - k)
   if rung == 1 and here.iterations >= least * above.iterations then
-    return ("poses cost more: %d iterations on a mesh on which dynamics take %d"):format(here.iterations,
-      above.iterations)
+    return ("poses cost more: %s on a mesh on which dynamics take %d"):format(
+      number.count(here.iterations, "iteration"), above.iterations)
   end
 end
 

@@ -4,6 +4,12 @@
 
 local number = {}
 
+--- Returns a count with its word: "1 step", "2 steps"; "1 more event".
+-- @tparam integer n
+-- @tparam string word in the singular
+-- @treturn string
+function number.count(n, word) return ("%d %s%s"):format(n, word, n == 1 and "" or "s") end
+
 local prefixes = {
   [-12] = "p", [-9] = "n", [-6] = "u", [-3] = "m", [0] = "", [3] = "k", [6] = "M", [9] = "G",
 }

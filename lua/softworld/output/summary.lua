@@ -16,7 +16,7 @@ local function status(run)
   if run.ok then
     local line = string.format("%s: ok, %s after %s",
       plain(run.name or "run"), plain(run.reason or "ended"), time)
-    if run.steps then line = line .. string.format(", %d steps", run.steps) end
+    if run.steps then line = line .. ", " .. number.count(run.steps, "step") end
     if run.wall then line = line .. ", took " .. number.duration(run.wall) end
     if run.model then line = line .. "\n  " .. plain(run.model:match "^[^\n]*")
       .. "; run:why() tells more" end

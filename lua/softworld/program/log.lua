@@ -2,6 +2,8 @@
 --- Writes the file of `softworld --log FILE`: what was run, when, and how it ended, with remarks and errors.
 -- Lines are appended, each with the time of day, and reach the file at once.
 -- @module softworld.program.log
+local counted = require "softworld.output.number".count
+
 local log = {}
 
 local file, path
@@ -31,8 +33,8 @@ local function ended(run)
   local sealed = require "softworld.sealed"
   local own = sealed.fields(run)
   local reason = own.failure and own.failure.reason or own.reason
-  log.line(("run of '%s': %s (%s), t = %.6g s, %d steps, %.3g s of computing"):format(own.name,
-    own.failure and "FAILED" or "ok", reason, own.time, own.steps, own.cpu))
+  log.line(("run of '%s': %s (%s), t = %.6g s, %s, %.3g s of computing"):format(own.name,
+    own.failure and "FAILED" or "ok", reason, own.time, counted(own.steps, "step"), own.cpu))
 end
 
 local function follow(class, name, finish)

@@ -34,8 +34,9 @@ function Ledger:__tostring()
   for _, name in ipairs(retries) do
     local r = self[name]
     if r.count > 0 then
-      lines[#lines + 1] = ("  %d of %d steps %s, the worst made %s at t = %s in %s near s = %.4g m"):format(
-        r.count, self.steps, name, text(r.largest), number.text(r.time, "s"), r.object, r.s)
+      lines[#lines + 1] = ("  %d of %s %s, the worst made %s at t = %s in %s near s = %.4g m"):format(
+        r.count, number.count(self.steps, "step"), name, text(r.largest), number.text(r.time, "s"), r.object,
+        r.s)
     end
   end
   return table.concat(lines, "\n")

@@ -11,6 +11,7 @@ local go = require "softworld.run.go"
 local kept = require "softworld.run.kept"
 local ledger = require "softworld.run.ledger"
 local methods = require "softworld.methods"
+local counted = require "softworld.output.number".count
 local place = require "softworld.place"
 local refine = require "softworld.run.refine"
 local remarks = require "softworld.remarks"
@@ -187,12 +188,12 @@ end
 function Run:__tostring()
   if self.ok and self.quantities then
     local unmet = trust.unmet(self)
-    return ("run of '%s': ok (%s)%s, t = %.6g s, %d levels, %.3g s of computing\n%s"):format(self.name,
-      self.reason, unmet and ", " .. unmet or "", self.time, #self.levels, self.cpu,
+    return ("run of '%s': ok (%s)%s, t = %.6g s, %s, %.3g s of computing\n%s"):format(self.name,
+      self.reason, unmet and ", " .. unmet or "", self.time, counted(#self.levels, "level"), self.cpu,
       tostring(self:error_bars()))
   end
-  return ("run of '%s': %s (%s), t = %.6g s, %d steps, %.3g s of computing"):format(
-    self.name, self.ok and "ok" or "FAILED", self.reason, self.time, self.steps, self.cpu)
+  return ("run of '%s': %s (%s), t = %.6g s, %s, %.3g s of computing"):format(
+    self.name, self.ok and "ok" or "FAILED", self.reason, self.time, counted(self.steps, "step"), self.cpu)
 end
 
 return Run

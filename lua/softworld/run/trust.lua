@@ -38,7 +38,7 @@ function trust.wanted(args) return type(checks.field(args, "tolerance")) == "tab
 
 local function text_of(value, unit)
   if type(value) == "number" then return number.text(value, unit) end
-  if type(value[1]) ~= "number" then return ("%d points"):format(#value) end
+  if type(value[1]) ~= "number" then return number.count(#value, "point") end
   local list, most = {}, 0
   for _, x in ipairs(value) do most = math.max(most, math.abs(x)) end
   for i, x in ipairs(value) do list[i] = number.digits(math.abs(x) < 1e-12 * most and 0 or x) end -- rounding
@@ -247,7 +247,7 @@ end
 local function describe(job, k)
   local most = 0
   for _, n in ipairs(trust.counts(job, k)) do most = math.max(most, n) end
-  return ("level %d, %d segments"):format(k, most)
+  return ("level %d, %s"):format(k, number.count(most, "segment"))
 end
 
 -- Raises an error if wires came or went: levels have segments for the wires that exist at their start.

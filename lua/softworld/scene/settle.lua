@@ -5,6 +5,7 @@ local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local kept = require "softworld.run.kept"
+local counted = require "softworld.output.number".count
 local process = require "softworld.run.process"
 local trust = require "softworld.run.trust"
 local unread = require "softworld.unread"
@@ -19,7 +20,7 @@ end
 function Settled:__tostring()
   if not self.ok then return ("not settled: %s"):format(self.reason) end
   local unmet = trust.unmet(self)
-  return ("settled on %d levels%s\n%s"):format(#self.levels, unmet and ", " .. unmet or "",
+  return ("settled on %s%s\n%s"):format(counted(#self.levels, "level"), unmet and ", " .. unmet or "",
     tostring(self:error_bars()))
 end
 
@@ -30,9 +31,9 @@ Rest.__index = checks.fields("the result of scene:settle",
 
 function Rest:__tostring()
   if not self.ok then return self.reason end
-  local unstable = self.unstable > 0 and (", unstable in %d directions"):format(self.unstable) or ""
+  local unstable = self.unstable > 0 and ", unstable in " .. counted(self.unstable, "direction") or ""
   local kinked, held = self.kinked and "; " .. self.kinked or "", self.held and "; " .. self.held or ""
-  return ("at rest after %d iterations%s%s%s"):format(self.iterations, unstable, kinked, held)
+  return ("at rest after %s%s%s%s"):format(counted(self.iterations, "iteration"), unstable, kinked, held)
 end
 
 local core_settle = core.class.scene.settle
@@ -78,7 +79,8 @@ local function with_bars(scene, given)
   local result = trust.once(job, function(_, level)
     local r = settle(scene, args)
     if shown then
-      io.stderr:write(("%s, %s: %s, %d iterations\n"):format(scene.name, level, r.reason, r.iterations))
+      io.stderr:write(("%s, %s: %s, %s\n"):format(scene.name, level, r.reason,
+        counted(r.iterations, "iteration")))
     end
     iterations = iterations + r.iterations
     r.start = scene.time

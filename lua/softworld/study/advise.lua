@@ -10,6 +10,7 @@
 local checks = require "softworld.checks"
 local judge = require "softworld.study.judge"
 local minimum = require "softworld.study.minimum"
+local counted = require "softworld.output.number".count
 local output = require "softworld.study.output"
 local parameters = require "softworld.study.parameters"
 local quadratic = require "softworld.study.quadratic"
@@ -125,7 +126,9 @@ Advice.__index = checks.fields("advice", "method evaluations why lines")
 function Advice.__tostring(a) return table.concat(a.lines, "\n") end
 
 local function remarks(own, result, seen, lines)
-  if seen.failed > 0 then say(lines, "  %d of %d evaluations failed so far", seen.failed, seen.count) end
+  if seen.failed > 0 then
+    say(lines, "  %d of %s failed so far", seen.failed, counted(seen.count, "evaluation"))
+  end
   if seen.noise then
     say(lines, "  the same place gave different values: give noise = true, and use the mean")
   end

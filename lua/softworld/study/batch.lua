@@ -7,6 +7,7 @@
 -- tries (how often it was sent), send and k (where it is), per (for sending it again).
 -- @module softworld.study.batch
 local core = require "softworld.core"
+local counted = require "softworld.output.number".count
 local sends = require "softworld.study.sends"
 local sink = require "softworld.output.sink"
 local slurm = require "softworld.study.slurm"
@@ -23,8 +24,7 @@ function batch.say(own, text, ...)
   io.stderr:write(("study '%s': %s\n"):format(own.name, text:format(...)))
 end
 
---- "1 task", "2 tasks".
-function batch.plural(count, word) return ("%d %s%s"):format(count, word, count == 1 and "" or "s") end
+batch.plural = counted
 
 local say, plural = batch.say, batch.plural
 

@@ -3,6 +3,7 @@
 -- @module softworld.study.changed
 local cells = require "softworld.check.cells"
 local checks = require "softworld.checks"
+local counted = require "softworld.output.number".count
 local parameters = require "softworld.study.parameters"
 local sealed = require "softworld.sealed"
 
@@ -86,8 +87,8 @@ local function head_of(one)
 end
 
 local function text_of(c, list, together)
-  local lines = { ("what to change in '%s': %s (%d evaluations, %d failed)"):format(cells.plain(c.name),
-    c.reason, c.evaluations, c.failed) }
+  local lines = { ("what to change in '%s': %s (%s, %d failed)"):format(cells.plain(c.name),
+    c.reason, counted(c.evaluations, "evaluation"), c.failed) }
   if c.noisy then lines[#lines + 1] = "  values are noisy: each result below was run three times" end
   for _, one in ipairs(list) do
     lines[#lines + 1] = head_of(one)

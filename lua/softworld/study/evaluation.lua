@@ -6,6 +6,7 @@ local check_results = require "softworld.check.results"
 local checks = require "softworld.checks"
 local core = require "softworld.core"
 local judge_results = require "softworld.study.judge"
+local counted = require "softworld.output.number".count
 local parameters = require "softworld.study.parameters"
 local rows = require "softworld.rows"
 
@@ -151,7 +152,7 @@ local function judge(own, message)
 end
 
 --- Returns the reason of an evaluation that took too many steps.
-function evaluation.steps_reason(steps) return ("took more than %d steps"):format(steps) end
+function evaluation.steps_reason(steps) return "took more than " .. counted(steps, "step") end
 
 local function finish(own, fine, ...)
   local limited = core.limit_steps(0)

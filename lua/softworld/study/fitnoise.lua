@@ -2,6 +2,7 @@
 --- Tests whether residuals are noise: their sum of squares over sigma, and how often they change sign.
 -- @module softworld.study.fitnoise
 local core = require "softworld.core"
+local counted = require "softworld.output.number".count
 
 local fitnoise = {}
 
@@ -49,8 +50,9 @@ function fitnoise.signs(name, residuals)
   local a, b, runs = runs_of(residuals)
   local chance = fitnoise.runs_chance(a, b, runs)
   if chance >= RARE then return nil end
-  return ("the residuals of %s are not random: they change sign %d times in %d (chance %.1g); the model "
-    .. "lacks an effect, and intervals are too narrow"):format(name, runs - 1, #residuals, chance)
+  return ("the residuals of %s are not random: they change sign %s in %d (chance %.1g); the model "
+    .. "lacks an effect, and intervals are too narrow"):format(name, counted(runs - 1, "time"),
+    #residuals, chance)
 end
 
 --- Returns the chance of a sum of squares as large, and a remark or nil.

@@ -9,6 +9,7 @@ local fitlinear = require "softworld.study.fitlinear"
 local fitnoise = require "softworld.study.fitnoise"
 local fitwords = require "softworld.study.fitwords"
 local methods = require "softworld.methods"
+local counted = require "softworld.output.number".count
 local output = require "softworld.study.output"
 local parameters = require "softworld.study.parameters"
 local rows = require "softworld.rows"
@@ -289,8 +290,8 @@ function Fit.__tostring(fit)
   for name in pairs(fit.parameters) do names[#names + 1] = name end
   for _, list in pairs(fit.data) do count = count + #list end
   table.sort(names)
-  local lines = { ("fit of %d data by %d parameter%s (%s, %d evaluations, %d failed)"):format(count, #names,
-    #names == 1 and "" or "s", fit.reason, fit.evaluations, fit.failed) }
+  local lines = { ("fit of %d data by %s (%s, %s, %d failed)"):format(count,
+    counted(#names, "parameter"), fit.reason, counted(fit.evaluations, "evaluation"), fit.failed) }
   if not fit.ok then lines[#lines + 1] = "  the search did not converge: these are the best values so far" end
   for _, name in ipairs(names) do lines[#lines + 1] = line_of(name, fit.parameters[name]) end
   for _, found in ipairs(fit.unresolved) do

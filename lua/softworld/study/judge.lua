@@ -3,6 +3,7 @@
 -- @module softworld.study.judge
 local checks = require "softworld.checks"
 local core = require "softworld.core"
+local counted = require "softworld.output.number".count
 local parameters = require "softworld.study.parameters"
 
 local judge = {}
@@ -156,7 +157,8 @@ function judge.some(own, records)
     if record.results then return end
   end
   if #list == 0 then return end
-  fail("study '%s': none of %d evaluations succeeded; the first: %s", own.name, #list, list[1].failed)
+  fail("study '%s': none of %s succeeded; the first: %s", own.name, counted(#list, "evaluation"),
+    list[1].failed)
 end
 
 return judge

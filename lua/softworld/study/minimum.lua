@@ -3,6 +3,7 @@
 -- @module softworld.study.minimum
 local checks = require "softworld.checks"
 local judge = require "softworld.study.judge"
+local counted = require "softworld.output.number".count
 local output = require "softworld.study.output"
 local parameters = require "softworld.study.parameters"
 
@@ -111,12 +112,13 @@ local function add_noise(lines, f)
   local n = f.noise
   if not n then return end
   if n.mean and n.deviation ~= 0 then
-    lines[#lines + 1] = ("  noisy: the mean of %d more evaluations there is %.6g%s"):format(
-      n.repeats - n.failed, n.mean, n.error and (" +- %.2g"):format(n.error) or "")
+    lines[#lines + 1] = ("  noisy: the mean of %s there is %.6g%s"):format(
+      counted(n.repeats - n.failed, "more evaluation"), n.mean,
+      n.error and (" +- %.2g"):format(n.error) or "")
   end
   if n.failed + n.broken > 0 then
-    lines[#lines + 1] = ("  of %d more evaluations there %d failed and %d break constraints"):format(
-      n.repeats, n.failed, n.broken)
+    lines[#lines + 1] = ("  of %s there %d failed and %d break constraints"):format(
+      counted(n.repeats, "more evaluation"), n.failed, n.broken)
   end
 end
 
@@ -150,9 +152,9 @@ local function place_text(f)
 end
 
 function Found.__tostring(f)
-  local lines = { ("%s = %.6g%s at %s (%s: %s, %d evaluations, %d failed)"):format(f.name, f.value,
-    f.error and (" +- %.2g"):format(f.error) or "", place_text(f), f.method, f.reason, f.evaluations,
-    f.failed) }
+  local lines = { ("%s = %.6g%s at %s (%s: %s, %s, %d failed)"):format(f.name, f.value,
+    f.error and (" +- %.2g"):format(f.error) or "", place_text(f), f.method, f.reason,
+    counted(f.evaluations, "evaluation"), f.failed) }
   add_noise(lines, f)
   if #f.at_bound > 0 then
     lines[#lines + 1] = ("  at the end of the range: %s"):format(table.concat(f.at_bound, ", "))

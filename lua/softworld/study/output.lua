@@ -7,6 +7,7 @@ local core = require "softworld.core"
 local csv = require "softworld.csv"
 local json = require "softworld.output.json"
 local judge = require "softworld.study.judge"
+local counted = require "softworld.output.number".count
 local parameters = require "softworld.study.parameters"
 local sink = require "softworld.output.sink"
 
@@ -201,7 +202,7 @@ local function add_reasons(lines, list)
     local c = count[reasons[i]]
     lines[#lines + 1] = ("  %d failed (first %d.%d): %s"):format(c[1], c[2], c[3], reasons[i])
   end
-  if #reasons > REASONS then lines[#lines + 1] = ("  and %d more reasons"):format(#reasons - REASONS) end
+  if #reasons > REASONS then lines[#lines + 1] = "  and " .. counted(#reasons - REASONS, "more reason") end
 end
 
 --- Returns the text for print.

@@ -8,6 +8,7 @@ local design = require "softworld.study.design"
 local judge = require "softworld.study.judge"
 local minimum = require "softworld.study.minimum"
 local nsga2 = require "softworld.study.search.nsga2"
+local counted = require "softworld.output.number".count
 local output = require "softworld.study.output"
 local parameters = require "softworld.study.parameters"
 local turns = require "softworld.study.turns"
@@ -120,8 +121,8 @@ local function line_of(f, row)
 end
 
 function Front.__tostring(f)
-  local lines = { ("front of %s: %d of %d evaluations, %d failed"):format(table.concat(f.names, ", "),
-    #f.rows, f.evaluations, f.failed) }
+  local lines = { ("front of %s: %d of %s, %d failed"):format(table.concat(f.names, ", "),
+    #f.rows, counted(f.evaluations, "evaluation"), f.failed) }
   local every = math.max(1, math.ceil(#f.rows / SHOWN))
   for i = 1, #f.rows do
     if i == #f.rows or (i - 1) % every == 0 then lines[#lines + 1] = "  " .. line_of(f, f.rows[i]) end
