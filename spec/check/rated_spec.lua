@@ -136,6 +136,19 @@ describe("a gripper's rating", function()
     end
   end)
 
+  it("is checked again where a script has written into it", function()
+    local run, hand = lift{ force = 20 }
+    for value, text in pairs{ ["20"] = "= '20' is not allowed; it must be a number above 0 N",
+      [-1] = "= -1 N is not allowed; it must be above 0 N" } do
+      hand.rating.force = value
+      local fine, why = pcall(run.check, run, {})
+      assert.is_false(fine)
+      assert.truthy(why:find("gripper 'hand': rating.force " .. text, 1, true), why)
+    end
+    hand.rating.force = 30
+    assert.equal(30, run:check{}:row "hand.peak_force".limit)
+  end)
+
   it("is refused if it is none", function()
     for _, case in ipairs{
       { { force = -1 }, "rating.force = -1 N is not allowed; it must be above 0 N" },

@@ -49,7 +49,7 @@ local function fall(r, a, segments, dt)
   local run = scene:run { duration = 0.5, dt = dt }
   assert.is_true(run.ok, run.reason)
   local ledger, redone = run:ledger(), 0
-  for _, e in ipairs(run.events) do redone = tonumber(e.text:match "^(%d+) steps were redone") or redone end
+  for _, e in ipairs(run.events) do redone = tonumber(e.text:match "^(%d+) steps? %a+ redone") or redone end
   return ledger.gap / ledger.play, redone / run.steps
 end
 

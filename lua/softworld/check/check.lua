@@ -178,7 +178,7 @@ local function known_limit(member, entry, context)
   if not member.limit then return nil end
   local fine, known = pcall(member.limit, entry, context)
   if fine then return known end
-  if checks.is_interrupt(known) then error(known, 0) end
+  if checks.is_interrupt(known) or member.rated then error(known, 0) end -- a rating that the script spoilt
   return nil, checks.shown(known)
 end
 

@@ -18,4 +18,10 @@ local parts = rows.list{
 rating.row = { "rating", "table", "-", "limits of its data sheet, by which run:check judges its rows; false: "
   .. "no rating is needed", rows = parts, off = true }
 
+--- Returns the rating of a gripper. A script may have written into the table: then it is checked again here.
+function rating.of(gripper)
+  local value, what = gripper.rating, ("gripper '%s': rating"):format(gripper.name)
+  return value and parts:read(value, what, what .. ".")
+end
+
 return rating
