@@ -76,6 +76,7 @@ sw_status sw_param_check(const char *object, const sw_param *row, double value, 
     return sw_fail(err, SW_EINVAL, "%s: %s = %.6g must be a whole number", object, row->name,
                    value);
   if (fine) return SW_OK;
+  if (isnan(value)) value = fabs(value); /* 0/0 is -nan on some processors */
   range_text(row, range, sizeof range);
   return sw_fail(err, SW_EINVAL, "%s: %s = %.6g%s%s is not allowed; it must be %s", object,
                  row->name, value, *unit ? " " : "", unit, range);

@@ -100,7 +100,7 @@ function checks.got(value, unit)
   if kind == "string" then
     return #value <= LONGEST and not value:find "%c" and ("'%s'"):format(value) or "a string"
   end
-  return "a " .. kind
+  return (kind:find "^[aeiou]" and "an " or "a ") .. kind
 end
 
 --- Raises an error unless value is a number from low to high (default: any); above: low itself is not

@@ -156,7 +156,7 @@ describe("friction of pads", function()
     t.share(gone, g:state().slip, 0.3, "slip") -- it slides on for a fifth of the time
     local ok, message = pcall(g.scene.gripper, g.scene, { pads = { friction = { 0.1 } } })
     assert.is_false(ok)
-    assert.is_truthy(message:find("friction has 1 values; it must have one, or one for each of 2", 1, true))
+    assert.is_truthy(message:find("friction has 1 value; it must have one, or one for each of 2", 1, true))
   end)
 
   it("is less while the wire slides, if kinetic_friction is given", function()

@@ -171,7 +171,7 @@ local take = rows.call("gripper:grasp", "wire, {...}", "takes hold of a wire, or
 })
 -- Returns the wire or list of wires as a list.
 local function wires_of(self, given)
-  local list = type(given) == "table" and given or { given }
+  local list = checks.kind(given) == "table" and given or { given }
   if #list == 0 then
     error("gripper:grasp: the first argument must be a wire (from scene:wire) or a list of wires, got "
       .. (given == nil and "nil" or "an empty table"), 0)
