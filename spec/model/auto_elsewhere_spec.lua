@@ -61,7 +61,7 @@ describe("model = 'auto' where coarse edges buckle to the other side", function(
         end
         local told
         for _, e in ipairs(run.events) do told = told or e.kind == "model" and e.text end
-        assert.truthy(told and told:find("finer edges show something else than", 1, true), told)
+        assert.truthy(told and told:find("finer edges show another state than", 1, true), told)
       end)
   end
 end)
