@@ -9,7 +9,6 @@
 #include "base/each.h"
 #include "base/halving.h"
 #include "contact/curve.h"
-#include "contact/halt.h"
 #include "touch/tally.h"
 
 sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_contact_place place,
@@ -196,22 +195,6 @@ void sw_contact_touches_of(const sw_contact *c, size_t node, size_t end_node, si
 int sw_contact_pusher(const sw_contact *c, size_t k) {
   const sw_touch *t = touch_at(c, k);
   return t->press.normal_force > 0 ? c->obstacles[t->obstacle].id : -1;
-}
-
-static void add_friction(const sw_touch *list, size_t count, size_t first, size_t end,
-                         sw_lying *sum) {
-  for (size_t i = first_touch(list, count, first); i < count && list[i].node < end; i++) {
-    if (!(list[i].press.normal_force > 0)) continue;
-    sum->most += list[i].friction * list[i].press.normal_force;
-    sum->touches++;
-  }
-}
-
-sw_lying sw_contact_lying(const sw_contact *c, size_t first, size_t end) {
-  sw_lying sum = {0, 0};
-  add_friction(c->touches, c->touch_count, first, end, &sum);
-  add_friction(c->still.list, c->still.count, first, end, &sum);
-  return sum;
 }
 
 int sw_contact_push_at(const sw_contact *c, const sw_system *s, size_t k, sw_contact_push *out) {

@@ -28,12 +28,6 @@ double sw_contact_halt(sw_contact *contact, sw_system *system, double still);
 double sw_contact_landed(const sw_contact *contact, const sw_system *system);
 /* Most friction of all touches together [N]. */
 double sw_contact_friction(const sw_contact *contact);
-/* The touches with a force at nodes from first to end (exclusive). */
-typedef struct sw_lying {
-  double most; /* their friction together is at most this [N] */
-  size_t touches;
-} sw_lying;
-sw_lying sw_contact_lying(const sw_contact *contact, size_t first, size_t end);
 
 /* Friction of a wire's touches along it, in the direction from its start, and the most that it can
  * be. Touches whose friction is mostly across are left out [N]. */

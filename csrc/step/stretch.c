@@ -7,7 +7,6 @@
 
 #include "body/touching.h"
 #include "contact/contact.h"
-#include "contact/halt.h"
 #include "scene/course.h"
 #include "scene/parts.h"
 
@@ -40,22 +39,34 @@ static double largest_tension(const sw_system *s, const sw_body *b) {
 static const double LIES = 0.25;
 
 static double friction_of(const sw_scene *s, const sw_body *b) {
-  const size_t nodes = b->plan->nodes;
-  const sw_lying on = sw_contact_lying(sw_scene_contact(s), b->first_node, b->first_node + nodes);
-  return (double)on.touches > LIES * (double)nodes ? on.most : 0.0;
+  const sw_contact *contact = sw_scene_contact(s);
+  const size_t count = contact ? sw_contact_touches(contact) : 0, nodes = b->plan->nodes;
+  sw_contact_push p;
+  double most = 0, lie = 0;
+  for (size_t k = 0; k < count; k++) {
+    if (!sw_contact_push_at(contact, sw_scene_system(s), k, &p)) continue;
+    if (p.node < b->first_node || p.node >= b->first_node + nodes) continue;
+    most += p.friction * p.normal_force, lie++;
+  }
+  return lie > LIES * (double)nodes ? most : 0.0;
 }
+
+/* Smaller errors than the allowed one over this do not count: touches of many wires at rest need
+ * not be looked through. Parts grow below 1/8 [-]. */
+static const double COUNTS = 16;
 
 /* Returns the error of a line's stretch over the allowed one [-]. */
 static double over_of(const sw_scene *s, const sw_body *b) {
   const sw_system *system = sw_scene_system(s);
-  const double friction = friction_of(s, b);
-  if (!(friction > 0)) return 0;
+  const sw_stepper *stepper = &sw_scene_course(s)->stepper;
   const size_t first = b->first_node;
-  const double off =
-      sw_stepper_error_along(&sw_scene_course(s)->stepper, system, first, first + b->plan->nodes);
+  const double off = sw_stepper_error_along(stepper, system, first, first + b->plan->nodes);
+  const double wrong = off * b->EA / (OF_STRETCH * b->plan->length); /* force [N] */
+  const double tension = largest_tension(system, b);
+  if (!(COUNTS * wrong > tension)) return 0;
+  const double friction = friction_of(s, b);
   /* where a wire mostly hangs, its weight stretches it */
-  const double force = fmax(friction, largest_tension(system, b));
-  return off * b->EA / (OF_STRETCH * force * b->plan->length);
+  return friction > 0 ? wrong / fmax(friction, tension) : 0.0;
 }
 
 double sw_stretch_over(const sw_scene *s) {
