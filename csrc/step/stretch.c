@@ -51,30 +51,20 @@ static double friction_of(const sw_scene *s, const sw_body *b) {
   return lie > LIES * (double)nodes ? most : 0.0;
 }
 
-/* Smaller errors than the allowed one over this do not count: touches of many wires at rest need
- * not be looked through. Parts grow below 1/8 [-]. */
-static const double COUNTS = 16;
-
-/* Returns the error of a line's stretch over the allowed one [-]. */
-static double over_of(const sw_scene *s, const sw_body *b) {
-  const sw_system *system = sw_scene_system(s);
-  const sw_stepper *stepper = &sw_scene_course(s)->stepper;
-  const size_t first = b->first_node;
-  const double off = sw_stepper_error_along(stepper, system, first, first + b->plan->nodes);
-  const double wrong = off * b->EA / (OF_STRETCH * b->plan->length); /* force [N] */
-  const double tension = largest_tension(system, b);
-  if (!(COUNTS * wrong > tension)) return 0;
-  const double friction = friction_of(s, b);
-  /* where a wire mostly hangs, its weight stretches it */
-  return friction > 0 ? wrong / fmax(friction, tension) : 0.0;
-}
-
 double sw_stretch_over(const sw_scene *s) {
   const sw_system *system = sw_scene_system(s);
+  const sw_stepper *stepper = &sw_scene_course(s)->stepper;
   double over = 0;
   for (size_t k = 0; sw_scene_contact(s) && k < system->body_count; k++) {
     const sw_body *b = &system->bodies[k];
-    if (!b->plan->web && !sw_stretch_is_stiff(b)) over = fmax(over, over_of(s, b));
+    if (b->plan->web || sw_stretch_is_stiff(b)) continue;
+    const double friction = friction_of(s, b);
+    if (!(friction > 0)) continue;
+    const size_t first = b->first_node;
+    const double off = sw_stepper_error_along(stepper, system, first, first + b->plan->nodes);
+    /* where a wire mostly hangs, its weight stretches it */
+    const double force = fmax(friction, largest_tension(system, b));
+    over = fmax(over, off * b->EA / (OF_STRETCH * force * b->plan->length));
   }
   return over;
 }
