@@ -6,7 +6,7 @@
 #include <math.h>
 
 #include "body/touching.h"
-#include "contact/contact.h"
+#include "contact/halt.h"
 #include "scene/course.h"
 #include "scene/parts.h"
 
@@ -33,32 +33,21 @@ static double largest_tension(const sw_system *s, const sw_body *b) {
   return most;
 }
 
-/* Only wires that lie on something with this share of their nodes are judged. One that slides over
- * a peg is braked in a few places, which change: it would take five times the iterations
- * (spec/contact/smooth_spec) [-]. */
-static const double LIES = 0.25;
-
-static double friction_of(const sw_scene *s, const sw_body *b) {
-  const sw_contact *contact = sw_scene_contact(s);
-  const size_t count = contact ? sw_contact_touches(contact) : 0, nodes = b->plan->nodes;
-  sw_contact_push p;
-  double most = 0, lie = 0;
-  for (size_t k = 0; k < count; k++) {
-    if (!sw_contact_push_at(contact, sw_scene_system(s), k, &p)) continue;
-    if (p.node < b->first_node || p.node >= b->first_node + nodes) continue;
-    most += p.friction * p.normal_force, lie++;
-  }
-  return lie > LIES * (double)nodes ? most : 0.0;
+static double friction_of(const sw_scene *s, size_t body) {
+  sw_along sum = {0, 0};
+  if (sw_scene_contact(s)) sw_contact_along(sw_scene_contact(s), sw_scene_system(s), body, &sum);
+  if (sw_scene_pairs(s)) sw_mutual_along(sw_scene_pairs(s), sw_scene_system(s), body, &sum);
+  return sum.most;
 }
 
 double sw_stretch_over(const sw_scene *s) {
   const sw_system *system = sw_scene_system(s);
   const sw_stepper *stepper = &sw_scene_course(s)->stepper;
   double over = 0;
-  for (size_t k = 0; sw_scene_contact(s) && k < system->body_count; k++) {
+  for (size_t k = 0; sw_scene_has_contact(s) && k < system->body_count; k++) {
     const sw_body *b = &system->bodies[k];
     if (b->plan->web || sw_stretch_is_stiff(b)) continue;
-    const double friction = friction_of(s, b);
+    const double friction = friction_of(s, k);
     if (!(friction > 0)) continue;
     const size_t first = b->first_node;
     const double off = sw_stepper_error_along(stepper, system, first, first + b->plan->nodes);

@@ -8,8 +8,8 @@
 struct sw_body;
 /* 1 if it is a line along which waves travel in less than 1 ms. */
 int sw_stretch_is_stiff(const struct sw_body *body);
-/* Returns the error of the stretch of soft lines that lie on obstacles with friction in the last
- * trial over the allowed one; 0: there are none, or the method has no estimate [-]. */
+/* Returns the error of the stretch of soft lines with friction in the last trial over the allowed
+ * one; 0: there are none, or the method has no estimate [-]. */
 double sw_stretch_over(const sw_scene *scene);
 
 #endif
