@@ -7,7 +7,6 @@ local core = require "softworld.core"
 local G, MASS, MU = 9.81, 0.03, 0.3
 local WEIGHT = MASS * G -- of the 1 m wire [N]
 local CREEP = 10e-6     -- largest drift of a held wire in 100 s [m]
-local PARTS = 20        -- of a pull that grows slowly: one that comes at once throws the wire on
 local SLIDE = 0.01      -- relative error of a sliding acceleration [-]
 
 local function pulled(share, options)
@@ -20,11 +19,7 @@ end
 describe("a wire on a table", function()
   for _, share in ipairs{ 0.5, 0.9, 0.98 } do
     it(("holds %g mu N for 100 s"):format(share), function()
-      local s, w, L = pulled(0)
-      for k = 1, PARTS do
-        s:force{ kind = "point", on = w, s = L, force = { share / PARTS * MU * WEIGHT, 0, 0 } }
-        s:advance({ dt = 0.01 }, 0.5 + 0.05 * k)
-      end
+      local s, w, L = pulled(share)
       s:advance({ dt = 0.01 }, 10)
       local at10 = w:position(L)[1]
       s:advance({ dt = 0.01 }, 110)
@@ -33,17 +28,6 @@ describe("a wire on a table", function()
       assert.is_true(at10 - L < 2e-4, "gave way " .. at10 - L)
     end)
   end
-
-  -- A force that comes at once throws the wire on: by 0.334 +- 0.01 mm in steps of 0.2 and 0.1 ms. Steps of
-  -- 10 ms that did not follow its stretch had 0.15 mm.
-  it("is thrown as far by a sudden pull in long steps as in short ones", function()
-    for _, dt in ipairs{ 0.01, 0.002, 2e-4 } do
-      local s, w, L = pulled(0.98)
-      s:advance({ dt = dt }, 1)
-      local gone = w:position(L)[1] - L
-      assert.is_true(math.abs(gone - 0.334e-3) < 0.03e-3, ("%g mm at %g s"):format(1e3 * gone, dt))
-    end
-  end)
 
   for _, share in ipairs{ 1.02, 1.2, 2 } do
     it(("slides at %g mu N"):format(share), function()
