@@ -280,23 +280,6 @@ double sw_stepper_error(const sw_stepper *p, const sw_system *s, size_t first, s
   return p->trial_h * sqrt(largest);
 }
 
-static sw_vec off_of(const sw_stepper *p, const double *shares, const sw_system *s, size_t node) {
-  return sw_v(off_by(p, shares, s, 3 * node), off_by(p, shares, s, 3 * node + 1),
-              off_by(p, shares, s, 3 * node + 2));
-}
-
-double sw_stepper_error_along(const sw_stepper *p, const sw_system *s, size_t first, size_t end) {
-  const double *shares = shares_of_error(p);
-  double sum = 0, least = 0, most = 0;
-  for (size_t i = first; shares && i + 1 < end; i++) {
-    const sw_vec edge = sw_sub(sw_vec_at(p->trial_x, i + 1), sw_vec_at(p->trial_x, i));
-    const sw_vec apart = sw_sub(off_of(p, shares, s, i + 1), off_of(p, shares, s, i));
-    sum += sw_dot(apart, sw_unit_or(edge, sw_v(0, 0, 0)));
-    least = fmin(least, sum), most = fmax(most, sum);
-  }
-  return p->trial_h * (most - least);
-}
-
 double sw_stepper_defect(const sw_stepper *p, const sw_system *s, size_t first, size_t end) {
   const unsigned flags = p->method->flags;
   double largest = 0;

@@ -30,10 +30,10 @@ static int is_followed(const sw_ladder *p) { return sw_blow_part(p->s, p->args->
 
 /* A drive comes to rest while wires slide. If they only slide, friction at rest is known. Wires
  * that have just landed or swing still have a speed of their own, which decides in the last
- * milliseconds what is left. Speeds above TREMBLE are told in longer parts than FINE: at rest wires
- * of 3 MPa pulled with -0.33 to 0.95 of their friction for 0.36 to 0.57. In finer parts they are
- * right, but for one in twenty in steps longer than LONG: those are told too
- * (spec/contact/trembling_stop_spec, spec/contact/soft_landing_spec)
+ * milliseconds what is left. Speeds above TREMBLE are told in longer parts than FINE, such as those
+ * of soft wires: at rest such wires pulled with -0.33 to 0.95 of their friction for
+ * 0.36 to 0.57 (spec/contact/trembling_stop_spec). In finer parts they are right, but for one in
+ * twenty in steps longer than LONG: those are told too (spec/contact/soft_landing_spec)
  * [m/s], [s]. */
 static const double TREMBLE = 1e-6, FINE = 5.5e-4, LONG = 0.0105;
 /* Most friction of all touches with obstacles and between lines [N]. */

@@ -10,7 +10,6 @@
 #include "scene/events.h"
 #include "scene/gripper.h"
 #include "scene/parts.h"
-#include "step/stretch.h"
 #include "system/system.h"
 
 /* Allowed error in a step: this share of a wire's length or of its radius, whichever is less [-]. A
@@ -137,7 +136,7 @@ static double over_of(const sw_scene *s, double tolerance) {
     const double allowed = fmin(tolerance, allowed_of(b, stepper->trial_x));
     over = fmax(over, error_of(stepper, system, b) / allowed);
   }
-  return fmax(over, sw_stretch_over(s));
+  return over;
 }
 
 double sw_coarse_of(const sw_scene *s, double tolerance) {

@@ -23,9 +23,8 @@ int sw_coarse_is_bundle(const sw_scene *scene);
 /* 1 if a mesh may be between jaws that close, hold or open: its steps are taken whole. */
 int sw_coarse_has_mesh_in_jaws(const sw_scene *scene);
 /* Returns the error of the last trial over the allowed error [-]. The error is the method's
- * estimate; the allowed error is that of a wire, at most the tolerance [m]. Soft lines that slide
- * are judged by their stretch too. Up to 1 is fine; 0: the method has no estimate, or the wires are
- * a bundle, which is not judged. */
+ * estimate; the allowed error is that of a wire, at most the tolerance [m]. Up to 1 is fine; 0: the
+ * method has no estimate, or the wires are a bundle, which is not judged. */
 double sw_coarse_of(const sw_scene *scene, double tolerance);
 /* Call when a trial of size h is taken. Logs the event "coarse" if the trial is too coarse and
  * belongs to a case whose steps are not divided: a bundle, many wires, a mesh between jaws, or a

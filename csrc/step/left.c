@@ -9,7 +9,6 @@
 #include "scene/parts.h"
 #include "scene/wire.h"
 #include "step/stop.h"
-#include "step/stretch.h"
 
 /* Waves run through a stiff cable in less than a part. On a table they turn the friction of all its
  * touches round: it keeps all of it, right within 0.03. Cables that lie on a few posts or wires
@@ -33,7 +32,7 @@ void sw_stop_note(sw_scene *s) {
   sw_system *system = sw_scene_system(s);
   for (size_t b = 0; b < system->body_count; b++) {
     sw_body *body = &system->bodies[b];
-    const sw_along sum = sw_stretch_is_stiff(body) ? along_of(s, b) : (sw_along){0, 0};
+    const sw_along sum = sw_stop_is_stiff(body, SW_STOP_TRAVEL) ? along_of(s, b) : (sw_along){0, 0};
     const int slides = sum.most > 0 && fabs(sum.along) > ALL * sum.most;
     body->watched = slides ? sw_scene_time(s) + TO : 0.0;
   }

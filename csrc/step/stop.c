@@ -229,20 +229,27 @@ sw_status sw_drives_first(const sw_scene *s, double h, sw_asked which, sw_when o
   return SW_OK;
 }
 
-int sw_drives_slide(const sw_scene *s, int lines, double way) {
+int sw_stop_is_stiff(const sw_body *b, double most) {
+  const sw_plan *p = b->plan;
+  return !p->web && p->length * p->length * p->beam.mass < most * most * b->EA;
+}
+
+int sw_drives_slide(const sw_scene *s, double travel, double way) {
   const sw_contact *contact = sw_scene_contact(s);
   const sw_system *system = sw_scene_system(s);
   const size_t count = contact ? sw_contact_touches(contact) : 0;
   sw_contact_push p;
   for (size_t k = 0; k < count; k++)
     if (sw_contact_push_at(contact, system, k, &p) && p.friction > 0 && sw_norm(p.slip) > SLID &&
-        p.slid < way && !(lines && system->bodies[sw_system_body_of(system, p.node)].plan->web))
+        p.slid < way &&
+        (!(travel < HUGE_VAL) ||
+         sw_stop_is_stiff(&system->bodies[sw_system_body_of(system, p.node)], travel)))
       return 1;
   const sw_mutual *pairs = sw_scene_pairs(s);
   return pairs && !(way < HUGE_VAL) && sw_presses_slide(sw_mutual_presses(pairs), SLID);
 }
 
-static int any_slides(const sw_scene *s) { return sw_drives_slide(s, 0, HUGE_VAL); }
+static int any_slides(const sw_scene *s) { return sw_drives_slide(s, HUGE_VAL, HUGE_VAL); }
 
 /* *at: 0 if the velocity of a function may jump. */
 static sw_status rough_of(const sw_motion *m, double t, double h, double *at, sw_error *err) {

@@ -37,8 +37,14 @@ typedef enum sw_asked { SW_LAWS, SW_FUNCTIONS, SW_ALL_DRIVES } sw_asked;
 sw_status sw_drives_first(const sw_scene *scene, double h, sw_asked which, sw_when of, double *at,
                           sw_error *err);
 /* 1 if a touch slides that has slid less than `way` on an obstacle since it began to press;
- * HUGE_VAL: also wires on wires [m]. lines: 1: only touches of lines. */
-int sw_drives_slide(const sw_scene *scene, int lines, double way);
+ * HUGE_VAL: also wires on wires [m]. travel: only those of lines along which waves travel in less;
+ * HUGE_VAL: of all wires [s]. */
+int sw_drives_slide(const sw_scene *scene, double travel, double way);
+/* 1 if it is a line along which waves travel in less than `most` [s]. Lines with less than
+ * SW_STOP_TRAVEL are stiff [s]. */
+#define SW_STOP_TRAVEL 1e-3
+struct sw_body;
+int sw_stop_is_stiff(const struct sw_body *body, double most);
 
 /* A drive stops at once: notes the stiff lines that slide along themselves. sw_stop_tell, before
  * each part: tells those that do not keep their friction (step/left.c). */

@@ -4,18 +4,17 @@
 local sw = require "softworld"
 local t = require "physics.tools"
 
--- case: cable, or E [Pa] and radius [m]; friction mu, length [m], segments, height [m], duration [s], way
--- [m], damping [s], direction turn [rad], law of the drive or the share of its way as a function of the share
--- of the duration, rest [s] after it (0.5), tolerance of the run; swap: the clamp is at the wire's other end.
--- Returns the pull on the clamp at the end over mu m g, and whether an event said that forces at rest may be
--- off.
+-- case: cable, friction mu, length [m], segments, height [m], duration [s], way [m], damping [s], direction
+-- turn [rad], law of the drive or the share of its way as a function of the share of the duration, rest [s]
+-- after it (0.5), tolerance of the run; swap: the clamp is at the wire's other end. Returns the pull on the
+-- clamp at the end over mu m g, and whether an event said that forces at rest may be off.
 return function(case, dt, swap)
-  local scene, r = sw.scene{}, case.radius or sw.cable(case.cable).outer_diameter.value / 2
+  local scene, r = sw.scene{}, sw.cable(case.cable).outer_diameter.value / 2
   local c, s, way = math.cos(case.turn), math.sin(case.turn), case.way
   local near, far = { 0, 0, r }, { -case.length * c, -case.length * s, r }
   scene:obstacle{ shape = "plane", friction = case.mu }
-  local wire = scene:wire{ cable = case.cable, E = case.E, density = case.E and 1500, radius = case.radius,
-    segments = case.segments, from = swap and far or near, to = swap and near or far }
+  local wire = scene:wire{ cable = case.cable, segments = case.segments, from = swap and far or near,
+    to = swap and near or far }
   scene:force{ kind = "damping", mass = 0, stiffness = case.damping }
   local hold = scene:clamp(wire, { s = swap and wire.length or 0 })
   if type(case.law) == "function" then
