@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Makes an accepted trial the state of the scene: commits, observes and books it. */
+/* Makes an accepted trial the state of the scene: commits it, records it and books its energy. */
 #include <math.h>
 
 #include "body/hold.h"
@@ -19,30 +19,31 @@
 #include "system/system.h"
 #include "watch/observe.h"
 
-/* When this many parts (substeps) cover less than this share of their steps on average, the run
- * stops and says what holds it back [-]. Adaptive steps may be much smaller. */
+/* The run stops and says why if this many successive parts (substeps) together cover less than this
+ * share of the steps that they belong to [-]. With a tolerance, parts may be much smaller. */
 enum { MOST_SMALL = 20000, MOST_SMALL_ADAPTIVE = 20000 };
 static const double SMALL = 1.0 / 512, SMALL_ADAPTIVE = 2e-5;
 
-/* 1 if the parts of a blow are short: touches are as hard as these need, and wires that stopped now
- * would lie higher than after whole steps. */
+/* 1 while the parts of a blow are short. Friction is then stiff enough for such parts, and wires
+ * that stopped now would lie higher than after whole steps. */
 static int is_followed(const sw_ladder *p) { return sw_blow_part(p->s, p->args->dt) < p->args->dt; }
 
-/* A drive comes to rest while wires slide. If they only slide, friction at rest is known. Wires
- * that have just landed or swing still have a speed of their own, which decides in the last
- * milliseconds what is left. Speeds above TREMBLE are told in longer parts than FINE, such as those
- * of soft wires: at rest such wires pulled with -0.33 to 0.95 of their friction for
- * 0.36 to 0.57 (spec/contact/trembling_stop_spec). In finer parts they are right, but for one in
- * twenty in steps longer than LONG: those are told too (spec/contact/soft_landing_spec)
- * [m/s], [s]. */
+/* A drive comes to rest while wires slide. Friction at rest is known if the wires only slide. Wires
+ * that have just landed, or that swing, still tremble; this motion decides in the last milliseconds
+ * how much friction remains. Parts longer than FINE with speeds above TREMBLE are reported: soft
+ * wires kept -0.33 to 0.95 of their friction instead of 0.36 to 0.57
+ * (spec/contact/trembling_stop_spec). In shorter parts the friction is right, except in one of
+ * twenty runs with steps longer than LONG. Such steps are reported too
+ * (spec/contact/soft_landing_spec) [m/s], [s]. */
 static const double TREMBLE = 1e-6, FINE = 5.5e-4, LONG = 0.0105;
-/* Most friction of all touches with obstacles and between lines [N]. */
+/* Largest possible friction of all touches with obstacles and between lines [N]. */
 static double friction_of(const sw_scene *s) {
   return (sw_scene_contact(s) ? sw_contact_friction(sw_scene_contact(s)) : 0.0) +
          (sw_scene_pairs(s) ? sw_mutual_friction(sw_scene_pairs(s)) : 0.0);
 }
 
-/* Friction at rest. Returns the most friction of those wires that still tremble [N]. */
+/* Sets friction at rest. Returns the largest possible friction of the wires that still tremble
+ * [N]. */
 static double halt(sw_scene *s) {
   sw_contact *contact = sw_scene_contact(s);
   sw_system *system = sw_scene_system(s);
@@ -52,10 +53,11 @@ static double halt(sw_scene *s) {
   return moving;
 }
 
-/* The part of the friction that is told [-]. */
+/* Friction of trembling wires is reported above this share of all friction [-]. */
 static const double TOLD = 0.1;
 
-/* what: wires that may be left with other forces, up to `friction` [N]; h: step or part [s]. */
+/* Reports that forces at rest may be off by `friction` [N]. what: the reason; h: step or part
+ * [s]. */
 static void tell_rest(sw_scene *s, const char *what, double h, double friction) {
   sw_scene_tell(
       s, "coarse", "", NAN, friction,
@@ -64,18 +66,19 @@ static void tell_rest(sw_scene *s, const char *what, double h, double friction) 
       what, 1e3 * h, friction);
 }
 
-/* moving: most friction of the wires that tremble [N]. */
+/* moving: largest possible friction of the wires that tremble [N]. */
 static void tell_trembling(sw_scene *s, double h, double dt, double moving) {
   if ((h > FINE || dt > LONG) && moving > TOLD * friction_of(s))
     tell_rest(s, "while wires that slide still tremble, in steps of", dt > LONG ? dt : h, moving);
 }
 
-/* A drive has stopped at once, and wires that slid with it land: blows, friction that turns round
- * and waves decide what is left. In steps up to AT_ONCE_FINE, which are divided there too, it was
- * right within 0.1 of mu N; after longer ones 0.21 to -0.88 for -0.95 to -0.99
- * (spec/contact/landing_stop_spec) [s]. */
+/* A drive has stopped at once, and wires that slid with it land. Blows, waves and friction that
+ * changes direction decide how much friction remains. Steps up to AT_ONCE_FINE gave it within 0.1
+ * of mu N, because they are divided in this case. Longer steps gave 0.21 to -0.88 instead of -0.95
+ * to -0.99 (spec/contact/landing_stop_spec) [s]. */
 static const double AT_ONCE_FINE = 1.05e-3;
-/* The part of the friction that lands in one part of a step [-]. */
+/* A landing is reported if touches with more than this share of all friction land in one part
+ * [-]. */
 static const double LANDED = 0.03;
 
 static void tell_landing(sw_scene *s, double dt, double landed) {

@@ -9,17 +9,16 @@
 #include "step/restart.h"
 #include "system/system.h"
 
-/* 1 if a step is accepted whatever its error: it starts anew and is this short. A strike is a jump,
- * and no step is short enough to resolve it. */
+/* 1 if a step this short is accepted with any error because the method starts anew. A strike is a
+ * jump, which no step is short enough to resolve. */
 static int is_short_enough(const sw_ladder *p, double h) {
   return sw_scene_course(p->s)->stepper.restart && h <= SW_SMALLEST_SHARE * p->args->dt;
 }
 
 /* Returns the error of the last trial over the allowed error [-]. The method's own estimate is
- * compared with the tolerance. Implicit Euler, which takes strikes, has no estimate: a strike
- * leaves a jump. Steps long enough to be divided are also judged like steps of fixed size. This
- * judges implicit Euler too, and applies the error allowed for wires where the tolerance is
- * larger. */
+ * compared with the tolerance. Implicit Euler, which computes strikes, has no estimate. Steps long
+ * enough to be divided are also judged like steps of fixed size. This covers implicit Euler, and it
+ * applies the allowed error of wires where this is below the tolerance. */
 static double over_of(const sw_ladder *p, double h) {
   const sw_scene *s = p->s;
   const sw_system *system = sw_scene_system(s);
@@ -31,8 +30,8 @@ static double over_of(const sw_ladder *p, double h) {
   return judged && sw_coarse_applies(s) ? fmax(over, sw_coarse_of(s, p->args->tolerance)) : over;
 }
 
-/* Returns the next step after one of h. After a fine step by implicit Euler it is not shorter, and
- * it is longer if velocities changed little. */
+/* Returns the size of the step after one of h [s]. After an accurate step by implicit Euler the
+ * next one is not shorter; it is longer if velocities changed little. */
 static double next_of(const sw_ladder *p, double h, double over) {
   const sw_scene *s = p->s;
   const sw_stepper *stepper = &sw_scene_course(s)->stepper;
@@ -41,11 +40,11 @@ static double next_of(const sw_ladder *p, double h, double over) {
   return fmax(h, sw_stepper_next_h(stepper, h, drift, p->args->tolerance));
 }
 
-/* Lower bound of the step size that contact compares a step with (`asked`) [s]. In a step that is
- * short beside it contact leaves the depth of a strike in place and lets it out slowly. `asked`
- * follows the steps taken, or pressed wires would sink in all the time (spec/physics/struck_spec).
- * Below this bound striking wires would be thrown back: of four cables drawn taut over a peg two
- * fail at half of it, two at twice, one at this value. */
+/* Lower bound of the step size with which contact compares a step (`asked`) [s]. In a step much
+ * shorter than `asked`, contact leaves the depth of a strike and reduces it slowly. `asked` follows
+ * the steps taken; otherwise pressed wires would sink in steadily (spec/physics/struck_spec). Below
+ * this bound striking wires would be thrown back. Of four cables drawn taut over a peg, one fails
+ * with this bound, two with half of it and two with twice of it. */
 static const double SHORTEST_ASKED = 1e-4;
 
 /* Takes an adaptive step of at most `left`; refuses steps whose error is too large. */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Brings wires to rest before obstacles move on. Wires may begin far from equilibrium (drawn
- * straight or let go). They do not come to rest while obstacles drag them: continuation then takes
- * steps so long that inertia gives no direction, and Newton's iteration may end anywhere. With
- * obstacles at rest both find the equilibrium. */
+/* Brings wires to rest before obstacles move. Wires may start far from equilibrium (drawn straight,
+ * or released). The search cannot bring them to rest while obstacles drag them: continuation then
+ * takes steps so long that inertia gives no direction, and Newton's iteration may end anywhere.
+ * With obstacles at rest both find the equilibrium. */
 #include <math.h>
 
 #include "body/live.h"
@@ -10,11 +10,11 @@
 #include "step/statics.h"
 #include "system/system.h"
 
-/* Wires that the search shifts by less than this share of the longest wire are at rest already
+/* Wires are already at rest if the search shifts them by less than this share of the longest wire
  * [-]. */
 static const double AT_REST = 1e-4;
 
-/* Finds the equilibrium while nothing moves. *far: 1 if it is elsewhere. */
+/* Finds the equilibrium with holds and obstacles at rest. *far: 1 if it is far from the start. */
 static sw_status find(sw_statics *p, int *far, sw_error *err) {
   sw_status status = sw_rest_newton(p, SW_REST_ITERATIONS, err);
   if (sw_rest_stops(status)) return status;

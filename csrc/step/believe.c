@@ -45,7 +45,7 @@ static sw_status fail_at(const sw_scene *s, size_t b, size_t node, const char *w
                  name, body->plan->s[node] - body->plan->s[0]);
 }
 
-/* Reports the node whose place or velocity is not finite. */
+/* Reports the first node whose place or velocity is not finite. */
 static sw_status find_infinite(const sw_scene *s, const double *x, const char *what,
                                sw_error *err) {
   sw_system *system = sw_scene_system(s);
@@ -64,8 +64,8 @@ static sw_status check_finite(const sw_scene *s, const double *values, const cha
   return find_infinite(s, values, what, err);
 }
 
-/* 1 if all bodies have edges only. Edges between places that are not finite have no finite length,
- * so that the check of edges finds these. */
+/* 1 if all bodies consist of edges only. Then the check of edges also finds places that are not
+ * finite, because such edges have no finite length. */
 static int has_edges_alone(const sw_scene *s) {
   sw_system *system = sw_scene_system(s);
   for (size_t b = 0; b < system->body_count; b++)
@@ -82,11 +82,12 @@ static sw_status torn(const sw_scene *s, size_t wire, uint32_t a, uint32_t b, sw
                  sw_scene_wire_in(s, wire)->name, web->s[a]);
 }
 
-/* Corners may be this many times the largest side apart, times the largest stretch [-]. */
+/* Largest allowed distance of two corners of an element, over its largest side times the largest
+ * stretch [-]. */
 static const double LARGEST_DIAGONAL = 3.0;
 
-/* 1 if the element's mean strain, or the distance of its corners, which the mean does not show, is
- * beyond belief. */
+/* 1 if the element's mean strain is beyond belief, or the distance of two corners, which the mean
+ * does not show. */
 static int is_torn(const sw_solid *shape, const sw_web_solid *e, const double *x) {
   const double most = 1.0 + LARGEST_STRAIN, count = (double)e->count;
   const sw_vec origin = sw_vec_at(x, e->node[0]);
@@ -125,7 +126,7 @@ static sw_status check_web(const sw_scene *s, size_t wire, const double *x, sw_e
   return SW_OK;
 }
 
-/* Returns the number of edges beyond either limit, or without a finite length. */
+/* Returns the number of edges that exceed a limit or have no finite length. */
 SW_HOT
 static long bad_edges(size_t m, const double *restrict rest, const double *restrict x) {
   const double most = (1.0 + LARGEST_STRAIN) * (1.0 + LARGEST_STRAIN);

@@ -15,13 +15,13 @@
 #include "step/coarse.h"
 #include "watch/observe.h"
 
-/* A step as long as a blow smears it: the force then follows from the step, not from the stiffness,
- * and a wire that is pushed buckles at once instead of bearing the push for a while. A blow harder
- * than all before is followed in parts for BLOW [s], in at most MOST_PARTS of them a step (rounded
- * up to a power of two) [-], none shorter than SW_SHORTEST_PART. A wire that is pushed by its end
- * has parts of its own, none shorter than SHORTEST_PUSH [s]. */
+/* A step as long as a blow smears the blow: the force then depends on the step, not on the
+ * stiffness, and a pushed wire buckles at once instead of carrying the push for a while. So steps
+ * are divided for BLOW [s] after a blow that is harder than all before it. A step gets at most
+ * MOST_PARTS parts (rounded up to a power of two) [-], none shorter than SW_SHORTEST_PART. The
+ * limit for a wire that is pushed by its end is SHORTEST_PUSH [s]. */
 static const double BLOW = 0.01, MOST_PARTS = 100, SHORTEST_PUSH = 1e-5;
-/* A blow that lasts longer is a rattle, which costs too much to follow [s]. */
+/* A blow that lasts longer is a rattle, whose parts cost too much [s]. */
 static const double LONGEST_BLOW = 0.03;
 
 double sw_blow_part(const sw_scene *s, double h) {
@@ -30,15 +30,15 @@ double sw_blow_part(const sw_scene *s, double h) {
              : h;
 }
 
-/* A part that is refused, or makes energy, shortens the time for which a blow is followed by this
- * share of LONGEST_BLOW: a wire driven into something makes energy in parts of any size. RATTLES:
- * factor on the share where wires touch each other, which rattle [-]. */
+/* Each part that is refused or makes energy shortens the time of short parts by this share of
+ * LONGEST_BLOW. A wire driven into something makes energy in parts of any size. RATTLES: factor on
+ * this share where wires touch each other, because these rattle [-]. */
 static const double REFUSED = 1.0 / 16, RATTLES = 2.0;
 
-/* When a part below this share of the blow's part is refused, the blow is followed no further:
- * contact would accept the depth only in far smaller parts [-]. */
+/* Short parts end when a part below this share of the blow's part is refused: contact would accept
+ * the depth only in far smaller parts [-]. */
 static const double SMALLEST_FOLLOWED = 1.0 / 16;
-/* Smallest part that is tried while a blow is followed; share of the blow's part [-]. */
+/* Smallest part that is tried during a blow, over the blow's part [-]. */
 static const double SMALLEST_TRIED = 1.0 / 32;
 
 double sw_blow_smallest(const sw_scene *s) {
@@ -54,22 +54,22 @@ void sw_blow_refused(sw_scene *s, double part) {
   course->blow_until = fmin(course->blow_until, course->blow_since + LONGEST_BLOW);
 }
 
-/* 1 if a drive obeys a force. Such a drive gives way to a blow; its speed is found only for steps
- * in which it hardly changes, and not in shorter parts. */
+/* 1 if a drive obeys a force. Such a drive gives way to a blow. Its speed can be found only for
+ * steps in which it hardly changes, not for shorter parts. */
 static int any_gives_way(const sw_scene *s) {
   SW_EACH(hold, h, s)
     if (h->alive && h->cls->hold->slips && h->cls->hold->slips(h)) return 1;
   return 0;
 }
 
-/* Returns the number of parts of a step with this jolt: a power of two, so that scenes that differ
- * by little take the same steps [-]. */
+/* Returns the number of parts of a step with this jolt [-]. It is a power of two, so that nearly
+ * equal scenes take the same steps. */
 static double parts_for(double jolt) {
   return exp2(ceil(log2(fmin(jolt * fmax(2.0, jolt), MOST_PARTS))));
 }
 
-/* A tie that snaps taut counts as at least this many times the usual force, which gives 64 parts: a
- * stiff tie throws the wire back within a tenth of a millisecond [-]. */
+/* A tie that snaps taut counts as at least this many times the usual force, which gives 64 parts. A
+ * stiff tie throws the wire back within 0.1 ms [-]. */
 static const double SNAP = 6.0;
 
 /* The hardest blow of a wire in this run [N]. */
@@ -111,7 +111,7 @@ static double part_for(const sw_scene *s, double jolt, double h) {
 #define TEXT_OF(x) #x
 #define TEXT(x) TEXT_OF(x)
 
-/* Returns why blows are not followed in the scene's present state, or NULL: they are. */
+/* Returns why blows do not divide steps in the scene's present state; NULL: they do. */
 static const char *why_whole(const sw_scene *s) {
   if (sw_coarse_is_crowd(s)) return "more than " TEXT(SW_MOST_MOVING) " wires move";
   if (sw_coarse_is_bundle(s)) return "more than " TEXT(SW_MOST_NEAR) " wires touch each other";
@@ -120,7 +120,7 @@ static const char *why_whole(const sw_scene *s) {
   return any_gives_way(s) ? "a feed obeys a force" : NULL;
 }
 
-/* Shorter steps are like the parts of most blows: nothing is told [s]. */
+/* Shorter steps resolve most blows as well as parts do: no event [s]. */
 static const double LIKE_PARTS = 3e-4;
 
 static void tell(sw_scene *s, double h, const char *why) {

@@ -9,14 +9,13 @@
 /* Shortest part of a blow, unless a wire is pushed by its end [s]. */
 #define SW_SHORTEST_PART 1e-4
 
-/* Returns the step to take instead of h: shorter while a blow is followed [s]. */
+/* Returns the step to take instead of h: shorter during a blow [s]. */
 double sw_blow_part(const sw_scene *scene, double h);
-/* Smallest part that is tried while a blow is followed; HUGE_VAL if none is [s]. */
+/* Smallest part that is tried during a blow; HUGE_VAL: there is no blow [s]. */
 double sw_blow_smallest(const sw_scene *scene);
 /* 1 if a converged trial of size h contains a new blow and must be redone in shorter parts. */
 int sw_blow_begins(sw_scene *scene, double h);
-/* Call when a part was refused or made energy; shortens the time for which the blow is followed.
- * part [s]. */
+/* Call when a part was refused or made energy: shortens the time of short parts. part [s]. */
 void sw_blow_refused(sw_scene *scene, double part);
 
 #endif

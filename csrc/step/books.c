@@ -19,13 +19,13 @@
 /* Energy gained by steps over the energy in play: above REMARK an event, above FAILURE the run
  * fails [-]. */
 static const double REMARK = 0.02, FAILURE = 0.05;
-/* Energy from nowhere that no step gained, over the energy in play: above this an event [-]. */
+/* Energy that appeared outside steps, over the energy in play: above this an event [-]. */
 static const double UNKNOWN = 0.05;
 
 /* Work below this share of an excess of losses cannot explain it [-]. */
 static const double LITTLE_WORK = 0.01;
 
-/* A held point further from its hold than this was put elsewhere; below, it is rounding [m]. */
+/* A held point further than this from its hold was moved by the script; less is rounding [m]. */
 static const double JUMP = 1e-9;
 /* Least energy in play: the weight times the radius, or this share of EI / L [-], plus LEAST. */
 static const double LEAST_BENDING = 1e-6;
@@ -71,7 +71,7 @@ static void take_as_now(sw_books *b, const sw_energies *e, double contact) {
   b->sums.play = fmax(least, b->most_kinetic + b->work + b->released);
 }
 
-/* 1 if a hold was put elsewhere between two steps, away from the wire's held point. */
+/* 1 if a script moved a hold between two steps, away from the wire's held point. */
 static int was_put(sw_scene *s, sw_error *err) {
   sw_system *y = sw_scene_system(s);
   for (size_t i = 3 * y->nodes; i < y->freedoms; i++) y->delta[i] = y->x[i];
@@ -121,9 +121,9 @@ static sw_status log_row(sw_scene *s) {
   return sw_log_add(&books->log, row, SW_LOG_ENERGY_SIZE);
 }
 
-/* Books the gain of a step; returns what it adds to the sum of gains [J]. Energy that a method
- * makes by itself oscillates, also where energy oscillates between kinds. It counts by its rise
- * above its least value. Energy made by touches stays. */
+/* Books the gain of a step; returns the increase of the sum of gains [J]. Energy that a method
+ * makes by itself oscillates, also between kinds of energy: it counts by its rise above its
+ * smallest value so far. Energy made by touches is never subtracted. */
 static double book_gain(sw_scene *s, double gain) {
   sw_books *b = sw_scene_books(s);
   const double before = b->sums.gained;
@@ -140,13 +140,13 @@ static double book_gain(sw_scene *s, double gain) {
   return b->sums.gained - before;
 }
 
-/* Lowers losses that were booked too high; returns by how much [J]. A step's losses are computed
- * from its ends. They may be too high: damping, where its power changed within the step; friction,
- * where its force began in the step; impact, where the step gave some of it back. The last two
- * only where something touches. A blow changes the damping's power too, a taut wire damps faster
- * than steps follow, and the normal force of a wire that strikes fast along a surface changes
- * between a step's stages: where hardly any work is done, the rest of the excess can only be these.
- * excess: the booked losses minus the step's loss [J]. */
+/* Lowers losses that were booked too high; returns by how much [J]. The losses of a step are
+ * computed from its ends. They may be too high: damping, if its power changed within the step;
+ * friction, if its force began in the step; impact, if the step gave part of it back. Friction and
+ * impact matter only where something touches. There, if hardly any work is done, all of the excess
+ * must come from these errors: a blow changes the damping's power too, a taut wire damps faster
+ * than steps resolve, and the normal force of a wire that strikes fast along a surface changes
+ * between the stages of a step. excess: the booked losses minus the step's loss [J]. */
 static double booked_too_high(const sw_books *b, sw_step_energy *step, double excess) {
   const double before = b->powers.damping, after = step->powers.damping;
   const double mean = sw_ledger_over_step(before, after, 1.0);
@@ -168,8 +168,8 @@ static double booked_too_high(const sw_books *b, sw_step_energy *step, double ex
   return fmax(0.0, excess) - left;
 }
 
-/* Books a step's remainder `left`, of which it gained `gained`. Where nothing touches, the energy
- * that a method makes oscillates and counts as lost in sum. */
+/* Books the remainder `left` of a step, of which `gained` is a gain. Where nothing touches, the
+ * energy that a method makes oscillates; its sum counts as lost. */
 static void book_left(sw_ledger *l, const sw_step_energy *step, double left, double gained) {
   double *lost = step->steady ? &l->integrator : &l->contact;
   l->gap += gained;
@@ -183,7 +183,7 @@ static void book_left(sw_ledger *l, const sw_step_energy *step, double left, dou
   *lost = 0;
 }
 
-/* Books the remainder of an equilibrium, where nothing oscillates. */
+/* Books the remainder of an equilibrium; there nothing oscillates. */
 static void book_left_at_rest(sw_ledger *l, double left) {
   if (left > 0)
     l->gap += left;
@@ -191,7 +191,7 @@ static void book_left_at_rest(sw_ledger *l, double left) {
     l->integrator -= left;
 }
 
-/* Books the losses that histories counted since the last step; returns them [J]. */
+/* Books and returns the losses that histories counted since the last step [J]. */
 static double book_histories(sw_scene *s) {
   sw_system *system = sw_scene_system(s);
   sw_books *b = sw_scene_books(s);
@@ -252,7 +252,7 @@ sw_status sw_ledger_pose(sw_scene *s, int jumped, sw_error *err) {
   step->forces = b->now.loads - step->to.loads;
   step->work = sw_ledger_effort(step);
   const double before = b->sums.integrator;
-  step->gain = 0; /* poses are not judged */
+  step->gain = 0; /* poses have no referee */
   book_step(s, 1);
   if (jumped) b->sums.jumps += b->sums.integrator - before, b->sums.integrator = before;
   if (sw_ledger_note_workers(s, 0) != SW_OK || log_row(s) != SW_OK)
@@ -266,7 +266,7 @@ static void tell_retries(sw_scene *s, const char *what, const sw_retries *r) {
                 r->count, r->count == 1 ? " was" : "s were", what, r->time);
 }
 
-/* Logs energy from nowhere that no step gained: work or losses that the steps do not know. */
+/* Logs energy that appeared outside steps: work or losses unknown to the steps. */
 static void tell_unknown(sw_scene *s) {
   const sw_ledger *l = &sw_scene_books(s)->sums;
   const double share = l->play > 0 ? l->gap / l->play : 0.0;
@@ -278,16 +278,16 @@ static void tell_unknown(sw_scene *s) {
       l->gap, 100.0 * share);
 }
 
-/* Returns advice for another method. With stages of first order (sdirk2) turning wires have up to
- * five times their axial force at each step's end. Where that strain is damped, its energy is made
- * anew in steps of any size. */
+/* Returns advice for another method. With stages of first order (sdirk2), turning wires have up to
+ * five times their axial force at the end of each step. If this strain is damped, every step of any
+ * size makes its energy anew. */
 static const char *other_method(const sw_scene *s) {
   const sw_course *c = sw_scene_course(s);
   if (sw_course_lumps(c)) return ", or an implicit integrator such as tr-bdf2";
   return strcmp(c->method->name, "tr-bdf2") != 0 ? ", or the integrator tr-bdf2" : "";
 }
 
-enum { FEW = 2 }; /* redone steps that are not reported [-] */
+enum { FEW = 2 }; /* this many redone steps are not reported [-] */
 
 sw_status sw_scene_end_run(sw_scene *s, sw_error *why) {
   const sw_ledger *l = &sw_scene_books(s)->sums;

@@ -12,19 +12,19 @@
 #include "scene/parts.h"
 #include "system/system.h"
 
-/* Allowed error in a step: this share of a wire's length or of its radius, whichever is less [-]. A
- * metre of 2 mm cable laid at 0.25 m/s in steps of 10 ms exceeds it in 3 of 100 steps; a cable that
- * whips, falls on a peg or is struck, in most of the steps that make its largest tension. */
+/* Allowed error in a step: this share of a wire's length or of its radius, whichever is smaller
+ * [-]. It is exceeded in 3 of 100 steps by 1 m of 2 mm cable laid at 0.25 m/s in steps of 10 ms,
+ * and in most steps near the largest tension of a cable that whips, falls on a peg or is struck. */
 static const double OF_LENGTH = 1e-4, OF_RADIUS = 0.1;
-/* A wire drawn almost straight between two holds has its tension from its small sag. It is allowed
- * OF_STRAIGHT of its length, and PER_SLACK more per slack (the share by which it is longer than the
- * distance of the holds) [-]. In 369 runs of cables that fall into two holds, are let in and drawn
- * taut, 41 largest tensions are more than 10 % off without this limit, 5 with it, in 2.2 times the
- * steps. At twice OF_STRAIGHT 14 are off; at half of it 5, in 3 times the steps; at half PER_SLACK
+/* The tension of a wire drawn almost straight between two holds depends on its small sag. Its
+ * allowed error is OF_STRAIGHT of its length, plus PER_SLACK per slack (length over distance of the
+ * holds, minus 1) [-]. Measured on 369 runs of cables that fall into two holds, are let in and are
+ * drawn taut: without this limit 41 largest tensions are off by more than 10 %; with it 5, with 2.2
+ * times the steps. Twice OF_STRAIGHT: 14. Half of it: 5, with 3 times the steps. Half of PER_SLACK:
  * 8 (spec/physics/drawn_spec). */
 static const double OF_STRAIGHT = 1.1e-5, PER_SLACK = 1e-3;
-/* A wire stretched by more has its tension from the stretch. It would take four times the steps and
- * be no better [-]. */
+/* Above this strain the tension depends on the strain, not on the sag. The limit would give four
+ * times the steps and no better tension [-]. */
 static const double STRETCHED = 1e-4;
 /* Smallest part (substep), as a share of its step and in time; rounding of parts [-], [s], [-]. */
 static const double SMALLEST = 1.0 / 64, SHORTEST = 1e-4, ROUNDING = 1e-9;
@@ -61,9 +61,9 @@ static int any_jaw_works(const sw_scene *s) {
   return 0;
 }
 
-/* Not divided, but told if too long: meshes between jaws that close, hold or let go, because their
- * section shakes the axis. In whole steps the squeeze and the work of friction are the same, in a
- * half to a fifth of the time (bench case=grip, spec/check/worn_mesh_spec). */
+/* Steps of meshes between jaws that close, hold or open are not divided, because the section shakes
+ * the axis. Too long steps are reported. Whole steps give the same squeeze and work of friction in
+ * a fifth to a half of the time (bench case=grip, spec/check/worn_mesh_spec). */
 int sw_coarse_has_mesh_in_jaws(const sw_scene *s) {
   return any_jaw_works(s) && any_mesh(sw_scene_system(s));
 }
@@ -77,8 +77,8 @@ int sw_coarse_is_bundle(const sw_scene *s) {
   return pairs && sw_mutual_crowded(pairs, SW_MOST_NEAR);
 }
 
-/* Returns the error of a body [m]. Sections of meshes swing far faster than any step, and steps are
- * meant to damp that: only the axis counts. */
+/* Returns the error of a body [m]. Only the axis of a mesh counts: its sections swing far faster
+ * than any step, and steps are meant to damp that. */
 static double error_of(const sw_stepper *stepper, const sw_system *system, const sw_body *b) {
   const sw_web *web = b->plan->web;
   const size_t first = b->first_node;
@@ -90,8 +90,8 @@ static double error_of(const sw_stepper *stepper, const sw_system *system, const
   return most;
 }
 
-/* Returns the least slack of a line at x between two of its holds; 1: there are no two holds, or it
- * is stretched [-]. */
+/* Returns the smallest slack of a line at x between two neighbouring holds; 1: there are no two
+ * holds, or the line is stretched [-]. */
 static double slack_of(const sw_plan *p, const double *x) {
   double least = 1;
   for (size_t i = 0, from = p->nodes; i < p->nodes; i++) {
@@ -143,13 +143,13 @@ double sw_coarse_of(const sw_scene *s, double tolerance) {
   return sw_coarse_is_bundle(s) ? 0.0 : over_of(s, tolerance);
 }
 
-/* Returns the power of the step size that the estimate is proportional to [-]. */
+/* Returns p if the estimate is proportional to h^p [-]. */
 static double power_of(const sw_scene *s) {
   return 1.0 + sw_stepper_order(&sw_scene_course(s)->stepper);
 }
 
-/* Whole steps log the event "coarse" above this error over the allowed one. A second-order method
- * has an eighth of the error in half the step [-]. */
+/* A step that is not divided logs the event "coarse" above this error over the allowed one. A
+ * second-order method has an eighth of the error in half the step [-]. */
 static const double TOLD = 8.0;
 
 static void tell(sw_scene *s, double h, double over, const char *of) {
@@ -180,8 +180,8 @@ void sw_coarse_tell(sw_scene *s, double h) {
   }
 }
 
-/* The same for the shortest part of a step. Parts of blows are left with up to this much, and their
- * peaks are within a few percent (spec/link/slider_stops_spec) [-]. */
+/* The same for the shortest part of a step. Parts of blows keep errors up to this, and their peaks
+ * are right within a few percent (spec/link/slider_stops_spec) [-]. */
 static const double LEFT = 64.0;
 
 void sw_coarse_tell_left(sw_scene *s, double h, double dt, double left) {
@@ -195,8 +195,9 @@ void sw_coarse_tell_left(sw_scene *s, double h, double dt, double left) {
 
 double sw_coarse_shortest(double dt) { return fmax(SMALLEST * dt, SHORTEST); }
 
-/* More parts than 1/SMALLEST may mean a shock, such as a tie made far too short, or a jump: the
- * shortest part is tried, and if it is as coarse, the longer one is taken (step/parts.c). */
+/* If more parts than 1/SMALLEST are needed, there may be a shock, such as a tie made far too short,
+ * or a jump. The shortest part is then tried; if it is as coarse, the longer one is taken
+ * (step/parts.c). */
 double sw_coarse_part(const sw_scene *s, double h, double dt, double over) {
   const double part = h * exp2(-ceil(log2(fmax(over, 1.0)) / power_of(s)));
   if (!(over > 1.0) || h < 2.0 * SHORTEST || h <= SMALLEST * dt * (1 + ROUNDING)) return h;
@@ -208,8 +209,8 @@ double sw_coarse_half(double h, double dt) {
   return part >= sw_coarse_shortest(dt) ? part : h;
 }
 
-/* Half a part of smooth motion has an eighth of its error. Half a part with a jump has more than
- * all of it. */
+/* Half a part of smooth motion has an eighth of its error. Half a part with a jump has the same
+ * error or more. */
 int sw_coarse_helps(double before, double over) { return over <= fmax(1.0, before); }
 
 int sw_coarse_may_grow(const sw_scene *s, double over) { return over * exp2(power_of(s)) <= 1.0; }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A step of a scene whose wires have all left: nothing is solved. Obstacles and grippers follow
- * their motions, which are functions of time; jaws open and close; all of it is recorded. */
+/* A step of a scene after all its wires have left. Nothing is solved. Obstacles and grippers follow
+ * their motions, which are functions of time; jaws open and close. All of it is recorded. */
 #include <math.h>
 
 #include "base/quota.h"

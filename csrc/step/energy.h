@@ -20,8 +20,8 @@ sw_status sw_ledger_judge(sw_scene *scene, double t1, double h, int changed, sw_
 /* 1 if the run's method is judged. Energy of methods without damping oscillates; energy that they
  * make is only reported. */
 int sw_ledger_referees(const sw_scene *scene);
-/* Returns the energy that the judged trial makes, if this exceeds the allowance of a step of size h
- * in a run of whole steps `whole`; 0: it is fine [J]. */
+/* Returns the energy that the judged trial makes; 0: it is within the allowance of a step of size h
+ * in a run of whole steps `whole` [J]. */
 double sw_ledger_excess(const sw_scene *scene, double h, double whole);
 /* Books the judged step, which was accepted, committed and observed. SW_ENOMEM. */
 sw_status sw_ledger_close(sw_scene *scene);

@@ -21,10 +21,9 @@ enum { SLIDES = 8, MOST_REDOS = 20 };
 static const double FIRST_PSEUDO_STEP = 0.02; /* of sqrt(length/g) [-] */
 static const double LARGEST_GROWTH = 1e6;     /* of the first pseudo step [-] */
 static const double STATIC_TURN = 1e-7;       /* last rotation of a converged solve [rad] */
-/* A direction in which a disturbance needs longer to grow than this counts as neutral, not as
- * unstable. */
+/* An unstable direction counts as neutral if its disturbance needs longer than this to grow. */
 static const double SLOWEST_GROWTH = 30.0; /* of sqrt(length/g) [-] */
-static const double NUDGE = 1e-4;          /* push off an unstable place, over the length [-] */
+static const double NUDGE = 1e-4; /* push away from an unstable equilibrium, over the length [-] */
 enum { MOST_NUDGES = 2 };
 
 double sw_rest_longest(const sw_scene *s) {
@@ -43,7 +42,7 @@ static double time_scale(const sw_scene *s) {
 
 static double first_step(const sw_scene *s) { return FIRST_PSEUDO_STEP * time_scale(s); }
 
-/* 1 if a loose mesh moved further than its own size. An obstacle that touches it on one side pushes
+/* 1 if a loose mesh moved further than its own size: an obstacle that touches it on one side pushes
  * it for the whole pseudo step. */
 static int thrown(const sw_statics *p) {
   const sw_system *s = sw_scene_system(p->s);
@@ -93,7 +92,7 @@ static sw_status sw_rest_solve(sw_statics *p, double hbar, const sw_newton *newt
   return status;
 }
 
-/* Makes y the state; contact commits it too unless trial is 1. Returns the largest shift [m]. */
+/* Makes y the state; contact commits it unless trial is 1. Returns the largest shift [m]. */
 static double take(sw_statics *p, int trial) {
   sw_scene *s = p->s;
   sw_system *system = sw_scene_system(s);
@@ -110,14 +109,14 @@ static double take(sw_statics *p, int trial) {
   return shift;
 }
 
-/* 1 if obstacles have moved since contact last followed them; friction then drags the wires. */
+/* 1 if obstacles have moved since contact last followed them. Friction then drags the wires. */
 static int is_dragged(const sw_statics *p) {
   return sw_scene_contact(p->s) && p->touched != sw_scene_time(p->s) &&
          sw_contact_moves(sw_scene_contact(p->s));
 }
 
-/* 1 if there is a wire that nothing holds. On a smooth table it can be shifted without effort, and
- * rounding alone would carry it far. Meshes have enough touches to keep them in place. */
+/* 1 if a line has no hold. On a smooth table it can be shifted without force, and rounding alone
+ * would carry it far. Meshes have enough touches to keep them in place. */
 static int loose(const sw_scene *s) {
   sw_system *system = sw_scene_system(s);
   for (size_t b = 0; b < system->body_count; b++) {
@@ -129,7 +128,7 @@ static int loose(const sw_scene *s) {
   return 0;
 }
 
-/* Force that the solve with a little mass may leave out of balance, over the weight [-]. */
+/* Largest force, over the weight, that the solve with a little mass may leave unbalanced [-]. */
 static const double LITTLE = 1e-5;
 
 sw_status sw_rest_newton(sw_statics *p, int iterations, sw_error *err) {
@@ -171,9 +170,9 @@ static void nudge(sw_statics *p, int number) {
 }
 
 /* Returns the factor on the pseudo step, from the iterations of the last one [-]. Where wires
- * touch, a failed step costs more than a long step gains. In steps below the first one the
- * imbalance shifts wires so little that touches which need many iterations to find their states
- * would need them for ever: these steps grow until they fail. */
+ * touch, a failed step costs more than a long step gains. In steps shorter than the first one the
+ * imbalance shifts wires so little that some touches would need many iterations in every step to
+ * find their states. Such steps grow until one fails. */
 static double growth(const sw_scene *s, size_t iterations, int is_small) {
   if (!sw_scene_has_contact(s) || iterations <= 8) return 1.6;
   return iterations <= 14 || is_small ? 1.1 : 0.7;
@@ -183,17 +182,18 @@ int sw_rest_stops(sw_status status) {
   return status == SW_ECALLBACK || status == SW_ENOMEM || status == SW_EINTR || status == SW_ELIMIT;
 }
 
-/* Continuation leaves out the negative stiffness of compressed wires; with it, it would go to
- * unstable places. Where compression takes off nearly all stiffness, as of a wire that has buckled
- * sideways under friction, continuation repeats almost the same step thousands of times. After
- * MANY_ALIKE steps in a row that are alike (cosine above ALIKE, length above ALMOST of the step
- * before), the steps that their ratio predicts are taken at once. That excites other modes, which
- * AGAIN_ALIKE more steps damp: with half as many 6 of 100 runs of cables on pegs do not come to
- * rest, with twice as many all do (spec/physics/peg_poses_spec) [-]. */
+/* Continuation leaves out the negative stiffness of compressed wires, which would lead to unstable
+ * places. Where compression cancels nearly all stiffness, as of a wire that has buckled sideways
+ * under friction, it repeats almost the same step thousands of times. After MANY_ALIKE successive
+ * steps that are alike (cosine above ALIKE, length above ALMOST of the step before), the steps that
+ * their ratio predicts are taken at once. This excites other modes, which AGAIN_ALIKE further steps
+ * damp. With half as many, 6 of 100 runs of cables on pegs do not come to rest; with twice as many
+ * all do (spec/physics/peg_poses_spec) [-]. */
 enum { MANY_ALIKE = 20, AGAIN_ALIKE = 8 };
 static const double ALIKE = 0.99, ALMOST = 0.9;
-/* FARTHEST: largest shift at once, over the longest wire; at half and at twice of it all runs come
- * to rest, too. LONGER: it went too far if the steps after it are longer by this factor [-]. */
+/* FARTHEST: largest shift at once, over the longest wire; with half and with twice of it all runs
+ * come to rest too. LONGER: the shift was too far if the next steps are longer by this factor
+ * [-]. */
 static const double FARTHEST = 4e-4, LONGER = 1.5;
 
 typedef struct drift {
@@ -203,7 +203,7 @@ typedef struct drift {
   int alike;     /* steps alike in a row [-] */
 } drift;
 
-/* Moves the state on by this many of its last steps. */
+/* Shifts the state by `times` the last step. */
 static void go_on(sw_statics *p, double times) {
   sw_system *s = sw_scene_system(p->s);
   for (size_t i = 0; i < s->freedoms; i++) p->y[i] = s->x[i] + times * p->way[i];
@@ -211,7 +211,7 @@ static void go_on(sw_statics *p, double times) {
   memcpy(s->x, p->y, s->freedoms * sizeof(double));
 }
 
-/* Takes many more steps at once after a step, if the last ones are alike. */
+/* If the last steps were alike, takes many more of them at once. */
 static void hurry(sw_statics *p, drift *d) {
   const sw_system *s = sw_scene_system(p->s);
   double size = 0, along = 0;
@@ -272,9 +272,9 @@ static sw_status transient(sw_statics *p, sw_error *err) {
       p->report->iterations, p->report->iterations == 1 ? "" : "s", p->report->residual);
 }
 
-/* Steps of continuation of at most its first size bring stiff modes to rest, while slow swings
- * hardly move. RELAXING: steps of the first size that are taken. MOST_FAILED: failed steps, more
- * end it [-]. */
+/* Steps of continuation no longer than its first step bring stiff modes to rest, while slow swings
+ * hardly move. RELAXING: number of such steps. MOST_FAILED: more failed steps end the search
+ * [-]. */
 enum { RELAXING = 4, MOST_FAILED = 6 };
 
 sw_status sw_rest_relax(sw_statics *p, sw_error *err) {
@@ -290,8 +290,8 @@ sw_status sw_rest_relax(sw_statics *p, sw_error *err) {
   return SW_OK;
 }
 
-/* Nodes of holds and rails have the forces of the last solve, which are not part of the live state.
- * They are put aside and taken back. */
+/* Loads of held nodes and rails, from the last solve. They are not part of the live state, so they
+ * are stored and restored separately. */
 typedef struct loads {
   sw_held_node *held; /* (held_count) */
   sw_rail *rails;     /* (rail_count) */
@@ -311,10 +311,10 @@ static void take_loads_back(sw_system *s, const loads *kept) {
   if (s->rail_count) memcpy(s->rails, kept->rails, s->rail_count * sizeof *s->rails);
 }
 
-/* Runs Newton's iteration from where continuation came to rest. If that fails, the equilibrium is
- * not isolated, or (unstable: 1) not stable; the place of continuation is then restored, with its
- * touches, its forces and its count of unstable directions, because a failed iteration ends
- * anywhere. */
+/* Runs Newton's iteration from the place where continuation came to rest. If it fails, the
+ * equilibrium is not isolated or (unstable: 1) not stable. Then the result of continuation is
+ * restored, with its touches, forces and count of unstable directions, because a failed iteration
+ * may end anywhere. */
 static sw_status polish(sw_statics *p, int *unstable, sw_error *err) {
   const size_t negative = p->report->negative;
   sw_error why = {"out of memory"};

@@ -26,9 +26,8 @@ static double shortest_cut(const sw_ladder *p) {
   return p->cuts < MOST_CUTS ? SAME_TIME * p->args->dt : HUGE_VAL;
 }
 
-/* Where wires approach each other fast enough to meet within the step, the step is tried at once in
- * the way in which a step with a strike is redone. Returns 1 if only this expectation makes it
- * so. */
+/* If wires approach each other fast enough to meet within the step, the first try already uses
+ * implicit Euler, as steps with a strike do. Returns 1 if it does so only for this reason. */
 static int begin_dully(const sw_ladder *p, double h) {
   sw_stepper *stepper = &sw_scene_course(p->s)->stepper;
   if (!(sw_scene_course(p->s)->method->flags & SW_INTEGRATOR_IMPLICIT) || stepper->plastic)
@@ -36,13 +35,13 @@ static int begin_dully(const sw_ladder *p, double h) {
   return stepper->plastic = sw_scene_expects_strike(p->s, h);
 }
 
-/* 1 if they did not meet: the step is redone with the method as it is. */
+/* 1 if they did not meet: the step is repeated with the run's method. */
 static int was_mistaken(const sw_scene *s, sw_contact_verdict verdict) {
   const int over = verdict == SW_CONTACT_ACCEPT || verdict == SW_CONTACT_SMALLER;
   return over && !sw_scene_was_struck(s);
 }
 
-/* 1 if friction turned round in a trial at whose end a drive comes to rest. */
+/* 1 if friction changed its direction in a trial in which a drive comes to rest at the end. */
 static int has_turned(const sw_scene *s) {
   sw_against sum = {0, 0};
   if (sw_scene_contact(s)) sw_contact_against(sw_scene_contact(s), sw_scene_system(s), &sum);
@@ -50,7 +49,7 @@ static int has_turned(const sw_scene *s) {
   return sw_against_turned(&sum);
 }
 
-/* Tries a step of size h, again as long as contact finds impacts. */
+/* Tries a step of size h; repeats it while contact finds impacts. */
 sw_status sw_rung_strike(sw_ladder *p, const sw_rung *below, double h, sw_error *err) {
   sw_scene *s = p->s;
   sw_contact *contact = sw_scene_contact(s);

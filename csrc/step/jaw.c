@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Jaws of tools in a step, or from one pose to the next. Their opening changes evenly within it. If
- * the jaws have a force to reach or not to exceed, the step's speed gives the fingers the wanted
- * force at its end. It is found between a speed with too little force and one with too much. */
+/* Jaws of tools in a step, or from one pose to the next. The opening changes evenly within a step.
+ * If the jaws have to reach a force, or not to exceed it, the closing speed is searched for with
+ * which the fingers have this force at the end of the step: between a speed with too little force
+ * and one with too much. */
 #include "step/jaw.h"
 
 #include <math.h>
@@ -13,23 +14,24 @@
 #include "step/obey.h"
 
 static const double PRECISION = 1e-3; /* of the wanted force [-] */
-/* The same in scene:settle, where a repeated search would go on: with PRECISION the jaws moved by
- * 12 nm more (spec/physics/gripper_still_spec) [-]. */
+/* The same in scene:settle, where jaws must not move when the search is repeated: with PRECISION
+ * they moved by another 12 nm (spec/physics/gripper_still_spec) [-]. */
 static const double EXACT = 1e-5;
-static const double ROUGHLY = 0.015; /* the same in the step that first reaches it [-] */
-static const double REACHED = 0.02;  /* the force counts as reached from this share below it [-] */
-enum { MOST_TRIALS = 10 };           /* the last one is taken as it is [-] */
-enum { MOST_FIRST = 20 };            /* the same, until there is a force for the first time [-] */
-enum { MOST_RESTS = 12 };            /* the same for equilibria [-] */
+static const double ROUGHLY = 0.015; /* the same in the step that first reaches the force [-] */
+static const double REACHED =
+    0.02; /* the force counts as reached if it is less than this share too small [-] */
+enum { MOST_TRIALS = 10 };               /* the last one is taken with the force that it has [-] */
+enum { MOST_FIRST = 20 };                /* the same until the first touch gives a force [-] */
+enum { MOST_RESTS = 12 };                /* the same for equilibria [-] */
 static const double SAME_OPENING = 1e-9; /* at a step's end [m] */
-static const double TELLS =
-    1e-7;                  /* openings nearer to each other than this give no stiffness [m] */
-enum { BEFORE_JUMPS = 4 }; /* later trials are near a jump of the force, if there is one [-] */
-static const double BEYOND = 1.3; /* a guess is the slope's prediction times this [-] */
-static const double WIDER =
-    4.0; /* and times this once more after every trial that was too short [-] */
+static const double TELLS = 1e-7;        /* closer openings give no stiffness [m] */
+enum {
+  BEFORE_JUMPS = 4
+}; /* after this many trials the bracket may contain a jump of the force [-] */
+static const double BEYOND = 1.3; /* a guess goes this times as far as the slope predicts [-] */
+static const double WIDER = 4.0;  /* further factor after each trial that was too short [-] */
 
-/* 1 if this step may end with another force than that of its first guess. */
+/* 1 if this step may end with a force other than that of its first guess. */
 static int yields(const sw_jaw *j) {
   if (j->mode == SW_JAW_STILL || !(j->force < HUGE_VAL)) return 0;
   return j->mode == SW_JAW_FORCE || j->goal < j->opening;
@@ -40,8 +42,8 @@ static double speed_to(const sw_jaw *j, double opening) {
   return fmax(-j->most, fmin(j->most, (opening - j->opening) / j->step));
 }
 
-/* Returns the first speed to try; with a force: for the opening that the last stiffness
- * predicts. */
+/* Returns the first speed to try: with a force, the one that leads to the opening predicted by the
+ * last stiffness. */
 static double first_guess(const sw_jaw *j) {
   if (j->mode == SW_JAW_STILL) return 0;
   if (j->mode == SW_JAW_TO) return speed_to(j, j->goal);
@@ -51,7 +53,7 @@ static double first_guess(const sw_jaw *j) {
 
 static int works(const sw_tool *t) { return t->alive && !t->frozen; }
 
-/* 1 if the end of its step depends on its force. */
+/* 1 if the speed in this step depends on the force. */
 static int obeys(const sw_tool *t) { return works(t) && t->jaw.step > 0 && yields(&t->jaw); }
 
 static void begin(sw_jaw *j, double since, double step) {
@@ -60,7 +62,7 @@ static void begin(sw_jaw *j, double since, double step) {
   j->speed = step > 0 ? first_guess(j) : 0.0;
   sw_bracket_clear(&j->found);
   j->trials = 0;
-  j->guessed = j->now < j->force; /* guess: without motion the force stays too small */
+  j->guessed = j->now < j->force; /* guess: if nothing moves, the force stays too small */
   if (j->guessed) sw_bracket_add(&j->found, 0, j->now - j->force);
 }
 
@@ -73,19 +75,19 @@ int sw_jaw_begin(sw_scene *s, double h) {
   return any;
 }
 
-/* From one equilibrium to the next jaws close by at most WIDEST_STEP of the thinnest wire's radius,
- * or of its squeezed height. Larger closings would push wires beyond the reach of the solver
- * [-]. */
+/* From one equilibrium to the next, jaws close by at most WIDEST_STEP of the thinnest wire's
+ * radius, or of its squeezed height. After larger closings the solver does not converge [-]. */
 static const double WIDEST_STEP = 0.25, LEFT = 0.25, LEAST = 0.05;
 
-/* Where pads squeeze a section, what slides and what sticks follows from the way there: it widens
- * while the pads hold it. So the force grows by no more than GAINS of the wanted one from pose to
- * pose. In one pose the push on a table under the wire was 1.0 to 2.1 N, with 0.2 and 0.1 it is 2.1
- * N within 4 %, as in slow motion (spec/contact/squeezed_poses_spec). FIRST: least force of the
- * first touch that counts, over the wanted one [-]. */
+/* Pads that squeeze a section hold parts of its surface while it widens. Which parts slide and
+ * which stick depends on the path of the force. So the force grows by at most GAINS of the wanted
+ * one from pose to pose. In a single pose the push on a table under the wire was 1.0 to 2.1 N; with
+ * GAINS of 0.2 and 0.1 it is 2.1 N within 4 %, as in slow motion
+ * (spec/contact/squeezed_poses_spec). FIRST: smallest force of the first touch that counts, over
+ * the wanted one [-]. */
 static const double GAINS = 0.2, FIRST = 1e-3;
 
-/* 1 if there is a mesh of elements, whose section yields. */
+/* 1 if there is a mesh of solid elements, whose section deforms. */
 static int has_sections(const sw_scene *s) {
   const sw_system *system = sw_scene_system(s);
   for (size_t b = 0; b < system->body_count; b++)
@@ -95,12 +97,12 @@ static int has_sections(const sw_scene *s) {
   return 0;
 }
 
-/* 1 if the way on which these jaws reach their force matters. */
+/* 1 if the result depends on the path on which these jaws reach their force. */
 static int way_matters(const sw_scene *s, const sw_tool *t) {
   return t->pads && t->jaw.force < HUGE_VAL && t->jaw.status != SW_JAW_HOLDS && has_sections(s);
 }
 
-/* Returns the time that jaws take for that at their highest speed [s]. */
+/* Returns the time of the longest allowed closing at the highest speed [s]. */
 static double longest_step(const sw_scene *s, const sw_tool *t) {
   const sw_jaw *j = &t->jaw;
   double radius = HUGE_VAL;
@@ -163,21 +165,22 @@ int sw_jaw_end_rest(sw_scene *s, int went_well) {
   return more;
 }
 
-/* Returns a speed beyond the last one, which left the force off by `off`. */
+/* Returns a speed beyond the last one, in the direction that corrects its deviation `off`. */
 static double guess_beyond(const sw_jaw *j, double off) {
   if (!(j->stiffness > 0)) return off > 0 ? j->most : speed_to(j, 0);
   const double way = BEYOND * pow(WIDER, j->trials - 1) * off / j->stiffness;
   return speed_to(j, fmax(0.0, j->opening + j->speed * j->step + way));
 }
 
-/* 1 if the jaws are as far on that side as they can be. */
+/* 1 if the jaws can go no further in the direction that corrects the force. */
 static int go_beyond(sw_jaw *j, double off) {
   const double before = j->speed;
   j->speed = guess_beyond(j, off);
   return j->speed == before;
 }
 
-/* Sets the next speed to try. Returns 1 when both sides are one place: the force jumps there. */
+/* Sets the next speed to try. Returns 1 if the bracket has shrunk to one place: the force jumps
+ * there. */
 static int improve(sw_jaw *j, double off, int rests) {
   sw_bracket *b = &j->found;
   sw_bracket_mend(b, 1, j->speed, off);
@@ -187,7 +190,7 @@ static int improve(sw_jaw *j, double off, int rests) {
   if (!sw_bracket_closed(b)) return go_beyond(j, off);
   const double gap = -sw_bracket_width(b);
   if (j->guessed && gap * j->step < TELLS) {
-    b->off[0] = NAN, j->guessed = 0; /* wrong, because a wire moves */
+    b->off[0] = NAN, j->guessed = 0; /* the bracket is wrong, because a wire moves */
     return go_beyond(j, off);
   }
   if (gap * j->step < (rests == SW_JAW_POSES ? TELLS : SAME_OPENING)) return 1;
@@ -198,8 +201,8 @@ static int improve(sw_jaw *j, double off, int rests) {
   return 0;
 }
 
-/* The last trial. Where the force jumps past the wanted one, the place with too much force is
- * taken: from there the jaws can come back. */
+/* Takes the last trial. Where the force jumps past the wanted one, takes the side with too much
+ * force: from there the jaws can come back. */
 static int give_up(sw_jaw *j, double off, int rests) {
   if (!rests || off > 0 || !isfinite(j->found.off[1]) || j->trials > MOST_RESTS) return 1;
   j->speed = j->found.tried[1];
@@ -207,14 +210,14 @@ static int give_up(sw_jaw *j, double off, int rests) {
   return 0;
 }
 
-/* Returns the most trials. Openings without a touch do not tell the distance to one, so the first
- * force takes longer to find. */
+/* Returns the largest number of trials. The first force takes longer to find, because openings
+ * without a touch do not show the distance to it. */
 static int most_trials(const sw_jaw *j, int rests) {
   if (rests) return MOST_RESTS;
   return j->status == SW_JAW_HOLDS ? MOST_TRIALS : MOST_FIRST;
 }
 
-/* 1 if the trial's force is as wanted, or nothing can be done about it in this step. */
+/* 1 if the trial's force is as wanted, or cannot be corrected in this step. */
 static int correct(sw_scene *s, sw_tool *t, int rests) {
   sw_jaw *j = &t->jaw;
   const double off = sw_tool_squeeze(s, t, j->since + j->step) - j->force;
@@ -274,7 +277,7 @@ int sw_jaw_again(sw_scene *s) {
   return again;
 }
 
-/* Sets the status: have the jaws reached what they were told? */
+/* Sets the status: whether the jaws have reached their target. */
 static void judge(sw_jaw *j) {
   const int reached = j->now >= (1.0 - REACHED) * j->force;
   if (j->mode == SW_JAW_FORCE) {
@@ -283,7 +286,7 @@ static void judge(sw_jaw *j) {
     else if (j->opening <= 0)
       j->status = SW_JAW_EMPTY;
     else if (!(j->now > 0))
-      j->status = SW_JAW_MOVES; /* what they held is gone */
+      j->status = SW_JAW_MOVES; /* the held wire is gone */
   }
   if (j->mode != SW_JAW_TO) return;
   if (reached && j->goal < j->opening)
@@ -293,7 +296,7 @@ static void judge(sw_jaw *j) {
   if (j->status != SW_JAW_MOVES) j->mode = SW_JAW_STILL;
 }
 
-/* Changes of force below this share of the wanted one give no stiffness [-]. */
+/* Smaller changes of the force, over the wanted one, give no stiffness [-]. */
 static const double TELLING = 0.05;
 
 static void follow(sw_scene *s, sw_tool *t) {
@@ -327,11 +330,11 @@ size_t sw_jaw_moving(const sw_scene *s) {
 }
 
 /* Pads that are turned against a wire bend it while they close, and it slides between them until
- * friction locks. How far it slid decides what force along the wire is locked in: a micrometre of a
- * stiff cable is a tenth of a newton. In a step in which the pads' force grows from little to the
- * wanted one nothing slides. So, from this share of the wanted force on, jaws close by no more than
- * CLOSES in a part, the depth of a line's samples at the wanted force [-], [m]. Of 192 random peaks
- * at 2 to 20 ms, 43 are more than 15 % off without this, 14 with it
+ * friction locks. The distance it slid decides which force along the wire is locked in: 1 um of a
+ * stiff cable is 0.1 N. In a step in which the pads' force grows from little to the wanted one
+ * nothing slides. So above the share TOUCHED of the wanted force, jaws close by at most CLOSES per
+ * part; this is the depth of a line's samples at the wanted force [-], [m]. Of 192 random peaks at
+ * 2 to 20 ms, 43 are off by more than 15 % without this limit, 14 with it
  * (spec/physics/pads_turned_spec). */
 static const double TOUCHED = 0.02, CLOSES = 5e-6;
 

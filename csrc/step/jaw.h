@@ -15,28 +15,28 @@ int sw_jaw_correct(sw_scene *scene, int rests);
 /* Returns the largest deviation of a trial's forces from the wanted ones, over the wanted force
  * [-]. */
 double sw_jaw_off(sw_scene *scene);
-/* After an accepted equilibrium: returns 1 if a force is off because it jumped; the jaws then have
- * begun a search that starts from this equilibrium. */
+/* Call after an accepted equilibrium. Returns 1 if a force is off because it jumped; a new search
+ * from this equilibrium has then begun. */
 int sw_jaw_again(sw_scene *scene);
-/* After an accepted state, or a step that was given up: openings and status follow. */
+/* Updates openings and status. Call after an accepted state, or after a step that was given up. */
 void sw_jaw_follow(sw_scene *scene);
-/* Returns the number of tools whose jaws are on their way to what they were told [-]. */
+/* Returns the number of tools whose jaws still move to their target [-]. */
 size_t sw_jaw_moving(const sw_scene *scene);
 /* As sw_jaw_begin, for an equilibrium at the scene's time: jaws that hold with a force open or
- * close at once, by a small part of the wires' thickness. */
+ * close at once, by a small share of the wires' thickness. */
 int sw_jaw_begin_rest(sw_scene *scene);
-/* After that equilibrium: returns 1 if the jaws have to go further. */
+/* Call after that equilibrium. Returns 1 if the jaws have to move further. */
 int sw_jaw_end_rest(sw_scene *scene, int went_well);
-/* Returns the pose step, at most h. In it jaws that close to a force go no further than a small
- * part of the wires' thickness [s]. */
+/* Returns the pose step, at most h [s]. It is shorter if jaws that close to a force would close by
+ * more than a small share of the wires' thickness. */
 double sw_jaw_step(const sw_scene *scene, double h);
-/* After a pose of size h: returns a shorter one if pads press a mesh's section by too much at once;
- * else h [s]. */
+/* Call after a pose of size h. Returns a shorter one if pads press a mesh's section by too much in
+ * one pose; else h [s]. */
 double sw_jaw_part(sw_scene *scene, double h);
 /* 1 if pads may press a mesh's section. */
 int sw_jaw_presses_sections(const sw_scene *scene);
-/* After a trial of size h: returns how far jaws closed on wires, as a share of what is allowed in
- * one part; at most 1 is allowed [-]. */
+/* Call after a trial of size h. Returns the closing of jaws on wires over the allowed closing per
+ * part; up to 1 is fine [-]. */
 double sw_jaw_closes(sw_scene *scene, double h);
 
 #endif

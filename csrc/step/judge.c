@@ -13,8 +13,8 @@ static sw_status judge(sw_ladder *p, double h, double *excess, sw_error *err) {
   return status;
 }
 
-/* Returns what to try after a step that made energy. Where nothing touches only a smaller step
- * helps, and the accelerations at its start stay valid. */
+/* Returns what to try after a step that made energy. Where nothing touches, only a smaller step
+ * helps; the accelerations at its start remain valid. */
 static int next_redo(sw_ladder *p) {
   const sw_stepper *stepper = &sw_scene_course(p->s)->stepper;
   p->smooth = !sw_scene_books(p->s)->step.touching;
@@ -24,10 +24,10 @@ static int next_redo(sw_ladder *p) {
   return p->redo < SW_DULLY ? SW_DULLY : SW_GIVE_UP;
 }
 
-/* Where nothing touches, half of a step makes at most a quarter of its energy, for the methods are
- * of second order. A step that makes more than HELPS of what a longer one made, and less than
- * LITTLE of the energy in play, only corrects the last state, which is as exact as its iteration:
- * no smaller step helps [-]. */
+/* Where nothing touches, half a step makes at most a quarter of the energy, because the methods are
+ * of second order. A step that makes more than HELPS of the energy of a longer one, and less than
+ * LITTLE of the energy in play, only corrects the iteration error of the last state: no smaller
+ * step helps [-]. */
 static const double HELPS = 0.5, LITTLE = 5e-4;
 
 static int smaller_helps(sw_ladder *p, double excess) {
@@ -37,8 +37,8 @@ static int smaller_helps(sw_ladder *p, double excess) {
   return helps;
 }
 
-/* The referee: a step that makes energy is computed again. SW_ENOCONV: it still makes energy. With
- * p->smallest such a step is accepted as it is, and counted. */
+/* The referee: repeats a step that makes energy. SW_ENOCONV: it still makes energy. With
+ * p->smallest such a step is accepted and counted. */
 sw_status sw_rung_judge(sw_ladder *p, const sw_rung *below, double h, sw_error *err) {
   sw_scene *s = p->s;
   sw_ledger *l = &sw_scene_books(s)->sums;

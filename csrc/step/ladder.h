@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The ladder of a step of motion. A step of size h is tried by rungs, which stages.def lists. Each
- * rung tries the step with the rungs below it, and repeats in another way until the quantity in its
- * care is right. The last rung computes a trial. Shared by the files of this room only. */
+/* The ladder of a step of motion. Each rung (listed in stages.def) is responsible for one quantity:
+ * it tries the step with the rungs below it and repeats that until the quantity is right. The last
+ * rung computes a trial. Shared by the files of this room only. */
 #ifndef SW_STEP_LADDER_H
 #define SW_STEP_LADDER_H
 
 #include "step/step.h"
 
-/* How a step that made energy where something touches is redone: first by the method's start
- * method, which uses no earlier acceleration and is of second order too; then with implicit Euler,
- * which makes energy only where touches are wrong. Energy made by the method alone needs a smaller
- * step. */
+/* How a step that made energy at touches is repeated: first by the method's start method, which
+ * uses no earlier acceleration and is of second order too; then with implicit Euler, which makes
+ * energy only if touches are wrong. Energy made by the method alone needs a smaller step. */
 enum { SW_AS_IS, SW_BY_START, SW_DULLY, SW_GIVE_UP };
 
 typedef struct sw_ladder {
@@ -19,26 +18,26 @@ typedef struct sw_ladder {
   sw_run_report *report;
   double until;    /* end of the run [s] */
   double *v_start; /* velocities at the step's start, which impacts change */
-  int smallest;    /* 1: no smaller step will be tried */
-  int redo;        /* SW_AS_IS, or how the step is redone because it made energy */
-  double soonest;  /* a rebound asks the step to end this long after its start; 0 = none [s] */
+  int smallest;    /* 1: no smaller part will be tried */
+  int redo;        /* SW_AS_IS, or how a step that made energy is repeated */
+  double soonest;  /* time after the start at which a rebound wants the step to end; 0 = none [s] */
   int halts;       /* 1: a drive comes to rest with a deceleration while wires slide */
-  int turned;      /* 1: so did one, but the method carried wires past their place of rest */
-  int brakes;      /* 1: a drive that slides wires comes to rest soon */
+  int turned;      /* 1: as `halts`, and the method carried wires past their place of rest */
+  int brakes;      /* 1: a drive with which wires slide comes to rest soon */
   int cuts;        /* cuts at rebounds in this step [-] */
-  double asked;    /* part (substep) that was first tried; shorter parts come from refusals or from
-                      the end of the step; 0: dt [s] */
-  sw_error held;   /* why the last part was rejected */
-  int smooth;      /* 1: the last rejected step made energy where nothing touches */
-  double made_at;  /* start of that step [s] */
-  double made;     /* the energy that it made [J] */
-  int changed;     /* 1: the scene was changed since the last step; the energy of this step is not
-                      judged */
+  double asked;  /* part (substep) that was first tried; later parts are shorter because of refusals
+                    or the step's end; 0: dt [s] */
+  sw_error held; /* why the last part was rejected */
+  int smooth;    /* 1: the last rejected step made energy where nothing touches */
+  double made_at; /* start of that step [s] */
+  double made;    /* the energy that it made [J] */
+  int changed;    /* 1: the scene was changed since the last step; the energy of this step is not
+                     judged */
   int (*interrupted)(void);
   sw_observer *observer; /* or NULL */
 } sw_ladder;
 
-/* Tries a step of size h with the rungs below. On failure the state is as before. */
+/* Tries a step of size h with the rungs below. If it fails, the state is as before. */
 typedef struct sw_rung sw_rung;
 struct sw_rung {
   sw_status (*go)(sw_ladder *p, const sw_rung *below, double h, sw_error *err);
@@ -72,12 +71,12 @@ static const double SW_SMALLEST_SHARE = 1.0 / 4096; /* smallest part tried, as a
 
 /* Makes the stepper of the run's method, for the present system. */
 sw_status sw_ladder_method(sw_scene *scene, const sw_run_args *args, sw_error *err);
-/* Makes nodes for the wire that a step up to h feeds, and shortens the step to what nodes can
+/* Makes nodes for the wire that feeds pay out in a step up to h. Shortens the step if nodes cannot
  * follow. The system may be a new one afterwards. */
 sw_status sw_ladder_make_room(sw_ladder *p, double *h, sw_error *err);
 
-/* Largest turn of a hold in a step. From half a turn on its wire could not tell the direction of
- * the turn [rad]. */
+/* Largest turn of a hold in a step. From half a turn on, the wire could not know the direction
+ * [rad]. */
 static const double SW_WIDEST_TURN = 2.5;
 
 /* Shortest part, as a share of dt, for locating the moment at which a tie breaks [-]. */

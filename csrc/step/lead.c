@@ -8,11 +8,11 @@
 #include "step/restart.h"
 #include "step/stop.h"
 
-/* A cable that has just landed still trembles, and the last milliseconds before its drive stops
- * decide which friction is left at rest. Parts of SW_STOPS, from LEAD before the stop until no wire
- * slides, AFTER it at most, leave it right within 0.01 of mu N in the mean; whole steps of 10 ms
- * left 0.72 for -0.44 of it. Half of LEAD leaves one in twenty off by 0.08; twice LEAD is no better
- * (spec/contact/soft_landing_spec) [s]. */
+/* A cable that has just landed trembles, and the last milliseconds before its drive stops decide
+ * how much friction remains at rest. So parts are SW_STOPS long, from LEAD before the stop until no
+ * wire slides, at most until AFTER the stop. Then friction is right within 0.01 of mu N in the
+ * mean; whole steps of 10 ms left 0.72 instead of -0.44 mu N. With half of LEAD one run in twenty
+ * is off by 0.08; twice LEAD is no better (spec/contact/soft_landing_spec) [s]. */
 static const double LEAD = 0.01, AFTER = 0.01;
 
 /* *at: time after t at which LEAD begins, up to h; it may have begun [s]. */
@@ -23,24 +23,25 @@ static sw_status leads_of(const sw_motion *m, double t, double h, double *at, sw
   SW_TRY(sw_stop_rests(m, t - AFTER, AFTER + h + LEAD, 0, &r, &yes, err));
   if (!yes) return SW_OK;
   SW_TRY(sw_stop_eval(m, t - AFTER + r.moves, &last, err));
-  if (sw_stop_speed(&last) <= SW_CREEPS) *at = r.rests - AFTER - LEAD; /* else it stops at once */
+  if (sw_stop_speed(&last) <= SW_CREEPS)
+    *at = r.rests - AFTER - LEAD; /* else the drive stops at once */
   return SW_OK;
 }
 
-/* A wire along which waves travel for longer (3 m of cable, 0.2 m of a rubber hose) is stretched by
- * friction fifty times as far as its touches give way in steps of 10 ms: it needs neither short
- * parts nor stiff friction (SW_STOP_TRAVEL). By tolerance steps are short anyway, and all lines get
- * short parts [s]. */
+/* Longest travel time of waves along a line that gets short parts; this value: any line. Friction
+ * stretches a wire with longer travel times (3 m of cable, 0.2 m of a rubber hose) fifty times as
+ * far as its touches give way in steps of 10 ms: it needs neither short parts nor stiff friction
+ * (SW_STOP_TRAVEL). With a tolerance steps are short anyway, and all lines get short parts [s]. */
 static const double ANY_LINE = 1e6;
 
 static double travel_of(const sw_ladder *p) {
   return isfinite(p->args->tolerance) ? ANY_LINE : SW_STOP_TRAVEL;
 }
 
-/* What landed so long ago has ceased to tremble [s]. */
+/* Wires that landed earlier than this no longer tremble [s]. */
 static const double LATELY = 0.2;
 
-/* *at: minus the way since LATELY [m]. */
+/* *at: minus the distance that the motion moved in the time LATELY [m]. */
 static sw_status went_of(const sw_motion *m, double t, double h, double *at, sw_error *err) {
   sw_motion_state now, before;
   (void)h;
@@ -50,9 +51,9 @@ static sw_status went_of(const sw_motion *m, double t, double h, double *at, sw_
   return SW_OK;
 }
 
-/* The same for functions, where a rod has landed lately: velocities of a function are a little
- * late, by which a cable that was only drawn would lose 0.1 of mu N in short parts. A function is
- * asked for no time behind the run. */
+/* As leads_of, for functions, and only where a rod has landed lately. Velocities of a function lag
+ * a little; in short parts a cable that was only drawn would lose 0.1 of mu N by this. Functions
+ * are not called for times after the run's end. */
 static sw_status function_leads(const sw_ladder *p, double h, double *at, sw_error *err) {
   const double most = fmin(h, p->until - sw_scene_time(p->s) - LEAD);
   double back;
@@ -63,7 +64,7 @@ static sw_status function_leads(const sw_ladder *p, double h, double *at, sw_err
   return SW_OK;
 }
 
-/* A rest below this share of a part is no part of its own [-]. */
+/* A remainder below this share of a part is not a part of its own [-]. */
 static const double NO_PART = 0.01;
 
 sw_status sw_restart_before_stop(sw_ladder *p, double *h, sw_error *err) {
@@ -83,7 +84,7 @@ sw_status sw_restart_before_stop(sw_ladder *p, double *h, sw_error *err) {
     *h = fmin(*h, fmax(at, SW_STOPS));
     return SW_OK;
   }
-  const double left = at + LEAD; /* until the stop, which ends a part of full length */
+  const double left = at + LEAD; /* until the stop, at which a part of full length ends */
   const double until = left > SW_STOPS * NO_PART && left < sw_stop_before_end(*h) ? left : *h;
   *h = until / fmax(1.0, ceil(until / SW_STOPS - NO_PART));
   return SW_OK;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Watches the friction that wires keep after a drive has stopped at once, and tells a loss. */
+/* Watches the friction that wires keep after a drive has stopped at once, and reports a loss. */
 #include <math.h>
 
 #include "body/touching.h"
@@ -10,12 +10,11 @@
 #include "scene/wire.h"
 #include "step/stop.h"
 
-/* Waves run through a stiff cable in less than a part. On a table they turn the friction of all its
- * touches round: it keeps all of it, right within 0.03. Cables that lie on a few posts or wires
- * keep less, by how far friction gives way before it slides and by how the cable swings: 0.63
- * of 1.07 mu m g in steps of 10 ms, 0.78 in those of 0.5 ms, 0.43 in those of 0.1 ms. So do cables
- * on a table that were settled: 0.88 for 0.98 at any step. Less than this share is told
- * (spec/contact/stop_left_spec) [-]. */
+/* Waves run through a stiff cable in less than a part. On a table they reverse the friction of all
+ * touches, and the cable keeps all of its friction within 0.03. Cables on a few posts or wires keep
+ * less; how much depends on the travel before friction slides and on the swing: of 1.07 mu m g 0.63
+ * in steps of 10 ms, 0.78 in 0.5 ms, 0.43 in 0.1 ms. Cables on a table that were settled keep 0.88
+ * of 0.98 in any step. A smaller share than this is reported (spec/contact/stop_left_spec) [-]. */
 static const double ALL = 0.9;
 
 static sw_along along_of(const sw_scene *s, size_t body) {
@@ -25,7 +24,7 @@ static sw_along along_of(const sw_scene *s, size_t body) {
   return sum;
 }
 
-/* Waves are over FROM after the stop; a cable that swings may lose friction until TO [s]. */
+/* Waves have died out FROM after the stop; a swinging cable may lose friction until TO [s]. */
 static const double FROM = 0.01, TO = 0.06;
 
 void sw_stop_note(sw_scene *s) {

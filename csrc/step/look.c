@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Observers: they look at a scene between two steps of a run, and leave it as it is. */
+/* Observers: they read a scene between two steps of a run and do not change it. */
 #include <math.h>
 #include <time.h>
 

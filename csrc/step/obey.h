@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rungs for drives that obey a force: each trial corrects a drive until its force at the step's end
- * is as wanted (see base/root.h). Shared by the files of this room only. */
+/* Rungs for drives that obey a force. Each trial corrects a drive until its force at the end of the
+ * step is the wanted one (see base/root.h). Shared by the files of this room only. */
 #ifndef SW_STEP_OBEY_H
 #define SW_STEP_OBEY_H
 
 #include "step/ladder.h"
 
 typedef struct sw_obeyer {
-  /* Before the first trial of a step of size h. Returns 0 if nothing obeys a force; the step is
-   * then tried once. */
+  /* Call before the first trial of a step of size h. Returns 0 if no drive obeys a force; the step
+   * is then tried once. */
   int (*begin)(sw_scene *scene, double h);
-  /* After a trial. Returns 1 if the force is as wanted or cannot be; else there is another
-   * trial. */
+  /* Call after a trial. Returns 1 if the force is as wanted or cannot be reached; 0: another trial
+   * follows. */
   int (*correct)(sw_scene *scene, double h, int first);
   /* NULL, or: goes_on returns 0 if a further trial of this size is impossible; give_up ends the
    * search then, and after a failed trial. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A step of fixed size, divided into parts (substeps) where it fails, and where blows, forces that
- * wires pass, or coarse motion ask for it. */
+/* A step of fixed size. It is divided into parts (substeps) if it fails, if a blow or coarse motion
+ * needs shorter parts, or if a wire would move past a force of short reach. */
 #include "scene/parts.h"
 
 #include <math.h>
@@ -16,31 +16,32 @@
 #include "step/slip.h"
 #include "watch/observe.h"
 
-/* A first step after a jump knows no accelerations. Its reactions are off by their own size, and
- * slips would be wrong: it is shortened to this share [-]. */
+/* The first step after a jump has no accelerations from an earlier step. Its reactions are off by
+ * their own size and would make wires slip wrongly. It is shortened to this share [-]. */
 static const double FIRST_SLIP = 1e-3;
 
-/* The last part ends with its step. The difference of two times has an error up to this share of a
- * part; a remainder below it is no part [-]. */
+/* The last part ends with its step. Remainders below this share of a part are rounding, not parts
+ * [-]. */
 static const double ROUNDING = 1e-6;
 
 typedef struct parts {
-  double h, t0, t1;  /* of the whole step: size, start, exact end [s] */
+  double h, t0, t1;  /* whole step: size, start, exact end [s] */
   double done, part; /* time done; part to try next [s] */
-  double whole;      /* part to try, were it not cut at the step's end [s] */
+  double whole;      /* part to try if it were not cut at the step's end [s] */
   double longest;    /* longest part taken [s] */
   double least;      /* smallest part that is tried [s] */
   int refused;       /* number of refused parts */
-  double doubted;    /* coarse part for which a shorter one is tried instead; 0: none [s] */
-  double struck;     /* part with a blow, while no part that follows the blow has converged; 0: none
-                        [s] */
-  int unfollowed;    /* 1: the part with the blow is tried again, to be taken */
-  double over;       /* error of the last part tried, over the allowed one [-] */
-  double left;       /* the same of a part that cannot be shorter; 0: it is fine [-] */
-  int worse;         /* shorter parts in a row that were as coarse */
-  int rough;         /* 1: coarse parts are taken in this step, because shorter ones do not help */
-  int starts, cut;   /* 1: the part is short to make reactions known; to end at a rebound */
-  sw_error failed;   /* why the last part was refused */
+  double doubted;    /* coarse part instead of which a shorter one is tried; 0: none [s] */
+  double struck; /* part in which a blow was found; 0: none, or a part short enough for the blow has
+                    converged [s] */
+  int unfollowed;  /* 1: that part is tried again and taken */
+  double over;     /* error of the last part tried, over the allowed one [-] */
+  double left;     /* the same of a part that cannot be shorter; 0: its error is allowed [-] */
+  int worse;       /* successive shorter parts that were as coarse */
+  int rough;       /* 1: coarse parts are taken in this step, because shorter ones do not help */
+  int starts, cut; /* starts: 1: the part is short so that reactions become known; cut: 1: it ends
+                      at a rebound */
+  sw_error failed; /* why the last part was refused */
 } parts;
 
 /* Shortens the part where needed, and makes nodes for it. */
@@ -61,13 +62,13 @@ static sw_status begin(sw_ladder *p, parts *k, sw_error *err) {
   return sw_feed_too_fast(p->s, k->failed.text, err);
 }
 
-/* A strike or pull that begins late in a part may also begin late in a shorter one, which is then
- * as coarse. This many shorter parts may be [-]. */
+/* A strike or pull that begins late in a part may also begin late in a shorter part, which is then
+ * as coarse. This many shorter parts may be as coarse [-]. */
 enum { MOST_WORSE = 1 };
 
-/* 1 if the part is coarse and another one must be tried. A coarse part is not taken, unless shorter
- * ones are as coarse: then something jumps in it, such as a wire that rolls onto a drum, and the
- * longer part is taken. may_grow: see below. */
+/* 1 if the part is coarse and another one must be tried. If shorter parts are as coarse, something
+ * jumps within them, such as a wire that rolls onto a drum; the longer part is then taken.
+ * may_grow: see below. */
 static int is_coarse(const sw_ladder *p, parts *k, int *may_grow) {
   const double over = k->rough ? 0.0 : sw_coarse_of(p->s, HUGE_VAL);
   sw_snap snap;
@@ -91,8 +92,8 @@ static int is_coarse(const sw_ladder *p, parts *k, int *may_grow) {
   return 1;
 }
 
-/* 1 if a converged trial contains a blow, went past a force, closed jaws too far, or is coarse.
- * may_grow: 1 if a part of twice the size would be fine too. */
+/* 1 if a converged trial contains a blow, moves a wire past a force, closes jaws too far, or is
+ * coarse. may_grow: 1 if a part of twice the size would be fine too. */
 static int is_too_long(const sw_ladder *p, parts *k, int *may_grow) {
   if (!k->unfollowed && sw_blow_begins(p->s, k->part)) {
     k->struck = k->part;
@@ -111,10 +112,9 @@ static int is_too_long(const sw_ladder *p, parts *k, int *may_grow) {
   return 1;
 }
 
-/* A step starts with the part size that the previous step ended with. Trying the whole step first
- * would waste a solve, and the error of a far too long part looks like a shock. Smaller shares of
- * the step than this come from something driven into an obstacle; the next step does not start with
- * them [-]. */
+/* A step starts with the last part size of the previous step. Trying the whole step first would
+ * waste a solve, and the error of a far too long part looks like a shock. Parts below this share of
+ * the step come from wires driven into an obstacle; the next step does not start with them [-]. */
 static const double REMEMBERED = 1.0 / 33;
 
 static double first_part(const sw_scene *s, double h) {
@@ -139,15 +139,15 @@ static sw_status take(sw_ladder *p, parts *k, int may_grow, sw_error *err) {
   return SW_OK;
 }
 
-/* Returns a part that converged and can be taken after all: a doubted one, or one with a blow that
- * cannot be followed; 0: there is none [s]. */
+/* Returns the size of an earlier part that converged and may be taken after all: a coarse one, or
+ * one with a blow that cannot be resolved; 0: there is none [s]. */
 static double part_that_went(const sw_ladder *p, const parts *k) {
   const int followed = isfinite(sw_blow_part(p->s, HUGE_VAL));
   if (k->cut) return 0;
   return k->doubted > 0 ? k->doubted : followed ? 0.0 : k->struck;
 }
 
-/* Sets a smaller part, or one that converged before; returns the status if there is none. */
+/* Sets a smaller part, or an earlier one that converged; returns the status if there is none. */
 static sw_status refuse(sw_ladder *p, parts *k, sw_status status, const sw_error *err) {
   if (sw_ladder_hopeless(status)) return status;
   k->failed = p->held = *err;
@@ -166,9 +166,10 @@ static sw_status refuse(sw_ladder *p, parts *k, sw_status status, const sw_error
   return k->part < k->least ? status : SW_OK;
 }
 
-/* Sets the part for the next step of a bundle. A bundle that falls or is pressed converges badly
- * for many steps in a row, and a part that fails costs as much as several that converge. The next
- * step begins with the longest part that converged; after at most one refusal, with twice that. */
+/* Sets the first part of the next step of a bundle. A bundle that falls or is pressed converges
+ * badly for many successive steps, and a failed part costs as much as several good ones. The next
+ * step begins with the longest part that converged, or with twice that after at most one
+ * refusal. */
 static void remember(sw_scene *s, const parts *k) {
   sw_course *c = sw_scene_course(s);
   const int shorter = c->blow_until > sw_scene_time(s) - 0.5 * k->h; /* this step was already
@@ -179,15 +180,15 @@ static void remember(sw_scene *s, const parts *k) {
   c->blow_until = part < k->h ? sw_scene_time(s) + 0.5 * k->h : 0.0;
 }
 
-/* A rest of a step below this share of it is no step of its own [-]. */
+/* A remainder of a step below this share of it is not a step of its own [-]. */
 static const double LEAST_REST = 0.01;
 
-/* 1 if the step ends with this part, because jaws have come to what they were told: a process that
- * waits for them goes on at the end of a step. Pads that squeeze a mesh on a table push it down by
- * its widening sides until they lift it, with 0.24 N for 0.02 N of weight. They did so to the end
- * of the step: in steps of 10 ms that was the peak over the window, in steps of 0.5 ms it was 0.03
- * N (spec/physics/grasp_ends_spec). moving: number of jaws on their way to a mesh before the part
- * [-]. */
+/* 1 if the step ends with this part because jaws have reached their target: a process that waits
+ * for them continues at the end of a step. Pads that squeeze a mesh on a table push it down by its
+ * widening sides until they lift it, with 0.24 N for a weight of 0.02 N. Without an early end this
+ * push lasts until the step's end: the peak over the window was all of it in steps of 10 ms, and
+ * 0.03 N in steps of 0.5 ms (spec/physics/grasp_ends_spec). moving: number of jaws closing on a
+ * mesh before the part [-]. */
 static int jaws_arrive(const sw_scene *s, const parts *k, size_t moving) {
   return moving > sw_jaw_moving(s) && k->h - k->done > LEAST_REST * k->h;
 }

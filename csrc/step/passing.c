@@ -7,10 +7,10 @@
 #include "scene/parts.h"
 #include "system/system.h"
 
-/* A part (substep) that goes too far by less than this factor is accepted, because parts are halves
+/* Parts are halves. A part in which a wire moves too far by less than this factor is accepted
  * [-]. */
 static const double WELL_ENOUGH = 1.25;
-/* Shortest part for passing a force; a wire would pass at tens of m/s [s]. */
+/* Shortest part for moving past a force; even it limits only speeds of tens of m/s [s]. */
 static const double SHORTEST = 1e-5;
 
 int sw_passing_any(const sw_scene *s) {
@@ -31,7 +31,7 @@ double sw_passing_between(const sw_scene *s, const double *from, const double *t
     const sw_body *b = &system->bodies[w];
     SW_ITEMS(const sw_term, term, b->terms, b->term_count) {
       if (!term->cls->oversteps) continue;
-      sw_field now = b->field; /* its own places may be those of a discarded trial */
+      sw_field now = b->field; /* the field's own places may be those of a discarded trial */
       now.x = from + 3 * b->first_node;
       now.statics = 0;
       most =

@@ -6,15 +6,16 @@
 
 #include "scene/scene.h"
 
-/* 1 if there is a force that wires may pass in the coming step. */
+/* 1 if there is a force that a wire may move past in the coming step. */
 int sw_passing_any(const sw_scene *scene);
-/* Returns the way of a step over the way that forces allow, by their state at its start; up to 1 is
- * allowed [-]. The second function is for a step from the scene's present state. */
+/* Returns the largest path of a wire in a step over the path that forces allow, from their state at
+ * its start; up to 1 is fine [-]. The second function is for a step from the scene's present
+ * state. */
 double sw_passing_between(const sw_scene *scene, const double *from, const double *to);
 double sw_passing_of(const sw_scene *scene, const double *x);
 int sw_passing_too_far(const sw_scene *scene, const double *x);
-/* Returns the part to take instead of one of size h whose way over the allowed one is `over`
- * [s]. */
+/* Returns the part to take instead of one of size h [s]. over: its path over the allowed one
+ * [-]. */
 double sw_passing_part(double h, double over);
 
 #endif

@@ -17,13 +17,13 @@
 #include "step/rest.h"
 #include "watch/observe.h"
 
-enum { MOST_HALVINGS = 6 }; /* of a pose step [-] */
+enum { MOST_HALVINGS = 6 }; /* a pose step is halved at most this often [-] */
 
-/* Limit of a trial: a pose that needs more is found sooner in smaller steps [-]. */
+/* Most iterations of a trial. If a pose needs more, smaller steps find it sooner [-]. */
 enum { FEW_ITERATIONS = 300 };
 
-/* The scene at the start of a pose in which a tie may break, a wire may enter a clip, or pads may
- * press a section. */
+/* The scene at the start of a pose. It is kept if a tie may break, a wire may enter a clip, or pads
+ * may press a section. */
 typedef struct kept {
   sw_tape live;
   sw_jaw *jaws; /* (tools) */
@@ -62,24 +62,25 @@ static sw_status put_back(sw_scene *s, const kept *k, double t0, sw_error *err) 
 static sw_status pose(sw_scene *s, double t1, int halvings, const sw_pose_args *how,
                       sw_run_report *report, sw_error *err);
 
-/* Returns the part of a pose of size h that a wire may move past a force of short reach. Without it
- * the depth in a clip, and the force, would depend on where Newton's iteration ends. */
+/* Returns the part of a pose of size h in which no wire moves too far past a force of short reach.
+ * Without this limit the depth in a clip, and the force, would depend on the path of Newton's
+ * iteration. */
 static double followed_part(const sw_scene *s, const double *from, double h, int *passed) {
   const double part = sw_passing_part(h, sw_passing_between(s, from, sw_scene_system(s)->x));
   *passed = part < h;
   return part;
 }
 
-/* No equilibrium was found at t1: goes to the middle of the way, then the rest. */
+/* Call if no equilibrium was found at t1: goes to the middle of the path, then to its end. */
 static sw_status by_the_middle(sw_scene *s, double t1, int halvings, const sw_pose_args *how,
                                sw_run_report *report, const kept *start, sw_error *err) {
   SW_TRY(pose(s, 0.5 * (sw_scene_time(s) + t1), halvings - 1, how, report, err));
-  if (start->jaws) return SW_OK; /* a tie may be about to break */
+  if (start->jaws) return SW_OK; /* a tie may break: the caller shortens the pose */
   sw_jaw_follow(s);
   return pose(s, t1, halvings - 1, how, report, err);
 }
 
-/* Goes back to the start, at t0, and only up to t. */
+/* Returns to the start, at t0, then goes only to t. */
 static sw_status again(sw_scene *s, double t0, double t, int halvings, const sw_pose_args *how,
                        sw_run_report *report, kept *start, sw_error *err) {
   SW_TRY(put_back(s, start, t0, err));
@@ -97,8 +98,8 @@ static sw_status book(sw_scene *s, double t1, int jumped, sw_run_report *report,
 
 enum { MOST_ROUNDS = 100 };
 
-/* Friction of clips is computed from the push of the pose before. Where there was none, the wires
- * come to rest again until it belongs to their own push. */
+/* Friction of clips follows from the push in the pose before. If that had none, the wires come to
+ * rest again until friction and push agree. */
 static sw_status rest_again(sw_scene *s, const sw_settle_args *args, int (*interrupted)(void),
                             sw_settle_report *rest, sw_error *err) {
   int more = sw_rest_catch_up(s, 1);
@@ -112,7 +113,7 @@ static sw_status rest_again(sw_scene *s, const sw_settle_args *args, int (*inter
 }
 
 /* Moves holds and obstacles to t1 and the wires to their equilibrium there. Without friction the
- * size of the pose step does not matter; with friction halving it shows how much it does. */
+ * size of the pose step does not matter; with friction, halve it to see how much it does. */
 static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_args *how,
                           sw_run_report *report, kept *start, sw_error *err) {
   sw_settle_args args = {.tolerance = 1e-9, .max_iterations = 4000, .poses = 1};
@@ -123,7 +124,7 @@ static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_ar
   int too_far = 0;
   int *const tells = halvings ? &too_far : NULL;
   const int squeezes = sw_jaw_begin(s, t1 - t0);
-  const int shortest = t1 - t0 <= 1.5 * how->passing; /* equal, but for rounding */
+  const int shortest = t1 - t0 <= 1.5 * how->passing; /* equal except for rounding */
   args.stays = start->x && !shortest && halvings;
   if (squeezes && halvings) args.max_iterations = FEW_ITERATIONS;
   sw_scene_set_time(s, t1);
@@ -161,8 +162,8 @@ static sw_status pose(sw_scene *s, double t1, int halvings, const sw_pose_args *
   return status;
 }
 
-/* Largest shift of pads that hold a wire from one pose to the next, over the thinnest wire's
- * radius. With more, the search for equilibrium would start with the wire beside the pads [-]. */
+/* Largest shift of pads with a wire from one pose to the next, over the thinnest wire's radius.
+ * After a larger shift the search for equilibrium would start with the wire beside the pads [-]. */
 static const double WIDEST_SHIFT = 0.5;
 
 /* Returns the largest distance from a tool's centre at which it presses [m]. */
@@ -181,8 +182,7 @@ static double reach_of(const sw_scene *s, const sw_tool *t) {
 
 enum { MOST_CUTS = 60 }; /* cuts of a step, for motions that start slowly and end fast [-] */
 
-/* Shortens the step h so that the tool carries the wires between its pads no further than
- * `most`. */
+/* Shortens the step h so that the tool carries the wires between its pads by at most `most` [m]. */
 static sw_status carried_step(sw_scene *s, const sw_tool *t, double most, double *h,
                               sw_error *err) {
   sw_motion_state from, to;

@@ -16,12 +16,11 @@
 static const double SHORTEST_PASSING = 1.0 / 64; /* shortest pose for passing a clip, over the pose
                                                     step [-] */
 
-/* Slow handling: equilibria up to time t, in parts (substeps) that nodes can follow where wire is
- * fed. */
+/* Slow handling: equilibria up to time t. Where wire is fed, in parts (substeps) that nodes can
+ * follow. */
 static sw_status pose_steps(sw_ladder *p, double t, sw_error *err) {
   sw_scene *s = p->s;
-  double most = HUGE_VAL; /* next part where a clip is passed: twice the last one, at least the
-                             shortest [s] */
+  double most = HUGE_VAL; /* next part at a clip: twice the last one, at least the shortest [s] */
   while (sw_scene_time(s) < t) {
     const double t0 = sw_scene_time(s);
     double h = sw_jaw_step(s, fmin(most, t - t0));
@@ -46,7 +45,7 @@ static sw_status pose_steps(sw_ladder *p, double t, sw_error *err) {
 
 static const double MOST_TURN_PARTS = 1e4;
 
-/* Also divides the step so that holds turn by less than half a turn in each part. */
+/* Also divides the step so that no hold turns by half a turn or more in a part. */
 sw_status sw_step_poses(sw_ladder *p, double t1, sw_error *err) {
   sw_system *system = sw_scene_system(p->s);
   const double t0 = sw_scene_time(p->s);

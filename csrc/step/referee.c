@@ -16,31 +16,33 @@
 #include "system/join.h"
 #include "system/system.h"
 
-/* A step of FULL_STEP [s] may make these shares of the kinetic energy, of the weight times the
- * radius and of the work, for the errors of the method and of the work's quadrature [-]. */
+/* Allowances for the errors of the method and of the quadrature of work. A step of FULL_STEP [s]
+ * may make these shares of the kinetic energy, of the weight times the radius and of the work
+ * [-]. */
 static const double FULL_STEP = 0.01, OF_KINETIC = 1e-3, OF_WEIGHT = 1e-3, OF_WORK = 0.01;
-/* Share of the losses of histories that a step may make. They are known better than the forces at
- * the step's ends, whose work pays for them [-]. */
+/* Share of the losses of histories that a step may make. These losses are known more exactly than
+ * the forces at the ends of the step, whose work balances them [-]. */
 static const double OF_LOST = 0.1;
-/* Further allowance over EI / L, because axial forces and bends are known only to rounding [-]. */
+/* Further allowance, over EI / L: axial forces and bends are known only to rounding [-]. */
 static const double OF_BENDING = 1e-9;
 /* Energies are sums of large terms, exact to this share of them [-]. */
 static const double ROUNDING = 1e-13;
-/* After this many steps that were accepted although they made energy the referee stops: it would
- * ask for the smallest steps and improve nothing. The run's end tells the energy made [-]. */
+/* The referee stops after it has accepted this many steps that made energy: it would demand the
+ * smallest steps and improve nothing. The end of the run reports the energy made [-]. */
 enum { MOST_ACCEPTED = 16 };
 /* Once the steps' gains exceed ENOUGH of the energy in play, a step may gain only LITTLE of it;
  * above PLENTY, only rounding. The aim is a run that gains less than 0.5 %
  * (spec/physics/ledger_gain_spec) [-]. */
 static const double ENOUGH = 0.00125, PLENTY = 0.0025, LITTLE = 1e-5;
-/* Wires that begin inside obstacles are let out. That gives them at most the speed THROWN, and
- * lifts them at about LET_OUT [m/s]. */
+/* Wires that begin inside obstacles are pushed out. They get at most the speed THROWN and rise at
+ * about LET_OUT [m/s]. */
 static const double THROWN = 0.02, LET_OUT = 0.01;
-/* Share of the energy in play that the method may make where nothing touches, and share of it that
- * each whole step may make beyond that; with no allowance steps would collapse. After a blow cables
- * ring faster than steps follow, and gained up to 1.7 % of their energy: from then on a quarter is
- * allowed, which costs no time. A method with a history keeps all of it: it takes a halved step by
- * another method, whose forces of holds are worse (spec/physics/turned_damped_spec, bdf2) [-]. */
+/* Where nothing touches, the method may make IN_FLIGHT of the energy in play, and each whole step
+ * EACH_IN_FLIGHT beyond that; without an allowance steps would collapse. After a blow cables ring
+ * faster than steps resolve, and gained up to 1.7 % of their energy: then only AFTER_BLOWS of this
+ * is allowed, which costs no time. A method with a history keeps the full allowance: it computes a
+ * halved step by another method, which gives worse forces of holds
+ * (spec/physics/turned_damped_spec, bdf2) [-]. */
 static const double IN_FLIGHT = 0.01, EACH_IN_FLIGHT = 2e-4, AFTER_BLOWS = 0.25;
 
 /* Energy stored between bodies and obstacles. */
@@ -89,14 +91,14 @@ static void judge_touches(sw_scene *s, double h, sw_step_energy *step) {
     step->let_out += sw_presses_emerged(sw_mutual_presses(mutual[k]));
     step->steady &= sw_mutual_steady(mutual[k]);
   }
-  if (impacts) /* these changed the velocities at the step's start */
+  if (impacts) /* impacts changed the velocities at the step's start */
     step->impact = sw_scene_books(s)->now.kinetic + step->obstacles -
                    sw_system_kinetic(sw_scene_system(s), sw_course_lumps(sw_scene_course(s)));
 }
 
-/* Returns the most energy that moving drives may give to wires in a step after a change of the
- * scene, or at whose end a drive jumps: they may start abruptly, and forces within the step are not
- * known, nor is the impulse at its end [J]. */
+/* Returns the largest energy that moving drives may give to wires in a step after a change of the
+ * scene, or in a step at whose end a drive jumps [J]. Such a drive may start abruptly: forces
+ * within the step and the impulse at its end are unknown. */
 static double jolt(const sw_scene *s, const sw_step_energy *step) {
   sw_books *b = sw_scene_books(s);
   sw_system *system = sw_scene_system(s);
@@ -113,16 +115,15 @@ static double jolt(const sw_scene *s, const sw_step_energy *step) {
   return fastest > 0 ? b->mass * fastest * fastest + step->work : 0.0;
 }
 
-/* 1 if there are pads. They are as soft as the wire, and share their force among the places that
- * touch. The energy stored there jumps when a place comes or goes, although the wire does
- * nothing. */
+/* 1 if there are pads. Pads are as soft as the wire and share their force among the touching
+ * places. Their stored energy jumps when a touch begins or ends, even if the wire does not move. */
 static int has_pads(const sw_scene *s) {
   SW_EACH(tool, t, s)
     if (t->alive && t->pads && !t->frozen) return 1;
   return 0;
 }
 
-/* Evaluates contact at the step's end: explicit methods last did so before or within the step. */
+/* Evaluates contact at the step's end. Explicit methods last did so earlier in the step. */
 static sw_status look_at_end(sw_scene *s, double t1, sw_error *err) {
   sw_system *y = sw_scene_system(s);
   SW_TRY(sw_system_place_holds(y, t1, NULL, NULL, NULL, err));
@@ -148,7 +149,7 @@ sw_status sw_ledger_judge(sw_scene *s, double t1, double h, int changed, sw_erro
   sw_committed committed = {.time = t1};
   sw_system_energies(system, sw_course_lumps(sw_scene_course(s)), &committed, &step->to);
   step->contact = sw_ledger_contact(s);
-  step->touching |= b->contact != 0 || step->contact != 0; /* ties that are taut too */
+  step->touching |= b->contact != 0 || step->contact != 0; /* taut ties count as touching too */
   most += sw_ledger_work(s, t1, changed);
   if (b->has_powers) status = sw_system_powers(system, t1, &step->powers, err);
   sw_system_look_back(system, &glance);
@@ -170,7 +171,7 @@ int sw_ledger_referees(const sw_scene *s) {
          !(sw_scene_course(s)->method->flags & SW_INTEGRATOR_NO_CONTACT);
 }
 
-/* Returns the further allowance of a full step: less once steps have made more [J]. */
+/* Returns the further allowance of a full step; it is smaller after steps have made energy [J]. */
 static double usual_gain(const sw_books *b) {
   const double play = b->sums.play;
   if (b->sums.gained > PLENTY * play) return 0.0;
@@ -186,7 +187,8 @@ double sw_ledger_excess(const sw_scene *s, double h, double whole) {
   const double size = fabs(b->now.kinetic) + fabs(b->now.gravity) + fabs(b->now.stored) +
                       fabs(step->to.kinetic) + fabs(step->to.gravity) + fabs(step->to.stored);
   const double rounding = ROUNDING * size + OF_BENDING * b->bending * share;
-  /* energy that impacts at several places give at the step's start: no smaller step avoids it */
+  /* energy that impacts at several places give at the step's start; smaller steps do not avoid
+   * it */
   const double struck = fmin(fmax(0.0, -step->impact), usual_gain(b));
   const double allowed = rounding + OF_WORK * step->work + share * usual_gain(b) + struck;
   if (!isfinite(step->gain)) return step->gain < 0 ? 0.0 : HUGE_VAL;

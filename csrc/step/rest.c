@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Equilibria at the scene's time. Holds go there, from where the wires know them, in parts
- * (substeps), and the wires come to rest at each. */
+/* Equilibria at the scene's time. Holds move in parts (substeps) from their poses in the wires'
+ * last state to those at the scene's time. The wires come to rest after each part. */
 #include "step/rest.h"
 
 #include <math.h>
@@ -14,20 +14,19 @@
 #include "step/statics.h"
 #include "system/system.h"
 
-/* Newton updates that would take wires far, after which continuation is tried. Wires with friction
- * follow their holds to the next pose without going far, or they jump; continuation finds a jump
+/* Continuation starts after this many Newton updates that would move wires far. Wires with friction
+ * follow their holds to the next pose without moving far, or they jump; continuation finds a jump
  * sooner than many more updates [-]. */
 enum { FAR_IN_POSES = 6 };
-/* Largest parts of a hold's way from its old place to its new one. */
+/* Largest parts of a hold's path from its old place to its new one. */
 static const double LONGEST_PART = 0.4; /* of the shortest edge [-] */
-static const double LONG_PART = 0.1;    /* of the longest wire, where nothing rubs [-] */
+static const double LONG_PART = 0.1;    /* of the longest wire, where there is no friction [-] */
 static const double WIDEST_PART = 0.5;  /* [rad] */
 static const double MOST_PARTS = 2000;
-/* Accuracy of equilibria on the holds' way, where wires need not be as close to rest as at its end:
- * largest shift of a node, over an edge [-]. */
+/* Accuracy of the equilibria before the last part: largest shift of a node, over an edge [-]. */
 static const double PASSING = 1e-4;
 
-/* Finds the poses of the holds that belong to the wires' state. */
+/* Finds the poses of the holds in the wires' last state. */
 static void find_from_poses(sw_statics *p) {
   const sw_system *s = sw_scene_system(p->s);
   for (size_t i = s->held_count; i-- > 0;) {
@@ -62,9 +61,9 @@ static double hold_shift(const sw_statics *p, size_t k, double lever, double *tu
   return sw_dist(from->p, to->p) + lever * *turn;
 }
 
-/* Returns the number of parts of the holds' way for which no part shifts a hold by more than
- * longest_shift [m] or turns it far. lever: points at this distance from a hold must not shift by
- * more either [m]. */
+/* Returns the number of parts of the holds' path, such that no part shifts a hold by more than
+ * longest_shift [m] or turns it too far. Points at the distance `lever` from a hold must not shift
+ * by more either [m]. */
 static sw_status count_parts(sw_statics *p, double lever, double longest_shift, size_t *parts,
                              sw_error *err) {
   sw_system *s = sw_scene_system(p->s);
@@ -93,7 +92,7 @@ static sw_status follow_in(sw_statics *p, size_t parts, sw_error *err) {
   return status;
 }
 
-/* 1 if the equilibrium does not depend on the wires' past. */
+/* 1 if the equilibrium does not depend on the history of the wires. */
 static int forgets(const sw_scene *s) {
   sw_system *system = sw_scene_system(s);
   if (sw_scene_pairs(s) || sw_scene_crowd(s) || sw_scene_grains(s)) return 0;
@@ -104,8 +103,9 @@ static int forgets(const sw_scene *s) {
   return 1;
 }
 
-/* Follows the holds in parts that do not depend on the mesh, as long as each leads from one stable
- * equilibrium straight to the next. *done: 1 if all did; else the state is as before. */
+/* Follows the holds in parts whose number does not depend on the mesh, as long as each part leads
+ * from one stable equilibrium directly to the next. *done: 1 if all did; else the state is as
+ * before. */
 static sw_status follow_fast(sw_statics *p, size_t parts, int *done, sw_error *err) {
   sw_tape start = {0};
   const double touched = p->touched;
@@ -129,7 +129,7 @@ static sw_status follow_fast(sw_statics *p, size_t parts, int *done, sw_error *e
   return status;
 }
 
-/* Returns the holds' largest shift; a turn counts as what it does to half a wire [m]. */
+/* Returns the holds' largest shift; a turn counts as the shift of half a wire by it [m]. */
 static double drive_shift(const sw_statics *p) {
   double largest = 0, turn;
   for (size_t k = 0; k < sw_scene_system(p->s)->hold_count; k++)
@@ -137,9 +137,9 @@ static double drive_shift(const sw_statics *p) {
   return largest;
 }
 
-/* Settles at every part of the holds' way. The parts only help convergence: the memory of forces is
- * updated at the last one alone. Where particles of a mesh are further from the axis than its
- * slices from each other, the usual parts may be too wide. */
+/* Settles after every part of the holds' path. The parts only help convergence: the memory of
+ * forces is updated after the last part only. If particles of a mesh are further from the axis than
+ * its slices from each other, the usual parts may be too long. */
 static sw_status follow_holds(sw_statics *p, sw_error *err) {
   size_t parts, more, fewer;
   int done = 0;
@@ -159,12 +159,13 @@ static sw_status follow_holds(sw_statics *p, sw_error *err) {
   return follow_in(p, more, err);
 }
 
-/* Wires that move much further than their holds and obstacles have left one equilibrium for
- * another. */
-static const double JUMP = 4.0;           /* largest shift over the drives' own [-] */
+/* Wires that move much further than their holds and obstacles have jumped to another
+ * equilibrium. */
+static const double JUMP =
+    4.0; /* largest shift over the largest shift of holds and obstacles [-] */
 static const double SMALLEST_JUMP = 0.01; /* of the longest wire [-] */
-/* Wires that move further than this beyond their drives have fallen into nothing. Where rounding is
- * as large as their steps they seem to rest [of the longest wire]. */
+/* Wires that move further than this beyond their holds fall without limit. Where rounding is as
+ * large as their steps they seem to rest [of the longest wire]. */
 static const double FALLEN = 1e3;
 
 double sw_rest_shift_from(const sw_statics *p, const double *before) {
@@ -218,7 +219,7 @@ sw_status sw_scene_rest(sw_scene *s, double since, int *too_far, const sw_settle
   return status;
 }
 
-/* Change of a force that lags, over its limit, that no longer counts [-]. */
+/* A smaller change of a lagging force, over its limit, no longer counts [-]. */
 static const double CAUGHT_UP = 1e-5;
 
 int sw_rest_catch_up(sw_scene *s, int guesses) {
@@ -234,8 +235,8 @@ int sw_rest_catch_up(sw_scene *s, int guesses) {
   return most > CAUGHT_UP;
 }
 
-/* Largest shift into a balance that continuation has found, over the thinnest wire's radius: shifts
- * of 0.2 and 0.3 radii were measured for a soft wire in narrow pads [-]. */
+/* Largest shift into an equilibrium found by continuation, over the thinnest wire's radius. A soft
+ * wire in narrow pads shifted by 0.2 and 0.3 radii [-]. */
 static const double FARTHEST = 0.5;
 
 /* Returns the smallest radius of a wire [m]. */
@@ -255,8 +256,8 @@ sw_status sw_scene_balance(sw_scene *s, double tolerance, long most, sw_error *e
   const double now = sw_scene_time(s);
   const sw_status status = sw_scene_rest(s, now, &too_far, &args, NULL, &report, err);
   if (status != SW_ENOCONV) return status;
-  /* A grip that yields more now than when it was frozen: the wire is a few tenths of its radius
-   * from its equilibrium. */
+  /* The grip is softer now than when it was frozen: the wire is a few tenths of its radius from its
+   * equilibrium. */
   args.stays = 0, args.farthest = FARTHEST * thinnest(s);
   sw_tape before = {0};
   sw_status again = sw_live_take(s, &before);

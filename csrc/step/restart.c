@@ -10,12 +10,12 @@
 
 /* --- jerks ----------------------------------------------------------------------- */
 
-/* Moments at which a drive starts, stops or turns a corner abruptly. The forces of just before act
- * with a velocity that ends then, and must not start the next step: a method that begins with them
- * counts a dashpot's old force for part of the step, an error of first order. */
-static const double BESIDE = 1e-9; /* velocities are compared this long before and after the moment
-                                      [s] */
-/* Smaller changes of velocity are no jump: 10 nm in a step of 10 ms [m/s], [rad/s]. */
+/* A jerk is a moment at which a drive starts, stops or turns a corner abruptly. Forces just before
+ * it belong to a velocity that ends there, and must not start the next step. A method that begins
+ * with them counts a dashpot's old force for part of the step: an error of first order. */
+static const double BESIDE =
+    1e-9; /* velocities are compared this long before and after a jerk [s] */
+/* Smaller changes of velocity are not a jump: 10 nm in a step of 10 ms [m/s], [rad/s]. */
 static const double NO_JUMP = 1e-6;
 
 static int jumps(sw_vec before, sw_vec after, sw_vec rate1, sw_vec rate2) {
@@ -75,8 +75,8 @@ void sw_restart_struck(sw_scene *s, int dull) {
   c->stepper.restart = 1;
 }
 
-/* 1 if the accelerations at the step's end may be those of a shock that is over. The next step
- * starts without them; else it pushes with them for half of it and makes energy. */
+/* 1 if the accelerations at the step's end may come from a shock that is over. The next step then
+ * starts without them; otherwise they would push for half of it and make energy. */
 static int is_shaken(const sw_scene *s) {
   sw_contact *contact = sw_scene_contact(s);
   const sw_stepper *stepper = &sw_scene_course(s)->stepper;

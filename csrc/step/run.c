@@ -25,7 +25,7 @@
 #include "system/system.h"
 #include "watch/observe.h"
 
-/* Sets the time of the next frame after t; frames that steps have passed are left out. */
+/* Sets the time of the next frame after t; skips frames that steps have passed. */
 static void next_frame(sw_scene *s, double every, double t) {
   sw_frames *all = sw_scene_frames_of(s);
   every *= (double)all->stride;
@@ -34,7 +34,7 @@ static void next_frame(sw_scene *s, double every, double t) {
   if (!(all->next > t)) all->next = nextafter(t, HUGE_VAL);
 }
 
-/* Takes a step towards t1, or as long as its error allows, by the run's kind of steps. */
+/* Takes one step of the run's kind towards t1; with a tolerance, as long as its error allows. */
 static sw_status one_step(sw_ladder *p, double t1, double until, sw_error *err) {
   const sw_scene *s = p->s;
   if (!sw_scene_wire_slots(s)) return sw_step_empty(p, t1, err);
@@ -81,7 +81,7 @@ static void conclude(sw_scene *s, sw_status status, sw_run_report *report, const
   report->status = status;
   report->time = sw_scene_time(s);
   if (status == SW_OK || status == SW_EINTR || status == SW_ECALLBACK) return;
-  if (status == SW_EEMPTY) report->reason = *why; /* the state is valid up to here */
+  if (status == SW_EEMPTY) report->reason = *why; /* up to here the state is valid */
   if (status == SW_EEMPTY) return;
   report->status = status == SW_ENOMEM ? SW_ENOMEM : SW_EDIVERGED;
   sw_scene_tell_broken(s, broken, sizeof broken);
@@ -92,7 +92,7 @@ static void conclude(sw_scene *s, sw_status status, sw_run_report *report, const
   sw_scene_diverge(s, &report->reason);
 }
 
-/* Forces on wires record anew what belongs to a run. */
+/* Clears the records that forces on wires keep for one run. */
 static void begin_forces(const sw_scene *s) {
   const sw_system *system = sw_scene_system(s);
   for (size_t w = 0; sw_scene_is_built(s) && w < system->body_count; w++)
@@ -103,7 +103,8 @@ static void begin_forces(const sw_scene *s) {
 sw_status sw_scene_begin_run(sw_scene *s, int wear, sw_error *err) {
   sw_course *course = sw_scene_course(s);
   SW_TRY(sw_scene_editable(s, err));
-  SW_TRY(sw_scene_readable(s, err)); /* a run without steps would not notice */
+  SW_TRY(sw_scene_readable(
+      s, err)); /* a run without steps would not notice a scene that cannot be read */
   sw_scene_reset_extremes(s);
   begin_forces(s);
   sw_scene_set_wears(s, wear);
@@ -113,8 +114,8 @@ sw_status sw_scene_begin_run(sw_scene *s, int wear, sw_error *err) {
   return SW_OK;
 }
 
-/* Slow handling passes through the equilibrium that it starts from: the largest tension and the
- * sharpest bend of two clamps that approach are there. */
+/* Notes the equilibrium from which slow handling starts: two clamps that approach have the largest
+ * tension and the sharpest bend there. */
 static sw_status note_start(sw_scene *s, sw_error *err) {
   sw_wire_extremes now;
   sw_scene_course(s)->span = 0;
@@ -131,7 +132,8 @@ static sw_status prepare(sw_scene *s, const sw_run_args *args, double until, sw_
   SW_TRY(sw_run_check(s, args, err));
   SW_TRY(sw_run_check_clock(s, args, until, err));
   SW_TRY(sw_scene_build(s, err));
-  if (!args->quasistatic) SW_TRY(sw_scene_clear_meshes(s, err)); /* poses come out at once */
+  if (!args->quasistatic)
+    SW_TRY(sw_scene_clear_meshes(s, err)); /* poses leave obstacles in one step */
   SW_TRY(sw_scene_check_step(s, args, until, err));
   SW_TRY(sw_ladder_method(s, args, err));
   sw_scene_course(s)->window = args->window;
@@ -156,7 +158,7 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   if (!p.v_start) return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", sw_scene_name(s));
   sw_scene_enter(s, 1);
   sw_ledger_forget(s);
-  sw_status status = /* energies need this */
+  sw_status status = /* energies need the accelerations */
       sw_system_place_holds(sw_scene_system(s), sw_scene_time(s), NULL, NULL, NULL, &why);
   if (status == SW_OK) sw_system_begin_borne(sw_scene_system(s));
   if (status == SW_OK && isfinite(args->frame) && sw_scene_frames_of(s)->count == 0) {

@@ -5,9 +5,9 @@
 
 #include "step/step.h"
 
-/* Calls the observer if it is due; times that differ by less than slack are the same [s]. */
+/* Calls the observer if it is due; slack: times that differ by less are equal [s]. */
 sw_status sw_scene_look(sw_scene *scene, sw_observer *observer, double slack, sw_error *err);
-/* Call with an accepted state: objects follow it, and records are made of it. */
+/* Call with an accepted state: objects follow it, and it is recorded. */
 sw_status sw_step_observe(sw_scene *scene, sw_error *err);
 
 #endif

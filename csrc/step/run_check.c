@@ -69,8 +69,7 @@ __attribute__((constructor)) static void fill_choices(void) {
     if (run_rows[i].type == SW_PARAM_CHOICE) run_rows[i].choices = integrator_names();
 }
 
-/* SW_EINVAL when the method cannot treat a rail on which a wire slides, which may stick and has
- * ends. */
+/* SW_EINVAL if the method cannot treat a rail with a sliding wire, which may stick and has ends. */
 static sw_status check_rails(const sw_scene *s, const sw_integrator *m, sw_error *err) {
   SW_EACH(hold, h, s) {
     if (!h->alive || !h->cls->hold->rail) continue;
@@ -122,7 +121,7 @@ sw_status sw_run_check(const sw_scene *s, const sw_run_args *args, sw_error *err
   return SW_OK;
 }
 
-/* Spacing of the clock's values at t, over t [-]; a step must be at least TICKS of them. */
+/* Spacing of the clock's values at t, over t [-]. A step must be at least TICKS such spacings. */
 static const double CLOCK = 2.3e-16, TICKS = 64;
 static const double MOST_STEPS = 1e15; /* [-] */
 

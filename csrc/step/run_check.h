@@ -9,13 +9,12 @@
 /* Shorter times count as zero, because their steps would underflow [s]. */
 static const double SW_SHORTEST_STEP = 1e-20;
 
-/* SW_EINVAL: the scene has something that the run's method or kind cannot do. */
+/* SW_EINVAL: the scene has a part that the run's method or kind cannot treat. */
 sw_status sw_run_check(const sw_scene *scene, const sw_run_args *args, sw_error *err);
-/* SW_EINVAL when steps would not add up to the time until `until` [s]. */
+/* SW_EINVAL if dt is so small that the clock would not advance, or not reach `until` [s]. */
 sw_status sw_run_check_clock(const sw_scene *scene, const sw_run_args *args, double until,
                              sw_error *err);
-/* SW_EINVAL when an explicit method would take steps above its stable step on the way to
- * `until`. */
+/* SW_EINVAL if an explicit method would take steps above its stable step before `until`. */
 sw_status sw_scene_check_step(const sw_scene *scene, const sw_run_args *args, double until,
                               sw_error *err);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* scene:settle: the equilibrium where the scene is. */
+/* scene:settle: the equilibrium at the scene's time. */
 #include "body/build.h"
 #include "read/extremes.h"
 #include "save/life.h"
@@ -42,8 +42,8 @@ sw_status sw_scene_held_rest(sw_scene *s, const sw_settle_args *args, int (*inte
   }
 }
 
-/* Finds the equilibrium in which feeds have the forces that they obey. Where there is none, they
- * are held where they were. */
+/* Finds the equilibrium in which feeds have the forces that they obey. If there is none, feeds are
+ * locked where they were. */
 static sw_status settle_feeds(sw_scene *s, const sw_settle_args *args, int (*interrupted)(void),
                               sw_settle_report *report, sw_error *err) {
   sw_snapshot *before = NULL;
@@ -75,8 +75,8 @@ static sw_status settle_once(sw_scene *s, const sw_settle_args *args, int (*inte
   return status;
 }
 
-/* Friction of clips is computed from the push of the state before. The wires come to rest again
- * until the friction belongs to their own push. */
+/* Friction of clips follows from the push in the state before. The wires come to rest again until
+ * friction and push agree. */
 static sw_status settle(sw_scene *s, const sw_settle_args *args, int (*interrupted)(void),
                         sw_settle_report *report, sw_error *err) {
   sw_settle_report sum = {0};

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Feeds that yield to a force. The slipping speed of the wire changes evenly within a step, because
- * a jump of it would be a blow to the wire. Its rate gives the drive the wanted force at the step's
- * end. Regula falsi (false position) finds it, since the force is nearly linear in the rate. With a
- * limit wire slips, like a slipping clutch, until it has the asked speed again. */
+/* Feeds that obey a force. The slipping speed of the wire changes evenly within a step, because a
+ * jump would be a blow. False position finds the rate of this change with which the drive has the
+ * wanted force at the end of the step; the force is nearly linear in the rate. With a limit the
+ * wire slips, as in a slipping clutch, until it has the asked speed again. */
 #include "step/slip.h"
 
 #include <math.h>
@@ -20,11 +20,11 @@
 static const double PRECISION = 1e-7; /* of the force, the wire's weight or EI/L2, whichever is
                                          largest [-] */
 
-/* Positions are rounded to about this share of their size. In a short step the inertia of the node
- * in the guide turns this into a force that no speed can remove [-]. */
+/* Positions have rounding errors of about this share of their size. In a short step the inertia of
+ * the node in the guide turns this into a force that no speed can remove [-]. */
 static const double ROUNDED = 1e-15;
 
-static const double NO_WAY = 1e-13; /* way of the wire in a step that does not count [m] */
+static const double NO_WAY = 1e-13; /* shorter paths of the wire in a step count as none [m] */
 
 sw_slip *sw_slip_of(sw_hold *h) {
   return h->alive && h->cls->hold->slips ? h->cls->hold->slips(h) : NULL;
@@ -62,8 +62,8 @@ static void give_up(sw_scene *s) {
 }
 
 /* Sets the next guess: by false position between a trial with too little force and one with too
- * much, else by the slope known so far. Returns 1 when both are one place: the force jumps there,
- * as in an impact; or, in very short steps, when the next guess is the same place. */
+ * much, else by the slope known so far. Returns 1 if both have met: the force jumps there, as in an
+ * impact. Also returns 1 if the next guess is the same place, as in very short steps. */
 static int improve(sw_slip *f, double off, int first, double mass, double step) {
   sw_bracket *b = &f->found;
   const double before = f->growth;
@@ -76,7 +76,7 @@ static int improve(sw_slip *f, double off, int first, double mass, double step) 
     if (left * step * step < NO_WAY) return 1;
     sw_bracket_weigh(b, side);
     f->slope = sw_bracket_slope(b);
-    /* where a touch opens, the force is thousands of times steeper on one side than on the other */
+    /* the slope at an opening touch is thousands of times steeper on one side than on the other */
     f->growth =
         again && left > 0.5 * width ? 0.5 * (b->tried[0] + b->tried[1]) : sw_bracket_root(b);
     return 0;
@@ -89,7 +89,7 @@ static int improve(sw_slip *f, double off, int first, double mass, double step) 
   return 0;
 }
 
-/* 1 if the slip ends within the step; it then stops with the step. */
+/* 1 if the slip ends within the step; the slip then ends with the step. */
 static int stops(sw_slip *f, double h) {
   if (isfinite(f->push) || f->way_before == 0) return 0;
   if ((f->speed + f->growth * h) * f->way <= 0) return 0;
@@ -104,7 +104,7 @@ double sw_slip_scale(const sw_scene *s, const sw_hold *h, double want) {
   return fmax(fabs(want), fmax(weight, p->beam.EI / (L * L)));
 }
 
-/* Returns how far the drive's force may be off [N]. */
+/* Returns the allowed deviation of the drive's force [N]. */
 static double allowed(const sw_scene *s, const sw_hold *h, const double *x, double want,
                       double step) {
   const sw_body *b = &sw_scene_system(s)->bodies[h->wire];
@@ -114,7 +114,7 @@ static double allowed(const sw_scene *s, const sw_hold *h, const double *x, doub
   return fmax(PRECISION * sw_slip_scale(s, h, want), rounded);
 }
 
-/* Returns the force with which the drive moves wire that slips [N]. */
+/* Returns the drive's force on slipping wire [N]. */
 static double asked(const sw_slip *f) {
   return isfinite(f->push) ? f->push : copysign(f->limit, f->way);
 }
@@ -127,7 +127,8 @@ static int correct_slip(sw_scene *s, sw_hold *h, sw_slip *f, double step, int fi
   f->off = 0;
   f->evened = now.obeys == now.force && now.force != now.stage;
   if (!isfinite(f->push) && f->way == 0) {
-    if (f->way_before != 0 || fabs(drive) <= f->limit) return 1; /* it stopped, or it holds */
+    if (f->way_before != 0 || fabs(drive) <= f->limit)
+      return 1; /* the slip has stopped, or the drive holds */
     f->way = copysign(1.0, drive);
   }
   const double want = asked(f), off = drive - want;
@@ -148,12 +149,13 @@ static int correct(sw_scene *s, double h, int first) {
 
 /* --- where it cannot obey --------------------------------------------------------- */
 
-/* Deviations that are told. JUMPED: of the force that the drive obeys, over the precision with
- * which it is searched for. READ: of the force that is read out, over what forces are compared
- * with. They differ in a blow; the first step of a run begins abruptly and is none [-]. */
+/* Deviations that are reported. JUMPED: deviation of the force that the drive obeys, over the
+ * precision of the search. READ: deviation of the force that is read out, over the scale of forces.
+ * The two differ in a blow. The first step of a run begins abruptly and does not count [-]. */
 static const double JUMPED = 100.0, READ = 0.01;
 
-/* Returns the deviation of the force after a step of size h, if it is to be told; else 0 [N]. */
+/* Returns the deviation of the force after a step of size h if it has to be reported; else 0
+ * [N]. */
 static double disobeys(const sw_scene *s, const sw_hold *h, const sw_slip *f, double want,
                        double step) {
   const double drive = h->feed.guide.drive, scale = sw_slip_scale(s, h, want);
@@ -172,7 +174,8 @@ void sw_slip_tell(sw_scene *s, double step) {
     const double want = isfinite(f->push) ? f->push : copysign(f->limit, f->way ? f->way : drive);
     const double off = disobeys(s, h, f, want, step);
     if (off == 0) continue;
-    sw_events_go_on(sw_scene_events_of(s), "jump", h->name, sw_scene_time(s)); /* one in a run */
+    sw_events_go_on(sw_scene_events_of(s), "jump", h->name,
+                    sw_scene_time(s)); /* one event in a run */
     sw_scene_tell(s, "jump", h->name, h->s1 - wire->mesh.s[0], off,
                   "feed '%s' of wire '%s': the drive's force is %.6g N at t = %.6g s "
                   "instead of %.6g N: it jumps there, by a blow or a touch that opens or "

@@ -10,11 +10,11 @@
 int sw_slip_any(const sw_scene *scene);
 /* Returns the slip of a hold that yields, or NULL. */
 sw_slip *sw_slip_of(sw_hold *hold);
-/* Returns what forces of a hold are compared with: the wanted one, the wire's weight or EI/L2 [N].
- */
+/* Returns the scale for deviations of a hold's force: the wanted force, the wire's weight or EI/L2
+ * [N]. */
 double sw_slip_scale(const sw_scene *scene, const sw_hold *hold, double want);
-/* Tells of feeds whose observed force at the end of a step of this size is not the one that they
- * obey [s]. */
+/* Logs an event for each feed whose recorded force at the end of a step of this size is not the one
+ * that it obeys [s]. */
 void sw_slip_tell(sw_scene *scene, double step);
 
 #endif

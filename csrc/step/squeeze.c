@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Equilibria between jaws that obey a force, repeated with other openings until the force is as
+/* Equilibria between jaws that obey a force: repeated with other openings until the force is as
  * wanted. */
 #include <math.h>
 
@@ -42,7 +42,7 @@ static sw_status try(poser *p, double since, int *too_far, sw_error *err) {
   return SW_OK;
 }
 
-/* Repeats the nearest trial, because the last one did not come to rest. */
+/* Repeats the trial that came nearest, because the last one did not come to rest. */
 static sw_status fall_back(poser *p, double since, sw_error *err) {
   SW_TRY(sw_live_back(p->s, &p->start, err));
   for (size_t k = 0; k < sw_scene_tool_slots(p->s); k++)
@@ -50,8 +50,8 @@ static sw_status fall_back(poser *p, double since, sw_error *err) {
   return try(p, since, NULL, err);
 }
 
-/* Finds one equilibrium after another, all from one start, until the jaws have the wanted forces or
- * cannot have them. On failure the scene is as at that start. */
+/* Finds equilibria, all from one start, until the jaws have the wanted forces or cannot have them.
+ * If it fails, the scene is at that start. */
 static sw_status search(poser *p, double since, int *too_far, sw_error *err) {
   sw_error why;
   p->nearest = HUGE_VAL;
@@ -68,8 +68,8 @@ static sw_status search(poser *p, double since, int *too_far, sw_error *err) {
   }
 }
 
-/* Where the force jumped, searches on from there. The equilibrium stays valid if this finds
- * nothing. */
+/* Searches on from the place where the force jumped. If that finds nothing, the equilibrium
+ * stays. */
 static sw_status search_on(poser *p, sw_error *err) {
   for (int round = 1; round < MOST_ROUNDS && sw_jaw_again(p->s); round++) {
     sw_tape_free(&p->start);

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Data and functions that the search for an equilibrium shares. Of rest.c and equilibrium.c
- * only. */
+/* Data and functions of the search for an equilibrium. Used only by rest.c and equilibrium.c. */
 #ifndef SW_STEP_STATICS_H
 #define SW_STEP_STATICS_H
 
@@ -15,20 +14,21 @@ typedef struct sw_statics {
   const sw_settle_args *args;
   sw_settle_report *report;
   int (*interrupted)(void);
-  int rests;      /* 1: the search began in equilibrium, but for what moves in this pose */
+  int rests;      /* 1: the search began in equilibrium, except for the motions of this pose */
   int most_far;   /* see sw_newton */
-  double passing; /* accuracy on the holds' way: largest shift of a node, over an edge [-] */
+  double passing; /* accuracy before the last part of the holds' path: largest shift of a node, over
+                     an edge [-] */
   double edge;    /* length of the shortest edge [m] */
   double touched; /* time up to which contact has followed the obstacles [s] */
   int *too_far;   /* see sw_scene_rest; or NULL */
   double *zero, *from, *y, *v; /* (freedoms) */
   double *way;                 /* (freedoms) last step of continuation */
   double *tension;             /* (edges) at the start of an attempt */
-  double *kept, *begun;        /* (state) put aside; at the start of settling */
+  double *kept, *begun;        /* a stored state; the state at the beginning of the search */
   sw_pose *from_poses;         /* (holds) poses of the holds at the start */
 } sw_statics;
 
-/* Puts the state aside during a solve, and takes it back. */
+/* Stores the state during a solve, and restores it. */
 static inline void sw_rest_put_aside(const sw_scene *s, double *kept) {
   memcpy(kept, sw_scene_system(s)->state, sw_scene_system(s)->state_size * sizeof(double));
 }
@@ -42,19 +42,19 @@ enum { SW_REST_ITERATIONS = 60 }; /* usual limit of Newton iterations [-] */
 double sw_rest_longest(const sw_scene *scene);
 /* Returns the largest distance of a node from its place in an earlier state [m]. */
 double sw_rest_shift_from(const sw_statics *p, const double *before);
-/* 1 for errors that another way to the equilibrium cannot avoid. */
+/* 1 for errors that no other search can avoid. */
 int sw_rest_stops(sw_status status);
-/* Finds the equilibrium by Newton's iteration alone, from the present state; it becomes the state.
+/* Finds the equilibrium from the present state by Newton's iteration alone; it becomes the state.
  * report->negative: its number of unstable directions. */
 sw_status sw_rest_newton(sw_statics *p, int iterations, sw_error *err);
 /* Finds the equilibrium from the present state, by Newton's iteration or by continuation. */
 sw_status sw_rest_find(sw_statics *p, sw_error *err);
-/* Finds the equilibrium by continuation, which follows the way that the wires would take. */
+/* Finds the equilibrium by continuation, which follows the path that the wires would take. */
 sw_status sw_rest_continue(sw_statics *p, sw_error *err);
-/* Takes a few short steps towards the equilibrium, after which all stiff modes are at rest. */
+/* Takes a few short steps towards the equilibrium, which bring all stiff modes to rest. */
 sw_status sw_rest_relax(sw_statics *p, sw_error *err);
-/* Brings wires that do not rest where a pose begins to rest before obstacles move on; *fell is then
- * 1. */
+/* Brings wires to rest before obstacles move, if they do not rest at the start of a pose; *fell is
+ * then 1. */
 sw_status sw_rest_before(sw_statics *p, int *fell, sw_error *err);
 
 #endif

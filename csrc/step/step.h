@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Advances a scene: steps of motion up to a time, equilibria at rest, and poses from one
- * equilibrium to the next. stages.def lists what happens in which order. */
+/* Advances a scene: steps of motion up to a time, equilibria, and poses from one equilibrium to the
+ * next. stages.def lists the stages of each in their order. */
 #ifndef SW_STEP_STEP_H
 #define SW_STEP_STEP_H
 
@@ -16,7 +16,7 @@ typedef struct sw_run_args {
   double frame;     /* time between stored frames; NAN = none [s] */
   int quasistatic;  /* 1: equilibrium at every step's end instead of motion */
   long max_steps;   /* stop after this many steps [-] */
-  double window;    /* peaks are of means over this time; 0: of values of single steps [s] */
+  double window;    /* peaks are of means over this time; 0: of single steps [s] */
   int unstable;     /* 1: an explicit method may take steps above its stable step */
   int parts;        /* 1: steps too coarse for the motion of the wires are divided */
   int wear;         /* 1: wear of wires is recorded; passed on when the run begins */
@@ -40,10 +40,10 @@ typedef struct sw_run_report {
   double smallest_dt; /* [s] */
   size_t jumps;       /* quasi-static steps in which wires jumped [-] */
   double last_jump;   /* time of the last jump [s] */
-  sw_error reason;    /* why it stopped, when not SW_OK */
+  sw_error reason;    /* why the run stopped, unless status is SW_OK */
 } sw_run_report;
 
-/* An observer looks at the scene between two steps. It may read the scene, but not change it. */
+/* An observer reads the scene between two steps. It must not change it. */
 typedef struct sw_observer {
   double at;   /* due at the end of the first step that reaches this time [s] */
   double wall; /* or once sw_wall_clock() reaches this [s] */
@@ -56,9 +56,9 @@ typedef struct sw_observer {
 /* Returns the time of a monotonic clock [s]. */
 double sw_wall_clock(void);
 
-/* Advances to time until. interrupted (may be NULL) is polled between steps; observer may be NULL.
- * A divergence is told in the report and the function returns SW_OK. A returned error means that
- * nothing was done. */
+/* Advances to the time `until`. interrupted (may be NULL) is polled between steps; observer may be
+ * NULL. After a divergence the function returns SW_OK and the report tells it. A returned error
+ * means that nothing was done. */
 sw_status sw_scene_advance(sw_scene *scene, const sw_run_args *args, double until,
                            int (*interrupted)(void), sw_observer *observer, sw_run_report *report,
                            sw_error *err);
@@ -66,12 +66,12 @@ sw_status sw_scene_advance(sw_scene *scene, const sw_run_args *args, double unti
 typedef struct sw_settle_args {
   double tolerance;    /* largest node shift of the last iteration [m] */
   long max_iterations; /* [-] */
-  int stays;   /* 1: the search goes nowhere if there is no equilibrium near by, because a shorter
-                  way may have one */
-  int relaxes; /* 1: stiff modes come to rest first, and stay so if the full equilibrium is not
+  int stays;   /* 1: give up if there is no equilibrium near by, because a shorter path may have one
+                */
+  int relaxes; /* 1: stiff modes come to rest first, and keep that if the full equilibrium is not
                   found */
-  int poses;   /* 1: one of many equilibria, between which jaws need not be exact */
-  double farthest; /* largest shift of a node that counts as coming to rest; 0: any [m] */
+  int poses;   /* 1: one of many poses, between which jaws need not be exact */
+  double farthest; /* largest allowed shift of a node on the way to rest; 0: any [m] */
 } sw_settle_args;
 extern const sw_params sw_settle_params;
 
@@ -80,17 +80,17 @@ typedef struct sw_settle_report {
   size_t iterations; /* matrix solves [-] */
   size_t negative;   /* unstable directions of the equilibrium found [-] */
   int transient;     /* 1: pseudo-transient continuation was needed */
-  int relaxed;       /* 1: stiff modes are at rest, even if nothing else is */
+  int relaxed;       /* 1: stiff modes are at rest, even if slow ones are not */
   double residual;   /* largest node shift of the last iteration [m] */
-  int jumped;        /* 1: the wires moved much further than their drives */
+  int jumped;        /* 1: the wires moved much further than their holds and obstacles */
   sw_error reason;
 } sw_settle_report;
 
 sw_status sw_scene_settle(sw_scene *scene, const sw_settle_args *args, int (*interrupted)(void),
                           sw_settle_report *report, sw_error *err);
 
-/* Brings the built scene to rest where it is, without events or records. On failure the scene is as
- * before. */
+/* Brings the built scene to rest at its time, without events or records. If it fails, the scene is
+ * as before. */
 sw_status sw_scene_balance(sw_scene *scene, double tolerance, long most, sw_error *err);
 
 /* Largest stable step of leapfrog [s]. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Steps in which a drive comes to rest while wires slide. Also steps that end early, because the
- * velocity of a drive jumps or because a drive comes to rest in this way. */
+/* Steps in which a drive comes to rest while wires slide, and steps that end early because a drive
+ * comes to rest in this way or because its velocity jumps. */
 #include "step/stop.h"
 
 #include <math.h>
@@ -20,14 +20,14 @@
 
 /* A drive that is slower than this rests [m/s], [rad/s]. */
 static const double STILL = 1e-9;
-/* A touch that goes less in a step does not slide [m]. */
+/* A touch that moves less in a step does not slide [m]. */
 static const double SLID = 1e-9;
-static const double ROUNDING = 1e-12; /* of places and turns [m], [rad] */
-/* A drive that stops softly goes at most this share of its speed times the step: 1/2 with an even
- * deceleration, 1/3 with minimum jerk; 1 if it stops at once [-]. */
+static const double ROUNDING = 1e-12; /* of places and angles [m], [rad] */
+/* A drive that stops softly moves by at most this share of its speed times the step: 1/2 with an
+ * even deceleration, 1/3 with minimum jerk, 1 if it stops at once [-]. */
 static const double SOFTLY = 0.75;
-/* A drive stops nearly if it is this much slower at the step's end than at its start. The error of
- * tr-bdf2 turns the velocity of what it pushes to the other side below 0.07 [-]. */
+/* A drive nearly stops if its speed at the end of the step is below this share of that at the
+ * start. Below 0.07 the error of tr-bdf2 reverses the velocity of pushed wires [-]. */
 static const double NEARLY = 0.15;
 
 sw_status sw_stop_eval(const sw_motion *m, double t, sw_motion_state *out, sw_error *err) {
@@ -40,8 +40,8 @@ sw_status sw_stop_eval(const sw_motion *m, double t, sw_motion_state *out, sw_er
 double sw_stop_speed(const sw_motion_state *m) { return sw_norm(m->v) + sw_norm(m->omega); }
 static double rate(const sw_motion_state *m) { return sw_norm(m->a) + sw_norm(m->alpha); }
 
-/* An even deceleration is this share of its mean over a step, or more, at the step's end; that of
- * minimum jerk is at most 0.56 where the drive stops nearly [-]. */
+/* The deceleration at the end of a step, over its mean in the step, is at least this if it is even;
+ * with minimum jerk it is at most 0.56 where the drive nearly stops [-]. */
 static const double EVENLY = 0.75;
 
 static int is_even(const sw_motion_state *now, const sw_motion_state *end, double h) {
@@ -54,8 +54,8 @@ static int goes_softly(const sw_motion_state *before, const sw_motion_state *end
          sw_norm(sw_quat_log(turn)) <= SOFTLY * h * sw_norm(before->omega) + ROUNDING;
 }
 
-/* *at: 0 if the motion comes softly to rest, or nearly, from t to t + h, or did in the step before
- * [s]. */
+/* *at: 0 if the motion stops softly, or nearly stops, between t and t + h, or did in the step
+ * before [s]. */
 static sw_status stop_of(const sw_motion *m, double t, double h, double *at, sw_error *err) {
   sw_motion_state end, now, before;
   SW_TRY(sw_stop_eval(m, t + h, &end, err));
@@ -75,25 +75,26 @@ static sw_status stop_of(const sw_motion *m, double t, double h, double *at, sw_
   return SW_OK;
 }
 
-/* A drive stops with a deceleration if that at the end is this share of the mean one [-]. */
+/* A drive stops with a deceleration if its last deceleration is at least this share of the mean
+ * [-]. */
 static const double DECELERATES = 0.1;
-/* A stop this near to the start or end of a step counts as there; share of the step. Of a function
- * also one this near to its start; share of the step of its differences. A shorter part would
+/* Stops this near to the start or end of a step count as there; share of the step. For functions
+ * also stops this near to the start; share of the step of their differences. A shorter part would
  * divide their error by its length [-]. */
 static const double NEAR = 1e-3, NEAR_OF_FUNCTION = 0.2;
-/* A stop this near to the end of a step is there; share of the step. Further away, a step that goes
- * on would turn the velocity round. In short parts it is there if it is as near as in steps of 10
- * ms: what is left would be no part [-], [s]. */
+/* A stop this near to the end of a step is at its end; share of the step. If it is further away, a
+ * step that goes past it would reverse the velocity. CLOSE is the same for short parts, as near as
+ * in steps of 10 ms: a remainder that short is not a part [-], [s]. */
 static const double END = 2e-6, CLOSE = 2e-8;
 
 double sw_stop_before_end(double h) { return h - fmax(END * h, fmin(CLOSE, NEAR * h)); }
 enum { HALVINGS = 60 }; /* of the time in which a drive comes to rest */
 
-/* Of a function, whose rates are differences, its speed near the stop is asked for: at the last of
- * the time it is 0.1 of that at the start if the deceleration is even, 0.01 with minimum jerk, and
- * nearly that at the stop itself if the velocity jumps to 0 there [-]. */
+/* Rates of a function are differences, so its speed is evaluated near the stop, at the last share
+ * LAST of the time. Over the speed at the start it is 0.1 if the deceleration is even, 0.01 with
+ * minimum jerk, and nearly that at the stop itself if the velocity jumps to 0 there [-]. */
 static const double LAST = 0.1, SLOWED = 0.03, AT_ONCE = 0.5;
-/* For that the stop must be this many steps of the differences away [-]. */
+/* For this the stop must be this many difference steps away [-]. */
 static const double STEPS = 20;
 /* If it is nearer, its poses are asked for. In the last half of the time it goes 1/4 of the way if
  * the deceleration is even, 1/8 with minimum jerk, 1/2 if it stops at once [-]. */
@@ -123,7 +124,7 @@ static sw_status function_decelerates(const sw_motion *m, double t, double moves
   return SW_OK;
 }
 
-/* *yes: 1 if a motion that rests from t + rests on decelerates until then. */
+/* *yes: 1 if a motion that rests after t + rests decelerates until then. */
 static sw_status decelerates(const sw_motion *m, double t, double moves, double rests, double from,
                              int *yes, sw_error *err) {
   sw_motion_state end;
@@ -168,10 +169,10 @@ static sw_status halt_of(const sw_motion *m, double t, double h, double *at, sw_
 
 /* Smaller changes of velocity are no jump [m/s], [rad/s]. */
 static const double NO_JUMP = 1e-6;
-/* A jump is found to this, and one this near to a step's start is there [s]. */
+/* Accuracy of the time of a jump; a jump this near to a step's start is at the start [s]. */
 static const double FOUND = 1e-9;
 
-/* 1 if the velocity changes more between two times than accelerations explain. */
+/* 1 if the velocity changes between two times by more than accelerations explain. */
 static int jumps(const sw_motion_state *a, const sw_motion_state *b, double h) {
   const double explained = 2.0 * h * (rate(a) + rate(b));
   return sw_dist(a->v, b->v) + sw_dist(a->omega, b->omega) > NO_JUMP + explained;
@@ -200,7 +201,7 @@ static sw_status jump_of(const sw_motion *m, double t, double h, double *at, sw_
   return SW_OK;
 }
 
-/* Sets *at to the motion's time, if that is sooner. */
+/* Sets *at to the time found for this motion, if it is earlier. */
 static sw_status ask(const sw_motion *m, double t, double h, sw_asked which, sw_when of, double *at,
                      sw_error *err) {
   double own = HUGE_VAL;
@@ -251,7 +252,7 @@ int sw_drives_slide(const sw_scene *s, double travel, double way) {
 
 static int any_slides(const sw_scene *s) { return sw_drives_slide(s, HUGE_VAL, HUGE_VAL); }
 
-/* *at: 0 if the velocity of a function may jump. */
+/* *at: 0 if the velocity of a function may jump within the step. */
 static sw_status rough_of(const sw_motion *m, double t, double h, double *at, sw_error *err) {
   int smooth;
   SW_TRY(sw_motion_smooth(m, t, h, &smooth, err));
@@ -265,7 +266,7 @@ sw_status sw_stop_any(const sw_motion *m, double t, double h, double *at, sw_err
   return SW_OK;
 }
 
-/* The same while wires slide. */
+/* As sw_drives_first, only while wires slide. */
 static sw_status while_sliding(const sw_scene *s, double h, sw_when of, double *at, sw_error *err) {
   double any, later;
   SW_TRY(sw_drives_first(s, h, SW_LAWS, of, at, err));
@@ -292,15 +293,16 @@ sw_status sw_restart_until_break(sw_scene *s, double *h, sw_error *err) {
 
 /* --- a stop at once ------------------------------------------------------------------- */
 
-/* Wires that slide with a drive that stops at once run on: waves of push and pull run along them,
- * friction turns round, and at rest it keeps what is left: in a stiff cable all of the push, mu m
- * g. Whole steps of 5 to 20 ms left 0.45 to 0.95 of that. Parts up to SW_STOPS leave it within a
- * hundredth, of steps of 20 ms within 0.06; those of 2 ms do so for stiff cables only. Parts go on
- * until no wire slides, for FOLLOWED at most and LEAST at least: after 20 ms a rubber wire (3 MPa)
- * still swings (spec/contact/stop_at_once_spec) [s]. */
+/* Wires that slide with a drive that stops at once slide on. Waves of push and pull run along them,
+ * friction changes its direction, and at rest it keeps what remains: in a stiff cable all of the
+ * push, mu m g. Whole steps of 5 to 20 ms left 0.45 to 0.95 of that. Parts up to SW_STOPS give it
+ * within 0.01, in steps of 20 ms within 0.06; parts of 2 ms do so for stiff cables only. Parts stay
+ * short until no wire slides, at most for FOLLOWED and at least for LEAST: after 20 ms a rubber
+ * wire (3 MPa) still swings (spec/contact/stop_at_once_spec) [s]. */
 static const double FOLLOWED = 5e-2, LEAST = 1e-2;
-/* The stop may be so far from the start of a part, and is not asked for nearer to one: jumps that
- * near to the end of a part do not end it; share of the step [s], [-]. */
+/* Distance of the evaluations from a stop. A stop may be this far from the start of a part, because
+ * jumps nearer than this to the end of a part do not end it; share of the step for functions [s],
+ * [-]. */
 static const double ASIDE = 2e-9, ASIDE_OF_FUNCTION = 1.0 / 100;
 
 /* *at: 0 if the motion stops at once at t, in steps of h. */
@@ -309,7 +311,9 @@ static sw_status stop_at_once(const sw_motion *m, double t, double h, double *at
   const double after = function ? ASIDE_OF_FUNCTION * h + sw_motion_step(m) : ASIDE;
   const double before = function ? after : ASIDE + NEAR * h;
   sw_motion_state was, is;
-  SW_TRY(sw_stop_eval(m, t + after, &is, err)); /* first: wires slide while drives move, mostly */
+  SW_TRY(sw_stop_eval(
+      m, t + after, &is,
+      err)); /* first, because it usually decides: while wires slide, most drives move */
   if (!(sw_stop_speed(&is) < STILL)) return SW_OK;
   SW_TRY(sw_stop_eval(m, t - before, &was, err));
   if (sw_stop_speed(&was) > SW_CREEPS && jumps(&was, &is, before + after)) *at = 0;

@@ -6,11 +6,12 @@
 #include "motion/motion.h"
 #include "scene/parts.h"
 
-/* Parts near a stop are this long [s]. A slower drive does not throw wires [m/s], [rad/s]. */
+/* Length of parts near a stop [s]. A drive slower than SW_CREEPS does not throw wires [m/s],
+ * [rad/s]. */
 #define SW_STOPS 5e-4
 #define SW_CREEPS 1e-3
 
-/* Evaluates a motion just after t. The velocity of a function is a difference over the time before
+/* Evaluates a motion just after t. For a function the velocity is a difference over times before
  * and after. */
 sw_status sw_stop_eval(const sw_motion *motion, double t, sw_motion_state *out, sw_error *err);
 double sw_stop_speed(const sw_motion_state *state); /* [m/s] and [rad/s] together */
@@ -28,26 +29,26 @@ double sw_stop_before_end(double h);
 /* Sets *at to a time after t, up to h, if there is one [s]. */
 typedef sw_status (*sw_when)(const sw_motion *motion, double t, double h, double *at,
                              sw_error *err);
-/* For the question whether there is any such drive: *at is 0. */
+/* Sets *at to 0. For the question whether there is any such drive. */
 sw_status sw_stop_any(const sw_motion *motion, double t, double h, double *at, sw_error *err);
-/* Which drives are asked: functions of a script are slow, and only asked for stops while wires
+/* Which drives are searched. Functions of a script are slow; they are searched only while wires
  * slide. */
 typedef enum sw_asked { SW_LAWS, SW_FUNCTIONS, SW_ALL_DRIVES } sw_asked;
-/* Sets *at to the first time of all drives; HUGE_VAL: there is none [s]. */
+/* Sets *at to the earliest time of all drives; HUGE_VAL: there is none [s]. */
 sw_status sw_drives_first(const sw_scene *scene, double h, sw_asked which, sw_when of, double *at,
                           sw_error *err);
-/* 1 if a touch slides that has slid less than `way` on an obstacle since it began to press;
- * HUGE_VAL: also wires on wires [m]. travel: only those of lines along which waves travel in less;
- * HUGE_VAL: of all wires [s]. */
+/* 1 if a touch slides. way: only touches that have slid less than this on an obstacle since they
+ * began to press; HUGE_VAL: also wires on wires [m]. travel: only lines along which waves travel in
+ * less time; HUGE_VAL: all wires [s]. */
 int sw_drives_slide(const sw_scene *scene, double travel, double way);
-/* 1 if it is a line along which waves travel in less than `most` [s]. Lines with less than
- * SW_STOP_TRAVEL are stiff [s]. */
+/* 1 for a line along which waves travel in less than `most` [s]. Below SW_STOP_TRAVEL a line is
+ * stiff [s]. */
 #define SW_STOP_TRAVEL 1e-3
 struct sw_body;
 int sw_stop_is_stiff(const struct sw_body *body, double most);
 
-/* A drive stops at once: notes the stiff lines that slide along themselves. sw_stop_tell, before
- * each part: tells those that do not keep their friction (step/left.c). */
+/* sw_stop_note, when a drive stops at once: notes the stiff lines that slide along themselves.
+ * sw_stop_tell, before each part: reports those that do not keep their friction (step/left.c). */
 void sw_stop_note(sw_scene *scene);
 void sw_stop_tell(sw_scene *scene);
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Work of holds, feeds and moving obstacles over a step: force times way and moment times turn. For
- * holds and obstacles it comes from their impulse on the wire in the step, if the method gives it,
- * because stages may be off at the step's ends. Otherwise it is the trapezoid of the ends. */
+/* Work of holds, feeds and moving obstacles over a step: force times path, and moment times angle.
+ * For holds and obstacles it is computed from their impulse on the wire in the step, if the method
+ * gives it, because stages may be off at the step's ends. Otherwise by the trapezoid rule from the
+ * ends. */
 #include <math.h>
 
 #include "base/alloc.h"
@@ -15,7 +16,7 @@
 #include "step/energy.h"
 #include "system/system.h"
 
-/* Work over a step, and the largest by the forces at either end alone. */
+/* Work over a step, and the largest work with the force at either end alone. */
 typedef struct bounds {
   double mean, most; /* [J] */
 } bounds;
@@ -30,8 +31,8 @@ static int same_pose(const sw_pose *a, const sw_pose *b) {
          a->q.z == b->q.z;
 }
 
-/* Returns the work of force and moment about the pose's place, from the noted pose to the present
- * one. */
+/* Returns the work of force and moment from the noted pose to the present one. The moment is about
+ * the pose's place. */
 static bounds work_of(const sw_worker *from, const sw_pose *to, sw_vec force, sw_vec moment,
                       int changed) {
   const sw_vec way = sw_sub(to->p, from->pose.p);
@@ -41,9 +42,9 @@ static bounds work_of(const sw_worker *from, const sw_pose *to, sw_vec force, sw
 }
 
 /* Replaces the mean by that of the impulses in a step of size h. In a calm step it is also the
- * least bound: axial forces swing from step to step, and those at the ends are not those of the
- * step. Where something strikes, the bound stays that of the ends: the impulse is far above their
- * forces, but its work is not along the way. */
+ * smallest bound: axial forces swing from step to step, and those at the ends are not those within
+ * the step. At a strike the bound of the ends stays: the impulse is far above their forces, but
+ * does no work along the path. */
 static bounds by_impulse(bounds b, const sw_worker *from, const sw_pose *to, sw_vec force,
                          sw_vec moment, double h, int calm) {
   b.mean = work_of(from, to, sw_scale(force, 1.0 / h), sw_scale(moment, 1.0 / h), 1).mean;
@@ -51,8 +52,8 @@ static bounds by_impulse(bounds b, const sw_worker *from, const sw_pose *to, sw_
   return b;
 }
 
-/* Returns the energy of the wire that a feed has let in from a spool: of its speed and its height.
- * In mid-wire it comes from the other side. */
+/* Returns the energy of wire that a feed has let in from a spool: kinetic energy and height. Wire
+ * fed at mid-wire comes from the other side and brings none. */
 static double brought(sw_scene *s, size_t k, double length) {
   const sw_hold *h = sw_scene_held_by(s, k);
   const sw_scene_wire *wire = sw_scene_wire_in(s, h->wire);
@@ -64,9 +65,8 @@ static double brought(sw_scene *s, size_t k, double length) {
   return 0.5 * mass * sw_norm2(at->v) + height;
 }
 
-/* Returns the drive's mean force in a step of size h from the hold's impulse. The guide walls'
- * share of it hardly changes in a step; where the guide turns, the direction is that in the middle
- * of the step. */
+/* Returns the drive's mean force in a step of size h, from the hold's impulse. The share of the
+ * guide walls hardly changes in a step; in a turning guide the direction is that at mid-step. */
 static double mean_drive(sw_scene *s, size_t k, const sw_hold_way *now, double h) {
   sw_system *system = sw_scene_system(s);
   const sw_hold_sums *sums = &sw_scene_held_by(s, k)->sums;
@@ -82,8 +82,8 @@ static double mean_drive(sw_scene *s, size_t k, const sw_hold_way *now, double h
   return axial - 0.5 * axial * axial / (axial > 0 ? b->EA_push : b->EA) - walls;
 }
 
-/* 1 if a drive slips at its limit in the step: the wire's speed jumps then, and the impulse with
- * it. A drive that pushes with a force is moved by that force. */
+/* 1 if a drive slips at its limit in the step: the wire's speed and the impulse jump then. A drive
+ * that pushes with a force moves with that force. */
 static int slips_off(const sw_hold *h, const sw_hold_way *now, const sw_worker *from) {
   return now->slipped != from->slipped && !isfinite(h->feed.slip.push);
 }
@@ -109,7 +109,7 @@ double sw_ledger_effort(const sw_step_energy *step) {
          fabs(step->forces) + step->slipping;
 }
 
-/* Adds the loss by friction on a rail. */
+/* Adds the friction loss on a rail. */
 static void rub_on_rail(sw_scene *s, size_t k) {
   sw_books *b = sw_scene_books(s);
   sw_system *system = sw_scene_system(s);
@@ -126,11 +126,12 @@ static sw_vec held_place(sw_scene *s, size_t k) {
   return sw_vec_at(system->x, system->bodies[h->wire].first_node + h->node);
 }
 
-/* Impacts that take a smaller share of the kinetic energy are no blow, such as that of an edge that
- * slides onto a peg [-]. */
+/* Impacts that take a smaller share of the kinetic energy are not a blow, for example of an edge
+ * that slides onto a peg [-]. */
 static const double NO_BLOW = 1e-3;
 
-/* 1 if nothing strikes in the step, or the force at its start is not known (changed). */
+/* 1 if nothing strikes in the step. changed: the force at its start is not known, which counts as
+ * calm. */
 static int calm(sw_scene *s, int changed) {
   const sw_books *b = sw_scene_books(s);
   return changed ||
@@ -148,7 +149,7 @@ static bounds work_of_hold(sw_scene *s, size_t k, double h, int changed) {
   bounds b = work_of(from, to, force, moment, changed || system->loads_kept);
   if (!sums->known || !(h > 0)) return b;
   sw_vec gained = sums->moment[sums->last];
-  if (sw_scene_held_by(s, k)->cls->hold->rail) /* booked about the wire's place */
+  if (sw_scene_held_by(s, k)->cls->hold->rail) /* a rail is booked about the wire's place */
     gained = sw_add(gained, sw_cross(sw_sub(held_place(s, k), to->p), sums->force[sums->last]));
   return by_impulse(b, from, to, sums->force[sums->last], gained, h, calm(s, changed));
 }
@@ -238,7 +239,7 @@ static void note_obstacle(sw_scene *s, size_t k) {
   w->force = sw_neg(w->force), w->moment = sw_neg(w->moment);
 }
 
-/* Returns a rail's moment about the pose: it is kept about the place on the rail. */
+/* Returns a rail's moment about the pose; it is stored about the place on the rail. */
 static sw_vec moment_of_rail(const sw_rail *rail, const sw_pose *pose, sw_vec force) {
   sw_rail_point on;
   rail->at(rail->curve, rail->p, &on);

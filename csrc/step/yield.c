@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Equilibria with feeds that obey a force: each feed pays wire out or draws it in until it has this
- * force. More wire means less tension, so false position finds the length. All trials of a round
- * begin with the same state, because friction remembers the way. A round changes the length by at
- * most part of an edge; then nodes come or go, and the next round begins. A wire that hangs free
- * has more tension with more wire. There the drive goes on in the direction of its surplus, as it
- * would in motion, up to the next stable place. If there is none, the feed is held where it was,
- * and an event says so. */
+ * force. False position finds the length, because more wire usually means less tension. All trials
+ * of a round begin with the same state, because friction depends on history. A round changes the
+ * length by at most part of an edge; then nodes come or go, and the next round begins. A free
+ * hanging wire has more tension with more wire. Its drive then goes on in the direction of its
+ * surplus, as it would in motion, up to the next stable place. If there is none, the feed is locked
+ * where it was, and an event says so. */
 #include <math.h>
 
 #include "base/alloc.h"
@@ -25,31 +25,30 @@
 static const double PRECISION = 1e-5; /* of the force, as in step/slip.c but at rest [-] */
 static const double RANGE = 0.2;      /* most wire in one round, over an edge [-] */
 static const double FIRST = 1e-3;     /* least wire in the first trial, over an edge [-] */
-static const double NO_WAY = 1e-12;   /* length of wire that does not count [m] */
-static const double WORSE = 1e-6;     /* a deviation that grows by less does not count [-] */
-static const double TINY = 1e-9;      /* slope of a force that does not rise with the wire [-] */
+static const double NO_WAY = 1e-12;   /* a shorter length of wire does not count [m] */
+static const double WORSE = 1e-6;     /* smallest growth of a deviation that counts [-] */
+static const double TINY = 1e-9;      /* slope of a force that does not grow with the wire [-] */
 static const double FARTHEST = 1.0;   /* most wire in all rounds, over the length it had [-] */
-static const double TOLD = 0.01;      /* deviation of the force that is an event [-] */
+static const double TOLD = 0.01;      /* a larger deviation of the force is an event [-] */
 /* MOST_TRIALS: of a round. MOST_FAILED: trials of a round without equilibrium. MOST_ROUNDS: for
- * wire of a hundred edges. MOST_AGAIN: rounds that begin where the force jumped or was not found:
- * wires that were drawn anywhere may come to rest in several ways, wires at rest follow a small
- * change in one [-]. */
+ * wire of a hundred edges. MOST_AGAIN: rounds that begin where the force jumped or was not found.
+ * MOST_CONFIRMED: rounds that repeat a result. Wires drawn into arbitrary shapes may come to rest
+ * in several ways; wires at rest follow a small change in one [-]. */
 enum { MOST_TRIALS = 40, MOST_FAILED = 6, MOST_ROUNDS = 500, MOST_AGAIN = 4, MOST_CONFIRMED = 3 };
 
-/* What a trial says about a feed. AS_ASKED: its force is the asked one. BEYOND: it needs more wire
- * than this round allows. JUMPS: its force jumps past the asked one. LOST: there is no such place.
- */
+/* State of a feed after a trial. AS_ASKED: it has the asked force. BEYOND: it needs more wire than
+ * this round allows. JUMPS: its force jumps past the asked one. LOST: no length gives the force. */
 enum { SEEKS = 0, AS_ASKED, BEYOND, JUMPS, LOST, STATES };
 
 /* A feed in the present round. */
 typedef struct feeder {
   sw_slip *slip;    /* NULL: this hold is no feed that obeys a force */
   double origin;    /* slipped length before all rounds [m] */
-  double most;      /* most wire beyond that [m] */
+  double most;      /* largest change of that [m] */
   double base;      /* slipped length at the round's start [m] */
-  double at;        /* wire beyond that in the present trial [m] */
-  double last, off; /* the same in the last one that came to rest, and its deviation of the force
-                     * [m], [N] */
+  double at;        /* change since then in the present trial [m] */
+  double last, off; /* the same in the last trial that came to rest, and its deviation of the force
+                       [m], [N] */
   double slope;     /* of the force over the wire; 0 = not known [N/m] */
   double way;       /* sign of the force against which a drive with a limit slips; 0 = none [-] */
   int tried;        /* 1: there was a trial */
@@ -76,7 +75,7 @@ static void set(feeder *f, double at) {
   f->slip->length = f->base + at;
 }
 
-/* Sets the next trial after one at this place; the round allows at most `most`. */
+/* Sets the next trial after one at `at`; the round allows at most `most`. */
 static int go_on(feeder *f, double at, double most, double first) {
   sw_bracket *b = &f->found;
   double next;
@@ -114,7 +113,7 @@ static int correct(yielder *p, sw_hold *h, feeder *f) {
     const int worse = (at - last) * before < 0 && before * f->off > 0 &&
                       fabs(f->off) > (1 + WORSE) * fabs(before);
     if (worse)
-      f->slope = TINY * body->plan->beam.EA / body->plan->length; /* on, as far as allowed */
+      f->slope = TINY * body->plan->beam.EA / body->plan->length; /* continue as far as allowed */
     if (slope > 0) f->slope = slope;
   }
   if (!(f->slope > 0)) f->slope = body->plan->beam.EA / body->plan->length;
@@ -168,7 +167,7 @@ static sw_status try(yielder *p, sw_error *err) {
   return SW_OK;
 }
 
-/* Corrects all feeds after a trial. Returns SEEKS if there must be another one, else the worst
+/* Corrects all feeds after a trial. Returns SEEKS if another trial must follow, else the worst
  * state. */
 static int correct_all(yielder *p) {
   int any[STATES] = {0}, worst = STATES - 1;
@@ -181,7 +180,7 @@ static int correct_all(yielder *p) {
   return any[SEEKS] && worst != LOST ? SEEKS : worst;
 }
 
-/* Holds all feeds where the round began; SW_OK: the scene rests there. */
+/* Locks all feeds where the round began; SW_OK: the scene rests there. */
 static sw_status hold_still(yielder *p, sw_error *err) {
   SW_ITEMS(feeder, f, p->feeds, p->count)
     if (f->slip) set(f, 0);
@@ -189,7 +188,7 @@ static sw_status hold_still(yielder *p, sw_error *err) {
   return try(p, err);
 }
 
-/* One round. *state: BEYOND if there must be another. On failure the scene is as at its start. */
+/* One round. *state: BEYOND if another must follow. If it fails, the scene is as at its start. */
 static sw_status round_of(yielder *p, int *state, sw_error *err) {
   sw_error why = {"out of memory"};
   int failed = 0;
@@ -236,7 +235,7 @@ void sw_yield_tell(sw_scene *s) {
   }
 }
 
-/* At rest no wire slips: the lengths are those now. */
+/* Ends all slips: at rest no wire slips, and the lengths are those now. */
 static void stop_slips(sw_scene *s) {
   SW_EACH(hold, h, s) {
     sw_slip *f = sw_slip_of(h);
@@ -248,7 +247,7 @@ static void stop_slips(sw_scene *s) {
   }
 }
 
-/* *state: of the last round. */
+/* *state: that of the last round. */
 static sw_status search(yielder *p, int *state, sw_error *err) {
   int again = 0, confirmed = 0;
   for (int round = 0; round < MOST_ROUNDS; round++) {
@@ -261,7 +260,7 @@ static sw_status search(yielder *p, int *state, sw_error *err) {
     *state = status == SW_EEMPTY ? LOST : *state;
     if (status == SW_EEMPTY) return SW_OK;
     SW_TRY(status);
-    /* what a long way led to rests only if it also rests when the search begins there */
+    /* a rest reached by a long path counts only if a search that begins there also rests there */
     if (*state == AS_ASKED && !changed && (!p->moved || ++confirmed > MOST_CONFIRMED)) return SW_OK;
     if (p->interrupted && p->interrupted()) return SW_EINTR;
   }
