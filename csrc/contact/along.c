@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Friction of a wire along itself: sums of the touches' friction along its axis. */
+/* Friction of a wire in its own direction: sums over its touches. */
 #include <math.h>
 
 #include "contact/halt.h"
 
-/* Touches whose friction across the wire is above this share of the most are left out [-]. */
+/* Leaves out touches whose friction across the wire is above this share of its limit [-]. */
 static const double ACROSS = 0.5;
 
 void sw_along_add(const sw_system *s, size_t body, size_t node, sw_vec friction, double most,

@@ -1,29 +1,31 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How far the chords and the smooth curve of a wire may come nearer to a round side (see arc.h). */
+/* Distance between the chords or the smooth curve of a wire and its arc round an obstacle
+ * (arc.h). */
 #include "contact/arc.h"
 
 #include <math.h>
 
 #include "touch/same.h"
 
-/* An arc of curvature K stands off its chord's middle by this share of K h^2, if the nodes lie so
- * far outside it that the chord is as long as the arc [-]. */
+/* Distance of an arc of curvature K from the middle of its chord, over K h^2. The nodes lie so far
+ * outside the arc that the chord is as long as the arc [-]. */
 static const double OFF = 1.0 / 12.0;
-/* Factors on that for the first edges from a clamp. A clamp is on the arc itself, and its hinge
- * wants the next node twice as far outside as the nodes further on. A cable wound on a drum then
- * has curvatures within 2.3 % beside the clamp; with factors of 1 within 2.9 % [-]. */
+/* Factors on this distance for the first edges from a clamp. A clamp lies on the arc itself, and
+ * its hinge moves the next node twice as far outside as later nodes. With these factors the
+ * curvatures of a cable wound on a drum differ by 2.3 % beside the clamp; with factors of 1 by 2.9
+ * % [-]. */
 static const double FROM_CLAMP[] = {1.0, 5.0 / 8.0, 7.0 / 8.0};
 enum { FAR = sizeof FROM_CLAMP / sizeof *FROM_CLAMP };
 
-/* Edges up to FINE radii get the whole shift, edges from COARSE radii on none. The pull of a wire
- * drawn over a cylinder depends on which part of a coarse edge is on it; with the shift the mean of
- * that is 1 % too small for edges of R/2 and 10 % for R, without it 0.1 and 4 %
+/* Edges up to FINE radii get the full shift, edges above COARSE radii none. The pull of a wire
+ * drawn over a cylinder depends on which part of a coarse edge touches. The mean pull is too small
+ * by 1 % for edges of R/2 and by 10 % for edges of R with the shift, by 0.1 and 4 % without
  * (spec/contact/capstan_spec) [-]. */
 static const double FINE = 0.35, COARSE = 0.5;
-/* An arc begins where curvature times radius is SW_GOES_ROUND, and is whole from BENT on [-]. */
+/* An arc begins at SW_GOES_ROUND and is complete at BENT: curvature times radius [-]. */
 static const double BENT = 0.9;
-/* In steps the shift of a chord is a mean over this many of them. Without that a cable that begins
- * to be wound beside a clamp shakes: pulls up to twice the brake's force
+/* In time steps the shift of a chord is a mean over this many steps. Otherwise a cable that begins
+ * to wind beside a clamp shakes, with pulls up to twice the brake's force
  * (spec/contact/winding_spec) [-]. */
 static const double MEAN_STEPS = 4.0;
 
@@ -46,8 +48,8 @@ static sw_vec curvature_at(const sw_body *b, size_t i, const double *x) {
   return sw_scale(turn, 2.0 / (rest[i - 1] + rest[i]));
 }
 
-/* Curvature of an edge as far as it is that of an arc of radius R: the mean of its nodes, at the
- * wire's ends that of the inner node [1/m]. */
+/* Curvature of an edge as an arc of radius R: the mean of its two nodes; at a wire's end that of
+ * the inner node [1/m]. */
 static sw_vec round_on(const sw_body *b, size_t e, double R, const double *x) {
   const int first = e == 0, last = e + 2 >= b->plan->nodes;
   const sw_vec one = curvature_at(b, e, x), two = curvature_at(b, e + 1, x);

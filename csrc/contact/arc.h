@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The arc of a wire that goes round something. The wire is as long as its edges. So on a circle of
- * radius R the nodes lie outside the wire's curve by h^2/(24 R), and the middles of the chords
- * inside by h^2/(12 R). Chords that lay on the circle would be too long by h^2/(12 R^2): a stiff
- * cable led round a drum would be taut too early. Therefore chords and curves at a round side may
- * come nearer by h^2 K/12, with the wire's curvature K. */
+/* The arc of a wire that goes round an obstacle. The wire is as long as its edges. So on a circle
+ * of radius R the nodes lie outside the wire's curve by h^2/(24 R), and the middles of the chords
+ * inside by h^2/(12 R). Chords that lay on the circle would be too long by h^2/(12 R^2), and a
+ * stiff cable led round a drum would be taut too early. Therefore chords and curves may come nearer
+ * to a round side by h^2 K/12, with the wire's curvature K. */
 #ifndef SW_CONTACT_ARC_H
 #define SW_CONTACT_ARC_H
 
 #include "contact/curve.h"
 
-/* 1 if a candidate meets a round side by its arc. */
+/* 1 if a candidate touches a round side with its arc. */
 int sw_contact_arcs(const sw_contact *c, const sw_system *s, const sw_candidate *k);
 
-/* How much further from the obstacle than its chord or smooth curve the arc of a candidate is at a
- * place, in the direction of this world normal [m]. In steps it follows from the step's start, so
- * the wire's equations do not depend on it; in statics from the nodes at y. */
+/* Distance of a candidate's arc from its chord or smooth curve at a place, in the direction of this
+ * world normal [m]. In time steps it is computed at the start of the step, so that the wire's
+ * equations do not depend on it; in statics from the nodes at y. */
 double sw_contact_arc_rise(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                            const sw_place *place, const double *y, sw_vec normal);
 /* The same for the touch of a chord in a step, with the memory of the touch there, or NULL. */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Finds the obstacles near a place. One tree holds the obstacles that stand, another one those that
- * may move, each with the box that it may reach in a step. Unbounded obstacles are always looked
- * at; if there are few obstacles, all are. Results are in the order of the obstacles, as from a
- * search of all. */
+/* Finds the obstacles near a place. One tree holds the standing obstacles. A second tree holds
+ * those that may move, each with the box that it may reach in a step. Unbounded obstacles are
+ * always checked; if there are few obstacles, all are. The result has the order of the
+ * obstacles. */
 #include "contact/broad.h"
 
 #include <math.h>
@@ -14,9 +14,9 @@
 #include "contact/touch.h"
 
 enum { FEW = 8 }; /* up to this many obstacles need no tree [-] */
-/* The tree of moving boxes is built again after this many steps [-]. */
+/* The tree of moving boxes is rebuilt after this many steps [-]. */
 enum { MOST_REFITS = 32 };
-/* An obstacle whose turn in the step is more than this over sqrt(3) may meet anything [rad]. */
+/* An obstacle that turns by more than this over sqrt(3) in the step may reach any place [rad]. */
 static const double FASTEST_TURN = 0.5;
 static const double EVERYWHERE = 1e300;  /* [m] */
 static const double ROUNDING = 1.000001; /* [-] */
@@ -105,9 +105,9 @@ static double farthest(const sw_bounds *b, sw_vec p) {
                       fmax(fabs(b->max.z - p.z), fabs(b->min.z - p.z))));
 }
 
-/* Returns the box in which an obstacle meets things at most a away. Its material at x moves by (v +
- * omega |x - p|) h in the step, and x is within a plus that way. Solved for the largest reach:
- * factor (a + the margin of the box). */
+/* Returns the box in which an obstacle may touch something that is at most `a` away. Its material
+ * at x moves by (v + omega |x - p|) h in the step, and x is within `a` plus this distance. The
+ * equation is solved for the largest reach: factor (a + the margin of the box). */
 static sw_bounds swept(sw_broad *b, const sw_contact *c, size_t o) {
   const sw_contact_at *at = &c->start[o];
   const sw_bounds *box = &c->bounds[o];
@@ -185,7 +185,7 @@ sw_status sw_broad_update(sw_contact *c) {
   measure(c);
   if (!moving->count) return SW_OK;
   if (moving->refits++ >= MOST_REFITS) {
-    c->broad.sorted = 0; /* if there is no memory for the tree, the next update starts anew */
+    c->broad.sorted = 0; /* out of memory: the next update starts anew */
     SW_TRY(plant(moving));
     c->broad.sorted = 1;
     return SW_OK;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Finds the obstacles near a place without looking at all of them. */
+/* Finds the obstacles near a place without checking all of them. */
 #ifndef SW_CONTACT_BROAD_H
 #define SW_CONTACT_BROAD_H
 
@@ -24,26 +24,26 @@ typedef struct sw_broad_group {
 
 typedef struct sw_broad {
   size_t count; /* of obstacles */
-  int *numbers; /* room for the lists below */
+  int *numbers; /* work space for the lists below */
   int *moves;   /* (count) 1: the obstacle may move by itself */
   int *mover;   /* (mover_count) numbers of the obstacles that may move */
-  int *member;  /* (count) room for the groups' members */
-  int *aside;   /* (aside_count) obstacles in no tree: always looked at */
+  int *member;  /* (count) work space for the groups' members */
+  int *aside;   /* (aside_count) obstacles in no tree, always checked */
   int *found;   /* (count) result of the last search */
   size_t mover_count, aside_count;
-  sw_bounds *boxes;        /* (count) room for the groups' boxes */
+  sw_bounds *boxes;        /* (count) work space for the groups' boxes */
   sw_broad_group group[2]; /* 0: obstacles that stand still; 1: those that may move */
   int placed, sorted;      /* 1: standing obstacles are placed; every obstacle is in its group */
   double factor, omega; /* largest factor and speed of turning obstacles, see swept [-], [rad/s] */
-  double turning_time;  /* step size that these are for [s] */
+  double turning_time;  /* step size for which these two hold [s] */
 } sw_broad;
 
 sw_status sw_broad_new(sw_broad *broad, size_t count); /* SW_ENOMEM */
 void sw_broad_free(sw_broad *broad);
 
-/* Declares that any obstacle may have moved and may move. */
+/* Call if any obstacle may have moved, or may move from now on. */
 void sw_broad_forget(sw_broad *broad);
-/* Asks moves() which obstacles may move, by the owner's numbers. The others stand still. */
+/* Sorts obstacles: moves() returns 1 for those that may move; the others stand still. */
 void sw_broad_know(sw_broad *broad, const sw_contact *c, sw_contact_moves_function moves);
 
 /* Places obstacles at time t: all of them if the standing ones are not placed yet, else only those
@@ -54,15 +54,15 @@ sw_status sw_broad_place(sw_contact *c, double t, sw_contact_at *out, sw_error *
  * start. Returns SW_ENOMEM or SW_EINTR on failure. */
 sw_status sw_broad_update(sw_contact *c);
 
-/* Returns the obstacles within reach of the box; their own motion in the step is added to the
- * reach. The list is in the order of obstacles and valid until the next search. Adds the number of
- * boxes looked at to *looks. */
+/* Returns the obstacles within reach of the box, with their motion in the step added to the reach.
+ * The list is in the order of obstacles and valid until the next search. Adds the number of checked
+ * boxes to *looks. */
 const int *sw_broad_near(sw_broad *broad, const sw_bounds *box, double reach, size_t *count,
                          size_t *looks);
 
 /* Updates the boxes of obstacles that may move, as placed at the step's start. */
 void sw_broad_bound_movers(sw_contact *c);
-/* 1 if the obstacle may come within reach of what lies still in the box, in the step. */
+/* 1 if the obstacle may come within reach of the box in the step. */
 int sw_broad_disturbs(const sw_contact *c, size_t o, const sw_bounds *box, double reach);
 
 #endif

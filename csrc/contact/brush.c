@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Brushes: a fast wire passes an edge within a long step. Its surface overlaps the edge on the way,
+/* Brushes: a fast wire passes an edge within a long step. Its surface overlaps the edge in between,
  * although it is clear of the obstacle at both ends of the step. */
 #include <math.h>
 
 #include "contact/cross.h"
 #include "touch/same.h"
 
-/* 1 if a body presses on an obstacle, or did at the step's start. Its nodes may then cut a corner
- * that the wire itself goes round. */
+/* 1 if a body presses on an obstacle, or did at the step's start. Straight paths of its nodes may
+ * then cut a corner round which the wire itself goes. */
 static int is_pressed(const sw_contact *c, const sw_body *b, int obstacle) {
   const int id = c->obstacles[obstacle].id;
   for (size_t i = 0; i < c->touch_count; i++) {
@@ -28,8 +28,8 @@ static int overlap(double a, double b, double c, double d, double low, double hi
   return fmin(fmin(a, b), fmin(c, d)) <= high && fmax(fmax(a, b), fmax(c, d)) >= low;
 }
 
-/* 1 if the candidate's segment, on its straight way, comes nearer to the obstacle's surface than
- * the margin. */
+/* 1 if the candidate's segment, on a straight path, comes nearer to the obstacle than the
+ * margin. */
 static int comes_near(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                       const double *x1, double margin) {
   const sw_pose *p0 = &c->start[k->obstacle].pose, *p1 = &c->now[k->obstacle].pose;
@@ -55,7 +55,7 @@ int sw_contact_brushes(const sw_contact *c, const sw_system *s, const double *x1
     const sw_candidate *k = &c->candidates[i];
     const sw_body *b = &s->bodies[k->body];
     if (!k->segment || b->plan->web || sw_contact_is_held(s, k)) continue;
-    /* the straight way past an obstacle that turns may lead through it */
+    /* the straight path past a turning obstacle may lead through it */
     if (c->broad.moves[k->obstacle] && sw_contact_stays_away(c, s, k, x1)) continue;
     if (comes_near(c, s, k, x1, (1.0 - SW_MISSED) * k->skin) && !is_pressed(c, b, k->obstacle))
       return 1;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Finds the candidates of a step (a node or segment and an obstacle that it may touch), and the
+/* Finds the candidates of a step (a node or segment, and an obstacle that it may touch), and the
  * stiffness of new touches. */
 #include <math.h>
 
@@ -10,13 +10,13 @@
 #include "contact/round.h"
 #include "touch/same.h"
 
-/* Stiffness over mass/hbar^2 in implicit steps. It is far above what the step resolves, so that the
- * gap closes to a thousandth of the free fall [-]. */
+/* Stiffness over mass/hbar^2 in implicit steps. It is far above what the step resolves: the gap
+ * closes to 1/1000 of the free fall [-]. */
 static const double IMPLICIT_SHARE = 1000.0;
 /* An explicit step is stable while k h^2 / m stays below 4 [-]. */
 static const double EXPLICIT_SHARE = 0.2;
 static const double STAGE_SHARE = 0.3; /* hbar of the default method over the step [-] */
-static const double SKIN = 1.5;        /* anything nearer than this many radii is a candidate [-] */
+static const double SKIN = 1.5;        /* nearer places than this many radii are candidates [-] */
 
 static int outside(const sw_bounds *b, sw_vec low, sw_vec high) {
   return low.x > b->max.x || high.x < b->min.x || low.y > b->max.y || high.y < b->min.y ||
@@ -40,8 +40,8 @@ double sw_flight_reserve(const sw_contact *c, const sw_system *s, sw_vec v) {
 }
 
 /* Adds the distance of a line's smooth curve from its chords at each node. The curve touches edges
- * and corners that the chords do not reach: without it, a limp wire with coarse edges sinks into an
- * edge in short steps, whose reach is little more than the radius. */
+ * and corners that the chords do not reach. Otherwise a limp wire with coarse edges would sink into
+ * an edge in short steps, whose reach is little more than the radius. */
 static void add_bulge(const sw_system *s, const sw_body *b, double *reach) {
   const double *const x = s->x + 3 * b->first_node;
   if (b->plan->web || b->plan->beam.rolls) return;
@@ -51,7 +51,7 @@ static void add_bulge(const sw_system *s, const sw_body *b, double *reach) {
   }
 }
 
-/* Finds the widest gap of each node that can close in the step, without the motion of obstacles. */
+/* Finds for each node the widest gap to a resting obstacle that may close in the step. */
 static void reach_out(sw_contact *c, const sw_system *s, const sw_body *b) {
   const double radius = b->plan->beam.radius;
   double *const reach = c->reach + b->first_node;
@@ -65,14 +65,14 @@ static void reach_out(sw_contact *c, const sw_system *s, const sw_body *b) {
   if (c->regime != SW_CONTACT_STATIC) add_bulge(s, b, reach);
 }
 
-/* Returns that gap with the motion of obstacle o added. */
+/* The same for obstacle o, with its motion. */
 static double reach_of(const sw_contact *c, const sw_system *s, size_t node, size_t o) {
   if (c->regime == SW_CONTACT_STATIC || !c->broad.moves[o]) return c->reach[node];
   const sw_vec x = sw_contact_where(c, s->x, node, node, 0);
   return c->reach[node] + sw_norm(sw_obstacle_velocity(&c->start[o], x)) * c->h;
 }
 
-/* Decides whether the wire's smooth curve, not its chords, meets the candidate's obstacle. */
+/* Decides whether the wire touches the candidate's obstacle with its smooth curve or its chords. */
 static void find_smooth(const sw_contact *c, const sw_system *s, sw_candidate *k) {
   const sw_plan *p = s->bodies[k->body].plan;
   if (p->web || p->beam.rolls) return;
@@ -188,11 +188,11 @@ static int before(const sw_contact *c, const sw_memory *m, const sw_candidate *k
   return m->segment < k->segment;
 }
 
-/* A mesh that lies on something when pads come has touches for its weight alone, and touches keep
- * their stiffness. These become as hard as new ones, at constant force; the depth that is then too
- * much is let out slowly. In soft ones a section that pads widen sinks in: the push on a table was
- * 0.013 N for 0.37 N where the gripper came a millisecond after the wire
- * (spec/contact/pads_come_spec). In statics a touch is made stiffer anyway. */
+/* A mesh that lies on something has soft touches for its weight, and touches keep their stiffness.
+ * When pads come, these touches become as stiff as new ones, with the same force; their excess
+ * depth is reduced slowly. Into soft touches, a section that pads widen would sink: the push on a
+ * table was 0.013 instead of 0.37 N if the gripper came 1 ms after the wire
+ * (spec/contact/pads_come_spec). In statics touches are stiffened anyway. */
 static void make_firm(sw_contact *c, const sw_candidate *k) {
   if (!(k->least > 0) || c->regime != SW_CONTACT_IMPLICIT) return;
   for (size_t m = k->memory; m < k->memory_end; m++) sw_kept_firm(&c->memory[m].kept, k->least);
@@ -226,19 +226,19 @@ void sw_contact_stiffness(sw_contact_regime regime, const sw_plan *p, double for
   }
 }
 
-/* Touches of an object of particles have at least this share of a bound on a particle's own
- * stiffness, because the object may have no weight [-]. */
+/* Smallest stiffness of touches of an object of particles, over a bound on a particle's own
+ * stiffness. The object may be weightless [-]. */
 static const double HARD_SHARE = 1.0;
 
-/* A mesh shorter than this many radii is a slice: it stands for a section and does not bend. Its
- * touches have HARDER times the stiffness of a solid section against squeezing, computed from its
- * EA [-]. */
+/* A mesh shorter than this many radii is a slice: it represents a section and does not bend. The
+ * stiffness of its touches is HARDER times that of a solid section against squeezing, computed from
+ * its EA [-]. */
 static const double SLICE = 1.0, HARDER = 100.0;
 /* The same for a ring with a wall: multiple of wall times length over radius^3 [-]. */
 static const double HARDER_WALL = 1e5;
 
-/* Touches between objects of particles, and of particles with wires, have this multiple of the
- * stiffness that holds a particle. Then no force sinks a particle in by more than a tenth of the
+/* Stiffness of touches between objects of particles, and of particles with wires, over the
+ * stiffness that holds a particle. Then no force presses a particle in by more than a tenth of the
  * object's own compression [-]. */
 static const double HARDER_GRAIN = 10.0;
 
@@ -246,7 +246,7 @@ double sw_contact_hardness(const sw_web *web, size_t particle) {
   return HARDER_GRAIN * web->behind[particle];
 }
 
-/* The part of the body's usual force that one touch carries [N]. */
+/* Share of the body's usual force that one touch carries [N]. */
 static double usual_force(const sw_plan *p, double weight) {
   const double L = p->length, r = p->beam.radius;
   if (!p->web || L >= SLICE * r) return fmax(weight, p->beam.EI / (L * L));
@@ -255,11 +255,11 @@ static double usual_force(const sw_plan *p, double weight) {
   return fmax(weight, SW_ALLOWED_DEPTH * (ring > 0 ? ring : solid));
 }
 
-/* Stiffness of the touches of a wire wound on something thick and round: at least EA/R. Where the
- * wire comes on and presses with Q, it goes in by Q/k, and comes out again further on. That
- * stretches it by EA Q/(k R), and friction keeps a part of this. With EA/R the tension is off by 5
- * % of the brake's force, with a tenth of that by 18 %, with four times as much by 1 %, for 1.6
- * times the iterations (H07V-K 10, 10 N, edges of R/10; spec/contact/winding_spec) [N/m]. */
+/* Stiffness of the touches of a wire wound on something thick and round: at least EA/R [N/m]. Where
+ * the wire runs on with the force Q, it sinks in by Q/k, and it rises again further on. This
+ * stretches it by EA Q/(k R), and friction keeps part of this. The tension is off by 5 % of the
+ * brake's force with EA/R, by 18 % with a tenth of it, and by 1 % with four times as much, which
+ * takes 1.6 times the iterations (H07V-K 10, 10 N, edges of R/10; spec/contact/winding_spec). */
 static double round_stiffness(const sw_contact *c, const sw_body *b, const sw_candidate *k) {
   const size_t i = k->node - b->first_node;
   if (c->regime != SW_CONTACT_IMPLICIT || b->plan->web || k->round || !(c->round[k->obstacle] > 0))
@@ -293,11 +293,13 @@ static void set_stiffness(sw_contact *c, const sw_system *s, size_t body, size_t
     if (p->web || !(grips > 0)) continue;
     const double soft = sw_pad_stiffness(c, p, k, k->node - s->bodies[body].first_node);
     k->given = c->regime != SW_CONTACT_EXPLICIT;
-    k->usual = k->given ? soft : fmin(soft, k->usual); /* else explicit steps may be unstable */
+    k->usual = k->given
+                   ? soft
+                   : fmin(soft, k->usual); /* without this limit explicit steps may be unstable */
   }
 }
 
-/* Makes empty lists with room for many touches at once. Lists that grow one by one would be copied
+/* Makes empty lists with room for many touches: lists that grow one by one would be copied
  * often. */
 static sw_status make_room(sw_contact *c, size_t bodies) {
   const size_t n = c->candidate_count;

@@ -1,24 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Moves meshes of elements out of the obstacles that they were drawn a little inside. The section
- * of such a mesh is a polygon, wider than the radius by 2.7 % over its corners: drawn at the height
- * of the radius over a table, it is that deep. It came out at SW_LET_OUT, for 10 ms. Pads that
- * closed meanwhile kept it there, and the rest of the depth turned into force: 2.9 N for 0.62 N
- * (spec/contact/drawn_wide_spec). Therefore such a wire begins to move where it only touches. In
- * poses it comes out at once anyway. */
+/* Moves meshes of elements out of obstacles into which they were drawn a little. The section of
+ * such a mesh is a polygon; over its corners it is 2.7 % wider than the radius. If it is drawn with
+ * its axis one radius above a table, it is that deep in it. It came out at SW_LET_OUT, in 10 ms.
+ * Pads that closed meanwhile kept it there, and the remaining depth became force: 2.9 instead of
+ * 0.62 N (spec/contact/drawn_wide_spec). Therefore such a wire starts its motion where it only
+ * touches. In poses it comes out in one step anyway. */
 #include <math.h>
 
 #include "contact/touch.h"
 
-/* The farthest that a wire goes, over its radius. One that was drawn deeper comes out slowly. In a
- * groove of 90 degrees it goes sqrt(2) times as far as on a plane [-]. */
+/* Largest shift of a wire, over its radius. Deeper wires come out slowly. In a groove of 90 degrees
+ * the shift is sqrt(2) times as large as on a plane [-]. */
 static const double FARTHEST = 0.05;
-/* It stands free if it is no deeper than this: far below the depth of a resting wire [m]. */
+/* A wire is free up to this depth, far below the depth of a resting wire [m]. */
 static const double FREE = 1e-10;
-/* Each round moves it out where it is deepest. In a groove of 90 degrees two are enough, in a
- * narrower one a round leaves cos^2 of its angle of the depth [-]. */
+/* Each round moves the wire out where it is deepest. In a groove of 90 degrees two rounds are
+ * enough; in a narrower one each round leaves cos^2 of its angle of the depth [-]. */
 enum { ROUNDS = 40 };
 
-/* How deep a body is, and the way out [m]. */
+/* Depth of a body, and the direction out [m]. */
 typedef struct depth {
   double most;
   sw_vec out; /* [-] */
@@ -61,7 +61,7 @@ static ball around(const sw_contact *c, const sw_system *s, const sw_body *b) {
   return out;
 }
 
-/* 1 if the ball is beside the box around the shape; there may be ten thousand. */
+/* 1 if the ball is outside the box around the shape; a fast check for up to ten thousand shapes. */
 static int is_far(const sw_shape *shape, sw_pose pose, ball around_it) {
   const sw_bounds box = sw_shape_bounds(shape);
   const sw_vec p = sw_pose_local(pose, around_it.centre);
@@ -90,7 +90,7 @@ static depth find_depth(const sw_contact *c, const sw_system *s, const sw_body *
   return d;
 }
 
-/* 1 if the body may be moved: nothing holds it and it has not touched anything yet. */
+/* 1 if the body may be moved: it has no hold and has not touched anything yet. */
 static int is_loose(const sw_contact *c, const sw_body *b) {
   const sw_plan *p = b->plan;
   if (!p->web || !p->web->per_ring || !(p->web->solid_rate2 > 0)) return 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Contact with obstacles: making and freeing it, its steps, and its read-outs. */
+/* Contact with obstacles: creation, steps, read-outs. */
 #include "contact/contact.h"
 
 #include <math.h>
@@ -77,7 +77,7 @@ void sw_contact_free(sw_contact *c) {
 
 /* --- steps ------------------------------------------------------------------- */
 
-/* Finds which pads press on anything at the step's start. */
+/* Finds the pads that press on anything at the step's start. */
 static void find_pressing(sw_contact *c) {
   for (size_t k = 0; k < c->pad_count; k++) c->pressing[c->pads[k]] = 0;
   for (size_t i = 0; c->pad_count && i < c->memory_count; i++) {
@@ -129,7 +129,7 @@ sw_status sw_contact_begin_stage(sw_contact *c, double time, double first, sw_er
 
 /* --- read-outs ---------------------------------------------------------------- */
 
-/* Touch number k: those of wires that are solved, then those of wires that wait. */
+/* Touch number k: first those of wires that are solved, then those of wires that wait. */
 static const sw_touch *touch_at(const sw_contact *c, size_t k) {
   return k < c->touch_count ? &c->touches[k] : &c->still.list[k - c->touch_count];
 }
@@ -182,7 +182,7 @@ static size_t first_touch(const sw_touch *touches, size_t count, size_t node) {
   return i;
 }
 
-/* All nodes are of one body, which is solved or waits. */
+/* All nodes must be of one body. */
 void sw_contact_touches_of(const sw_contact *c, size_t node, size_t end_node, size_t *first,
                            size_t *end) {
   *first = first_touch(c->touches, c->touch_count, node);
@@ -238,8 +238,8 @@ double sw_contact_hardened(const sw_contact *c) {
   return sum;
 }
 
-/* A wire round an obstacle that bends less than at the step's start: its arc comes nearer to its
- * chord (contact/arc.h). While it bent more, the wire did that work. */
+/* Work on wires round an obstacle that bend less than at the step's start: the arc comes nearer to
+ * the chord (contact/arc.h). The wire did this work before, while it bent more. */
 double sw_contact_unbent(const sw_contact *c) {
   double sum = 0;
   for (size_t i = 0; i < c->touch_count; i++)
@@ -254,7 +254,7 @@ double sw_contact_fastest(const sw_contact *c) {
   return fastest;
 }
 
-/* 1 if anything is deeper inside than its force explains. */
+/* 1 if anything is deeper in an obstacle than its force explains. */
 static int emerges(const sw_contact *c) {
   for (size_t i = 0; i < c->touch_count; i++)
     if (c->touches[i].forgiven > 0 || c->touches[i].let_out > 0) return 1;
@@ -265,7 +265,7 @@ static int emerges(const sw_contact *c) {
 
 int sw_contact_emerges(const sw_contact *c) { return c->fresh && emerges(c); }
 
-/* A wire that two obstacles squeeze cannot come out of either. */
+/* Wires squeezed by two obstacles do not count: they cannot come out of either. */
 double sw_contact_emerged(const sw_contact *c) {
   double sum = 0;
   if (!sw_contact_emerges(c)) return 0;

@@ -30,14 +30,14 @@ typedef struct sw_contact_load {
   sw_vec force, moment;
 } sw_contact_load;
 
-/* Load of an obstacle in the last step. The owner keeps it, because contact is rebuilt when the
+/* Load of an obstacle in the last step. The owner stores it, because contact is rebuilt when the
  * scene changes. */
 typedef struct sw_contact_past {
   sw_contact_load mean;   /* mean over the step, with blows; in statics the load of the state; its
                              moment is about the world's origin [N], [N m] */
   sw_contact_load end;    /* at the step's end, for methods that begin the next step with it [N] */
   double hardest;         /* hardest blow that was followed in parts: its mean over a step [N] */
-  sw_contact_load gained; /* the step's, without blows, for methods that use earlier steps [N s] */
+  sw_contact_load gained; /* impulse without blows, for methods that use earlier steps [N s] */
 } sw_contact_past;
 
 /* Gives the position and motion of obstacle number o (the owner's number) at a time. */
@@ -60,25 +60,26 @@ typedef enum sw_contact_regime {
   SW_CONTACT_EXPLICIT
 } sw_contact_regime;
 
-/* Stiffness of a body's touch that carries up to this force: base plus rate2 times the mass behind
- * it [N/m], [1/s2]. */
+/* Stiffness of a body's touch that carries at most this force: base plus rate2 times the mass at
+ * the touch [N/m], [1/s2]. */
 void sw_contact_stiffness(sw_contact_regime regime, const sw_plan *plan, double force,
                           double nominal, double *base, double *rate2);
-/* Least stiffness of touches of a particle with other objects, not in explicit steps [N/m]. */
+/* Smallest stiffness of a particle's touches with other objects, not in explicit steps [N/m]. */
 double sw_contact_hardness(const sw_web *web, size_t particle);
 
-/* A step of size h (in statics a pseudo step, or 0) begins at time t: places the obstacles. */
+/* Begins a step of size h (in statics a pseudo step, or 0) at time t: places the obstacles. */
 sw_status sw_contact_open(sw_contact *contact, double t, double h, sw_error *err);
-/* Then: wakes waiting bodies that something may disturb in the step (system/wait.h). Then: finds
- * candidates. nominal: the run's full step, which sets the stiffness; in statics h. */
+/* Call next: wakes waiting bodies that may be disturbed in the step (system/wait.h), then finds
+ * candidates. nominal: the run's full step, which determines the stiffness; in statics h. */
 sw_status sw_contact_wake(sw_contact *contact, sw_system *system, sw_error *err);
 sw_status sw_contact_begin_step(sw_contact *contact, sw_system *system, sw_contact_regime regime,
                                 double nominal, sw_error *err);
-/* Before the first motion of a body: moves it out of what it was drawn a little inside, if it is a
- * mesh of elements that nothing holds (contact/clear.c). is_new: 1 for a body just remodelled. */
+/* Call before the first motion of a body: moves the body out of obstacles into which it was drawn a
+ * little, if it is a mesh of elements without holds (contact/clear.c). is_new: 1 for a body that
+ * was just remodelled. */
 sw_status sw_contact_clear(sw_contact *contact, sw_system *system, double t,
                            int (*is_new)(void *, size_t), void *user, sw_error *err);
-/* After the step: keeps bodies from stopping that are on their way out of an obstacle. */
+/* Call after the step: bodies on their way out of an obstacle must not stop. */
 void sw_contact_keep_moving(const sw_contact *contact, sw_system *system);
 /* Begins evaluations at the accepted state. A touch's stiffness is its last force over its depth.
  */
@@ -89,12 +90,11 @@ void sw_contact_part(void *contact, sw_system *system);
 sw_status sw_contact_begin_stage(sw_contact *contact, double time, double first, sw_error *err);
 sw_status sw_contact_eval(void *contact, sw_system *system, double time, double hbar,
                           const double *y, unsigned want, sw_error *err);
-/* *out = 1: the last matrix still holds, because no touch slides and the same touches press. */
+/* *out = 1: the last matrix is still valid, because no touch slides and the same touches press. */
 sw_status sw_contact_keeps(void *contact, sw_system *system, const double *y, int *out,
                            sw_error *err);
 void sw_contact_refine(void *contact, sw_system *system);
-/* Add the touches of bridged bodies to a list. Bridged bodies are refined together, with all their
- * touches. */
+/* Adds the touches of bridged bodies to a list. These bodies are refined together. */
 struct sw_spots;
 struct sw_ways;
 void sw_contact_add_spots(sw_contact *contact, const sw_system *system, struct sw_spots *spots);
@@ -103,8 +103,8 @@ int sw_contact_settled(void *contact, sw_system *system, const double *y, const 
 
 /* See sw_coupling. */
 void sw_contact_book(void *contact, const sw_booking *booking);
-/* Impulse of the wires on an obstacle (the owner's number), booked so far in the step, about its
- * place, without impacts [N s], [N m s]. */
+/* Impulse of the wires on obstacle `id` booked so far in the step, without impacts; its moment is
+ * about the obstacle's place [N s], [N m s]. */
 void sw_contact_gained(const sw_contact *contact, int id, sw_vec *force, sw_vec *moment);
 
 /* The owner's number of obstacle k; its load in the last accepted step. */
@@ -114,11 +114,11 @@ const sw_contact_past *sw_contact_past_of(const sw_contact *contact, size_t k);
 const int *sw_contact_busy(const sw_contact *contact, size_t *count);
 /* Numbers (count) of the obstacles that may move. */
 const int *sw_contact_movers(const sw_contact *contact, size_t *count);
-/* By the owner's number: the load of the last step; 1 if it may move. */
+/* By the owner's number: the load in the last step; 1 if the obstacle may move. */
 typedef const sw_contact_past *(*sw_contact_past_function)(void *user, int id);
 typedef int (*sw_contact_moves_function)(void *user, int id);
-/* 1 if the owner has called sw_contact_recall since contact was built, got a memory, or an obstacle
- * was moved by hand. The owner must call it before a step; sw_contact_ask_again asks for it. */
+/* 1 if sw_contact_recall was called since contact was built, got a memory, or an obstacle was moved
+ * by hand. The owner must call it before a step. sw_contact_ask_again demands it. */
 int sw_contact_informed(const sw_contact *contact);
 void sw_contact_recall(sw_contact *contact, sw_contact_past_function past,
                        sw_contact_moves_function moves);
@@ -127,40 +127,41 @@ void sw_contact_ask_again(sw_contact *contact);
 /* 1: an obstacle has moved since the step's start. */
 int sw_contact_moves(const sw_contact *contact);
 
-/* Judges a trial step to positions x1 and velocities v1. dull: 1 if the step does not rebound, as
- * steps in which wires strike each other do. */
+/* Result of a review of the trial positions x1 and velocities v1. dull: 1 if the step does not
+ * rebound, as in steps in which wires strike each other. */
 typedef enum sw_contact_verdict {
   SW_CONTACT_ACCEPT,
-  SW_CONTACT_REDO,   /* starting velocities or contacts were changed: restart the step */
+  SW_CONTACT_REDO,   /* starting velocities or contacts were changed: repeat the step */
   SW_CONTACT_SOONER, /* a rebound within the step: end the step at sw_contact_soonest */
-  SW_CONTACT_STRIKE, /* something struck: redo the step without rebound */
-  SW_CONTACT_SMALLER /* wires got too deep or got free: only a smaller step helps */
+  SW_CONTACT_STRIKE, /* something struck: repeat the step without rebound */
+  SW_CONTACT_SMALLER /* wires got too deep, or free: only a smaller step helps */
 } sw_contact_verdict;
 sw_contact_verdict sw_contact_review(sw_contact *contact, sw_system *system, const double *x1,
                                      const double *v1, double h, int dull);
 
 double sw_contact_soonest(const sw_contact *contact); /* of a rebound, after the step's start [s] */
-/* Sets the shortest time at which the begun step may be cut at a rebound [s]. */
+/* Sets the earliest time at which a rebound may cut the step [s]. */
 void sw_contact_cut(sw_contact *contact, double least);
-/* Tells that a drive that slides wires comes to rest soon: friction is then as stiff as a wire. */
+/* Call if a drive with which wires slide comes to rest soon: friction is then as stiff as a
+ * wire. */
 void sw_contact_brake(sw_contact *contact);
-/* Sets the part (substep) that the step was meant to have. Touches that slowly get deeper in parts
- * of this size are made stiffer as in whole steps [s]. */
+/* Sets the wanted size of the part (substep) [s]. Touches that slowly get deeper in parts of this
+ * size are stiffened as in whole steps. */
 void sw_contact_ask(sw_contact *contact, double part);
 
 /* Reviews a static solution x1. Segments that passed an obstacle are kept on their side from now
- * on. 1 = there are some, solve again. */
+ * on. Returns 1 if there are any: solve again. */
 int sw_contact_review_static(sw_contact *contact, sw_system *system, const double *x1);
 
-/* Accepts the trial: keeps friction anchors and sides for the next step. */
+/* Accepts the trial: stores friction anchors and sides for the next step. */
 void sw_contact_commit(sw_contact *contact, sw_system *system);
 
-/* Total force on obstacle o (the owner's number) as last evaluated, its moment [N], [N m]. */
+/* Total force on obstacle o (the owner's number) in the last evaluation; its moment [N], [N m]. */
 void sw_contact_force(const sw_contact *contact, int o, sw_vec about, sw_vec *force,
                       sw_vec *moment);
-/* Deepest penetration of the accepted state, with the system's node nearest to it [m]. */
+/* Largest penetration of the accepted state, and the nearest node [m]. */
 double sw_contact_penetration(const sw_contact *contact, size_t *node);
-/* The lists of touches, for touch/tally.h: of wires that are solved, and of those that wait. */
+/* The lists of touches for touch/tally.h: of solved wires, and of waiting wires. */
 struct sw_presses sw_contact_presses(const sw_contact *contact);
 struct sw_presses sw_contact_still_presses(const sw_contact *contact);
 /* Pressure on a node or on a segment. */
@@ -173,50 +174,51 @@ typedef struct sw_contact_push {
   sw_vec normal;                 /* the obstacle's, outward [-] */
   sw_vec slip;                   /* sliding way in the last step [m] */
   int slides;                    /* 1: its friction is used up */
-  sw_vec point, acts; /* on the obstacle; of the force, on the axis or a rolling surface [m] */
+  sw_vec point, acts; /* on the obstacle; of the force: on the axis or a rolling surface [m] */
   double place;       /* arc length [m] */
   double slid;        /* sliding way since the touch began to press [m] */
 } sw_contact_push;
-/* Touches, with or without a force. sw_contact_push_at reads touch k; 0: it has no force.
- * sw_contact_pusher returns the obstacle that pushes at touch k; -1: it has no force. */
+/* Number of touches, with or without a force. sw_contact_push_at reads touch k and returns 0 if it
+ * has no force. sw_contact_pusher returns the obstacle that pushes at touch k; -1: no force. */
 size_t sw_contact_touches(const sw_contact *contact);
 int sw_contact_pusher(const sw_contact *contact, size_t k);
-/* Touches from *first up to before *end are those of nodes from node up to before end_node. */
+/* Touches of nodes from node to before end_node: from *first to before *end. */
 void sw_contact_touches_of(const sw_contact *contact, size_t node, size_t end_node, size_t *first,
                            size_t *end);
 int sw_contact_push_at(const sw_contact *contact, const sw_system *system, size_t k,
                        sw_contact_push *out);
 double sw_contact_largest_push(const sw_contact *contact, size_t first, size_t end); /* [N] */
-/* Largest radius of round obstacles that press on a wire within an edge of a node; 0: none [m]. */
+/* Largest radius of round obstacles that press on a wire within one edge of a node; 0: none [m]. */
 double sw_contact_round_beside(const sw_contact *contact, const sw_system *system, size_t node);
 
-/* After a step: 1 if the obstacles' forces at its end come from a shock, so that the next step must
- * not begin with them. */
+/* Call after a step. Returns 1 if the obstacles' forces at its end come from a shock; the next step
+ * must not begin with them. */
 int sw_contact_shaken(const sw_contact *contact, const sw_system *system);
 /* Two obstacles face each other if the cosine between their normals is below this [-]. */
 #define SW_FACING (-0.7)
 /* A wire's weight; without gravity, its bending force EI/L^2 [N]. */
 double sw_contact_usual_force(const sw_system *system, const sw_plan *plan);
-/* From this force of a touch on, a wire is squeezed or taut and cannot come out; 0: a mesh [N]. */
+/* From this force of a touch on, a wire is squeezed or taut, and cannot come out; 0 for a mesh
+ * [N]. */
 double sw_contact_squeezing_force(const sw_system *system, const sw_plan *plan);
 /* Axial stiffness of the edge at a node; 0 for a mesh or a loose particle [N/m]. */
 double sw_contact_edge_stiffness(const sw_system *system, size_t body, size_t node);
 
 /* --- for the energy ledger, after a trial ------------------------------------- */
 
-/* Poses of obstacle id (the owner's number) at the step's start and as last placed. 0: there is no
- * such obstacle. */
+/* Poses of obstacle id (the owner's number) at the step's start and as last placed. Returns 0 if it
+ * does not exist. */
 int sw_contact_poses(const sw_contact *contact, int id, sw_pose *from, sw_pose *to);
-/* 1 if the touches that press are those that pressed at the step's start, and nothing struck. */
+/* 1 if the same touches press as at the step's start, and nothing struck. */
 int sw_contact_steady(const sw_contact *contact);
-/* Largest energy that touches gain by a higher stiffness (sw_kept_hardened) [J]. */
+/* Largest energy that touches gain from stiffening (sw_kept_hardened) [J]. */
 double sw_contact_hardened(const sw_contact *contact);
-double sw_contact_unbent(const sw_contact *contact);  /* work of arcs that get flatter [J] */
+double sw_contact_unbent(const sw_contact *contact);  /* work of arcs that become flatter [J] */
 double sw_contact_fastest(const sw_contact *contact); /* fastest obstacle at the step's end [m/s] */
-int sw_contact_emerges(const sw_contact *contact);    /* 1: wires come out of what they began in */
-double sw_contact_emerged(const sw_contact *contact); /* work of touches on wires that do so [J] */
-size_t sw_contact_impacts(const sw_contact *contact); /* impacts dealt with in the step [-] */
-double sw_contact_struck(const sw_contact *contact);  /* work of moving obstacles in them [J] */
+int sw_contact_emerges(const sw_contact *contact); /* 1: wires are on their way out of obstacles */
+double sw_contact_emerged(const sw_contact *contact); /* work of touches on such wires [J] */
+size_t sw_contact_impacts(const sw_contact *contact); /* impacts treated in the step [-] */
+double sw_contact_struck(const sw_contact *contact);  /* work of moving obstacles in impacts [J] */
 
 /* Memory kept between steps (anchors and sides): a block to copy, for snapshots. */
 const void *sw_contact_memory(const sw_contact *contact, size_t *bytes);
@@ -225,24 +227,24 @@ const void *sw_contact_memory(const sw_contact *contact, size_t *bytes);
 enum { SW_CONTACT_FRESH = 1, SW_CONTACT_EMERGING = 2 };
 int sw_contact_is_fresh(const sw_contact *contact);
 sw_status sw_contact_set_memory(sw_contact *contact, const void *memory, size_t bytes, int fresh);
-/* 1: a memory of any origin names only existing nodes and obstacles. */
+/* 1 if a memory of any origin names only existing nodes and obstacles. */
 int sw_contact_memory_fits(const void *memory, size_t bytes, size_t nodes, size_t obstacles);
 /* The touches at the accepted state, as a block for read-outs only. SW_EINVAL: the block names
  * nodes (of this many) or obstacles that do not exist. */
 const void *sw_contact_seen(sw_contact *contact, size_t *bytes);
 sw_status sw_contact_set_seen(sw_contact *contact, const void *seen, size_t bytes,
                               const sw_system *system);
-/* A number that changes with the layout of these blocks, from version to version. */
+/* A number that changes with the layout of these blocks, for comparison between versions. */
 size_t sw_contact_layout(void);
-/* 1: a wire's node, or a segment that begins or ends there, has a memory. */
+/* 1 if the memory contains a wire's node, or a segment that begins or ends there. */
 int sw_contact_memory_names(const void *memory, size_t bytes, size_t node);
 /* Adds the memory of nodes from old_first up to old_end (exclusive), for these obstacles (count)
  * only. The nodes are renumbered to begin at new_first. SW_ENOMEM. */
 sw_status sw_contact_add_memory(sw_contact *contact, const void *memory, size_t bytes,
                                 size_t old_first, size_t old_end, size_t new_first,
                                 const size_t *obstacles, size_t count);
-/* Takes over the memory of a contact with other node numbers. new_node: the new number of each old
- * node, SIZE_MAX if it is gone; new_edge: the same for segments, by their first node. SW_ENOMEM. */
+/* Takes the memory of a contact with other node numbers. new_node: the new number of each old node,
+ * SIZE_MAX if it is gone; new_edge: the same for segments, by their first node. SW_ENOMEM. */
 sw_status sw_contact_inherit(sw_contact *contact, const void *memory, size_t bytes, int fresh,
                              const size_t *new_node, const size_t *new_edge);
 

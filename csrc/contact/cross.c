@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Crossings: a swept test finds parts of wires that passed through an obstacle within the step. A
- * barrier then keeps them on their side for the rest of the step. */
+ * barrier then keeps them on their old side for the rest of the step. */
 #include "contact/cross.h"
 
 #include <math.h>
@@ -37,7 +37,7 @@ static void add_barrier(sw_contact *c, sw_barrier *b) {
   c->barrier_at[b->node] = (uint32_t)c->barrier_count;
 }
 
-/* 1 if the node is a candidate with this obstacle. Candidates are in the order of their nodes. */
+/* 1 if the node is a candidate with this obstacle. Candidates are sorted by node. */
 static int is_candidate(const sw_contact *c, int obstacle, size_t node, size_t *looks) {
   size_t i;
   SW_FIRST_NOT((++*looks, c->candidates[i].node < node), i, 0, c->candidate_count);
@@ -46,10 +46,10 @@ static int is_candidate(const sw_contact *c, int obstacle, size_t node, size_t *
   return 0;
 }
 
-/* A hit this near to a segment's end counts as the node's [-]. */
+/* A hit this near to a segment's end belongs to the node [-]. */
 static const double END_SHARE = 1e-6;
 
-/* Keeps a segment on its side for the rest of the step. 1: there is a new barrier. */
+/* Keeps a segment on its old side for the rest of the step. Returns 1 if the barrier is new. */
 static int raise_barrier(sw_contact *c, sw_system *s, const sw_candidate *k, const sw_closest *hit,
                          double h) {
   sw_barrier b = {.obstacle = k->obstacle,
@@ -87,7 +87,7 @@ static int raise_barrier(sw_contact *c, sw_system *s, const sw_candidate *k, con
   return 1;
 }
 
-/* How a piece of a candidate crosses its obstacle between two places, taken as straight. */
+/* A crossing of an obstacle by a piece of a candidate, taken as straight. */
 typedef struct crossing {
   sw_closest hit;
   double when; /* share of the step [-] */
@@ -109,8 +109,8 @@ static int cross_part(const sw_contact *c, const sw_system *s, const sw_candidat
   return 1;
 }
 
-/* Bounds of the obstacle over the step, in world axes. The swept test takes straight ways, so the
- * box of a moving obstacle is wide enough for any turn. */
+/* Bounds of the obstacle over the step, in world axes. The swept test assumes straight paths, so
+ * the box of a moving obstacle is wide enough for any turn. */
 static sw_bounds passed(const sw_contact *c, size_t o) {
   if (!c->broad.moves[o]) return c->bounds[o];
   const sw_bounds own = sw_shape_bounds(c->obstacles[o].shape);
@@ -147,8 +147,8 @@ int sw_contact_stays_away(const sw_contact *c, const sw_system *s, const sw_cand
          way.max.y < box.min.y || way.min.z > box.max.z || way.max.z < box.min.z;
 }
 
-/* Raises a barrier at the earlier crossing of the two halves of the curve's piece. A wire round a
- * peg would cut in with these halves, but does not with its edges, so its edges are tested. */
+/* Raises a barrier at the earlier crossing of the two halves of the curve's piece. For a wire round
+ * a peg the edges are tested instead: the halves cut the peg, the edges do not. */
 static int cross(sw_contact *c, sw_system *s, const sw_candidate *k, const double *x1, double h) {
   crossing one, two;
   if ((k->smooth || c->broad.moves[k->obstacle]) && sw_contact_stays_away(c, s, k, x1)) return 0;
@@ -164,9 +164,9 @@ static int cross(sw_contact *c, sw_system *s, const sw_candidate *k, const doubl
   return raise_barrier(c, s, k, earlier ? &one.hit : &two.hit, h);
 }
 
-/* 1 if the candidate is a particle that may meet its obstacle without its edges: pads meet meshes
- * by their particles alone (contact/pads.c). A particle without a skin would pass into a pad that
- * closes within the step, and stay there unseen: pads met the next corners, or missed the wire
+/* 1 if the candidate is a particle that may touch its obstacle without its edges: pads touch meshes
+ * by particles only (contact/pads.c). A particle without a skin would pass into a pad that closes
+ * within the step, and remain there unnoticed: pads touched the next corners, or missed the wire
  * (spec/contact/pads_sweep_spec). */
 static int is_lone(const sw_contact *c, const sw_system *s, const sw_candidate *k) {
   return !k->segment && c->obstacles[k->obstacle].grips > 0 && s->bodies[k->body].plan->web;

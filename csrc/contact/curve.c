@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The smooth curve of a wire, its feet (nearest places) over edges and corners, and the normals of
+/* The smooth curve of a wire, its feet (nearest places) on edges and corners, and the normals of
  * touches there. */
 #include <math.h>
 
@@ -7,12 +7,12 @@
 #include "touch/lean.h"
 
 static const double QUARTER = 0.25;
-/* Lines closer to parallel than PARALLEL have no foot. Nodes meet edges up to the angle NEARLY. The
- * two limits overlap because a node's tangent differs from the curve's, so that no place is left
- * out. Squared sines [-]. */
+/* There is no foot between directions closer to parallel than PARALLEL. Nodes touch edges up to the
+ * angle NEARLY. The two limits overlap, because a node's tangent differs from the curve's; so no
+ * place is missed. Squared sines [-]. */
 static const double PARALLEL = 0.005, NEARLY = 0.02;
-enum { MOST_TURNS = 6 };                 /* most steps of the search for the foot [-] */
-static const double SHARP_ENOUGH = 1e-9; /* tolerance of the foot's place, share of an edge [-] */
+enum { MOST_TURNS = 6 };                 /* most iterations for the foot [-] */
+static const double SHARP_ENOUGH = 1e-9; /* tolerance of the foot, share of an edge [-] */
 static const double NO_LENGTH = 1e-6; /* squared share of an edge that counts as no distance [-] */
 
 /* A position on the curve with its first and second derivatives by u [m]. */
@@ -61,12 +61,12 @@ int sw_contact_piece(const sw_contact *c, const sw_system *s, const sw_candidate
   const double one = out->starts ? 0 : off_middle(out->p[0], out->p[1], out->p[2]);
   const double two = out->ends ? 0 : off_middle(out->p[1], out->p[2], out->p[3]);
   out->bulge = sqrt(fmax(one, two)) / 8.0;
-  /* the search also covers the ends beyond its first and last node */
+  /* the search extends beyond the first and last node */
   const double beyond = QUARTER * sw_dist(out->p[1], out->p[2]);
   return sw_shape_meets(shape, out->p[1], out->p[2], reach + out->bulge + beyond);
 }
 
-/* Moves a place to the curve's foot over its edge or corner. 0: no foot nearby. */
+/* Moves a place to the curve's foot on its edge or corner. 0: no foot nearby. */
 static int find_foot(const sw_piece *c, sw_place *place, double low, double high) {
   double u = place->near.at;
   const sw_vec q = place->near.point, e = place->edge;
@@ -106,7 +106,7 @@ int sw_contact_goes_across(sw_vec along, sw_vec edge) {
   return sw_norm2(along) - share * share > NEARLY * sw_norm2(along);
 }
 
-/* Nodes meet faces and edges along the wire; nodes at the wire's ends meet everything. */
+/* Nodes touch faces, and edges along the wire; nodes at the wire's ends touch everything. */
 int sw_contact_is_segments(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                            const sw_contact_at *at, const double *x, const sw_closest *near) {
   const sw_body *b = &s->bodies[k->body];

@@ -23,11 +23,11 @@ typedef struct sw_place {
   sw_vec edge;  /* unit direction of the edge, or 0 [-] */
   sw_vec along; /* unit direction of the curve there [-] */
   sw_vec wire;  /* without an edge: the wire's position, in the obstacle's coordinates [m] */
-  double faint; /* missing share of its stiffness, as another place is about as near [-] */
+  double faint; /* missing share of its stiffness, because another place is about as near [-] */
 } sw_place;
 
-/* Returns the share of its stiffness that a place has. The least share is 1e-3, so that the place
- * remains one [-]. */
+/* Returns the place's share of the stiffness: at least 1e-3, so that it still counts as a place
+ * [-]. */
 static inline double sw_place_share(const sw_place *place) {
   const double faintest = 1e-3;
   return place->faint < 1.0 - faintest ? 1.0 - place->faint : faintest;
@@ -41,8 +41,8 @@ typedef struct sw_places {
 } sw_places;
 _Static_assert(SW_PLACES_MOST + SW_CLOSEST_MAX <= SW_SAMPLES_MOST, "room for those of a chord");
 
-/* Lists the places where the candidate's wire is within reach of its obstacle, with nodes at x and
- * obstacles at `at`: first on edges and corners along its smooth curve, then elsewhere [m]. */
+/* Lists the places where the candidate's wire is within reach of its obstacle [m], with nodes at x
+ * and obstacles at `at`: first on edges and corners along its smooth curve, then elsewhere. */
 void sw_contact_near(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                      const sw_contact_at *at, const double *x, double reach, sw_places *list);
 
@@ -56,8 +56,8 @@ void sw_contact_places(const sw_contact *c, const sw_candidate *k, const sw_piec
 sw_vec sw_contact_curve(const sw_piece *piece, double u, sw_vec *along);
 /* Moves a known place on an edge or corner to the piece. 0: no place nearby. */
 int sw_contact_follow(const sw_piece *piece, sw_place *place);
-/* 1 if the node's nearest place is on an edge across the wire. The node's segments meet that
- * edge. */
+/* 1 if the node's nearest place is on an edge across the wire; then the node's segments touch
+ * it. */
 int sw_contact_is_segments(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                            const sw_contact_at *at, const double *x, const sw_closest *near);
 /* 1 if the wire's direction is across the edge, not along it. */

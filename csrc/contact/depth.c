@@ -5,12 +5,12 @@
 #include <math.h>
 
 /* A wire is limp if tension times edge^2 is above this multiple of EI: it bends within a small part
- * of an edge. Statics may leave a limp string as deep as other things; with less depth it does not
- * settle [-]. */
+ * of an edge. Statics may leave the usual depth to a limp string; with less it does not settle
+ * [-]. */
 static const double LIMP = 500.0;
 
-/* 1 if statics must not leave a touch as deep as usual, because the depth lowers the tension: it
- * presses far more than the line's weight. */
+/* 1 if statics must leave less than the usual depth to a touch because the depth lowers the
+ * tension: the touch presses with much more than the line's weight. */
 static int is_taut(const sw_system *s, const sw_candidate *k, const sw_touch *t) {
   const sw_body *b = &s->bodies[t->body];
   const size_t i = t->node - b->first_node, e = i < b->plan->edges ? i : i - 1;
@@ -33,13 +33,12 @@ double sw_contact_depth_before(const sw_contact *c, const sw_system *s, const sw
   return t->forgiven - t->press.gap + sw_dot(t->press.normal, way);
 }
 
-/* A line that moves over a bent surface gets inside by its motion. It may come out by this share of
- * its way, which is enough where the surface turns by a fifth of a radian in a step [-]. */
+/* A line that moves over a curved surface sinks in by its motion. It may come out by this share of
+ * its path, enough where the surface turns by 0.2 rad in a step [-]. */
 static const double TURNS = 0.1;
 
-/* Returns the way that a touch may come out by up to this stage [m]. At SW_PART cables on pegs were
- * thrown in short steps, where a chord of 10 mm came to touch a second time
- * (spec/contact/let_out_spec). */
+/* Returns how far a touch may come out up to this stage [m]. With SW_PART cables on pegs were
+ * thrown in short steps when a chord of 10 mm touched a second time (spec/contact/let_out_spec). */
 static double let_out(const sw_contact *c, const sw_system *s, const sw_touch *t) {
   const sw_web *web = s->bodies[t->body].plan->web;
   const sw_vec of = sw_obstacle_velocity(&c->start[t->obstacle], t->point);

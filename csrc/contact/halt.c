@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Sets the friction of a wire that comes to rest together with its drive. While the wire was slowed
- * down at a m/s2, friction was mu N, its inertia m a helped the drive, and the wire had the strain
- * of mu N - m a. At rest friction holds this strain. Friction's spring, however, is still stretched
- * by mu N/k. It would draw the wire until the wire has the strain of mu N: micrometres suffice, and
- * an axially stiff cable yields less than the spring. So the spring is set to the force at rest. If
- * a wire rolls, only friction along the wire is set: a wire that rolls across has the inertia of
- * its spin too. */
+/* Sets the friction of a wire that comes to rest together with its drive. While the wire
+ * decelerates at a [m/s2], friction is mu N, the inertia m a helps the drive, and the wire has the
+ * strain of mu N - m a. At rest friction must hold this strain. The spring of friction, however, is
+ * still stretched by mu N/k and would pull the wire to the strain of mu N: micrometres suffice,
+ * because an axially stiff cable yields less than the spring. So the spring is set to the force at
+ * rest. On a rolling wire only friction along the wire is set: across it the wire also has the
+ * inertia of its spin. */
 #include "contact/halt.h"
 
 #include <math.h>
@@ -14,8 +14,8 @@
 #include "touch/same.h"
 
 /* A place rests if its speed is below what it loses in this share of the step [-], or in LATE [s].
- * Velocities of a drive that is a function are differences over the time before and after, and end
- * late. */
+ * Velocities of a drive that is a function are differences over times before and after; they reach
+ * zero late. */
 static const double RESTS = 0.01, LATE = 1e-4;
 
 /* A slower place does not slide [m/s]. */
@@ -36,8 +36,8 @@ static void section_of(const sw_body *b, size_t node, size_t *first, size_t *end
   *first = b->first_node + web->first[ring], *end = b->first_node + web->first[ring + 1];
 }
 
-/* Mass that a touch holds [kg]. In a mesh particles that touch hold those of their section that do
- * not, by the force with which they press. */
+/* Mass held by a touch [kg]. In a mesh the touching particles also hold the other particles of
+ * their section, in proportion to their pressing force. */
 static double mass_of(const sw_contact *c, const sw_system *s, const sw_touch *t) {
   const sw_body *b = &s->bodies[t->body];
   if (!b->plan->web || !b->plan->web->per_ring) return c->candidates[t->candidate].mass;
@@ -52,7 +52,7 @@ static double mass_of(const sw_contact *c, const sw_system *s, const sw_touch *t
   return mass * t->press.normal_force / force;
 }
 
-/* Speed of a mesh's section along the surface [m/s]: its particles tremble at any time. */
+/* Speed of a mesh's section along the surface [m/s]. Single particles always tremble. */
 static double section_speed(const sw_contact *c, const sw_system *s, const sw_touch *t) {
   const sw_body *b = &s->bodies[t->body];
   if (!b->plan->web->per_ring) return 0;
@@ -65,7 +65,8 @@ static double section_speed(const sw_contact *c, const sw_system *s, const sw_to
   return sw_norm(sw_madd(v, t->press.normal, -sw_dot(v, t->press.normal)));
 }
 
-/* Returns the speed along the surface that the place still had [m/s]. */
+/* Sets the friction of a touch. Returns the remaining speed of its place along the surface
+ * [m/s]. */
 static double halt(const sw_contact *c, sw_system *s, sw_touch *t) {
   sw_press *p = &t->press;
   if (t->held || !(t->friction > 0) || !(p->normal_force > 0)) return 0;
@@ -96,12 +97,13 @@ void sw_contact_against(const sw_contact *c, const sw_system *s, sw_against *sum
   }
 }
 
-/* Friction keeps this share of its limit against the slide at the start, or has turned [-]. */
+/* Friction has kept its direction if it is above this share of its limit, against the slide at the
+ * start; else it has turned [-]. */
 static const double KEPT = 0.5;
 
 int sw_against_turned(const sw_against *sum) { return sum->against < KEPT * sum->most; }
 
-/* A touch that goes less in its first step does not slide [m]. */
+/* A touch that moves less in its first step does not slide [m]. */
 static const double LANDS = 1e-9;
 
 static double most_of(const sw_touch *t) {
@@ -128,7 +130,7 @@ double sw_contact_friction(const sw_contact *c) {
 double sw_contact_landed(const sw_contact *c, const sw_system *s) {
   double most = 0, wire = 0;
   int held = 0;
-  for (size_t i = 0; i < c->touch_count; i++) { /* in the order of wires */
+  for (size_t i = 0; i < c->touch_count; i++) { /* sorted by wire */
     const sw_touch *t = &c->touches[i];
     if (i && t->body != c->touches[i - 1].body) most += held ? wire : 0.0, wire = 0, held = 0;
     const int begins = !t->held && !(t->slid > 0) && sw_norm(t->press.slip) > LANDS;
@@ -138,16 +140,17 @@ double sw_contact_landed(const sw_contact *c, const sw_system *s) {
   return most + (held ? wire : 0.0);
 }
 
-/* In steps of 10 ms touches on cables are a thousand times softer than the cable. At rest their
- * springs moved by as much as the cable had stretched, and its hold pulled with 0.72 for -0.44 of
- * mu N. A tenth of the edge's stiffness, or ten times as much, is as exact
- * (spec/contact/soft_landing_spec). With it at all times a cable that sinks onto a table beside a
- * grip would keep a pull of 0.04 of its weight for none (spec/contact/first_step_pull_spec). */
+/* In steps of 10 ms, touches on cables are a thousand times softer than the cable. At rest their
+ * springs moved by as much as the cable had stretched, and the hold pulled with 0.72 instead of
+ * -0.44 of mu N. A tenth of the edge's stiffness, or ten times it, is as exact
+ * (spec/contact/soft_landing_spec). If touches were always this stiff, a cable that sinks onto a
+ * table beside a grip would keep a pull of 0.04 of its weight instead of 0
+ * (spec/contact/first_step_pull_spec). */
 double sw_contact_softness(const sw_contact *c, const sw_system *s, const sw_memory *m,
                            const sw_touch *t) {
   const sw_web *web = s->bodies[t->body].plan->web;
   if (web) return web->per_ring ? 0.0 : fmin(SW_SOFTEST, (double)web->particles);
-  /* in pads, which turn, stiff friction locks in tension */
+  /* pads turn; there stiff friction locks in tension */
   if (c->regime != SW_CONTACT_IMPLICIT || c->obstacles[t->obstacle].grips > 0) return 0.0;
   const int sticks = m && m->kept.normal_force > 0 && !m->kept.sliding;
   const double grip = c->brakes ? sw_contact_edge_stiffness(s, t->body, t->node)
@@ -156,8 +159,8 @@ double sw_contact_softness(const sw_contact *c, const sw_system *s, const sw_mem
   return grip > t->press.k ? t->press.k / grip : 0.0;
 }
 
-/* Friction at rest stays where a touch becomes softer. In poses, and in pads, it falls: it would
- * lock in there. */
+/* Friction at rest keeps its force when a touch becomes softer. In poses and in pads it decreases;
+ * otherwise it would lock in there. */
 sw_vec sw_contact_stretch(const sw_contact *c, const sw_touch *t, const sw_kept *kept) {
   const int gives_way = c->regime == SW_CONTACT_STATIC || c->obstacles[t->obstacle].grips > 0;
   return sw_press_stretch(&t->press, kept, gives_way);

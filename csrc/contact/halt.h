@@ -9,28 +9,29 @@ struct sw_kept;
 struct sw_memory;
 struct sw_touch;
 
-/* Friction against the slide at a step's start, and the most that it can be [N]. */
+/* Friction against the slide at a step's start, and its largest possible value [N]. */
 typedef struct sw_against {
   double against, most;
 } sw_against;
 /* For a trial at whose end a drive comes to rest, while the system is still at the step's start:
- * add the touches. sw_against_turned: 1 if friction turned round in it, because the method's error
- * carried wires past their place of rest. */
+ * adds the touches. sw_against_turned: 1 if friction changed its direction in the trial because the
+ * method's error carried wires past their place of rest. */
 void sw_contact_against(const sw_contact *contact, const sw_system *system, sw_against *sum);
 int sw_against_turned(const sw_against *sum);
-/* When it is the state of the system, before sw_contact_commit: sets friction at places that come
- * to rest to the force that keeps them there, and stops them. Returns the most friction of those
- * that were faster than `still` along their obstacle [m/s], [N]. */
+/* Call when the trial is the state of the system, before sw_contact_commit. At places that come to
+ * rest, sets friction to the force that keeps them there, and stops them. Returns the largest
+ * possible friction of places that were faster than `still` along their obstacle [m/s], [N]. */
 double sw_contact_halt(sw_contact *contact, sw_system *system, double still);
 
-/* Before sw_contact_commit: most friction of the touches of lines that began to press in this step
- * and slide, of those that a hold holds down on an obstacle: others hang from it, and swing [N]. */
+/* Call before sw_contact_commit. Returns the largest possible friction of line touches that began
+ * to press in this step and slide [N]. Only lines that a hold presses on an obstacle count: others
+ * hang from it and swing. */
 double sw_contact_landed(const sw_contact *contact, const sw_system *system);
-/* Most friction of all touches together [N]. */
+/* Largest possible friction of all touches together [N]. */
 double sw_contact_friction(const sw_contact *contact);
 
-/* Friction of a wire's touches along it, in the direction from its start, and the most that it can
- * be. Touches whose friction is mostly across are left out [N]. */
+/* Friction of a wire's touches along the wire, from its start, and its largest possible value.
+ * Touches with friction mostly across the wire are left out [N]. */
 typedef struct sw_along {
   double along, most;
 } sw_along;
@@ -40,11 +41,11 @@ void sw_contact_along(const sw_contact *contact, const sw_system *system, size_t
 void sw_along_add(const sw_system *system, size_t body, size_t node, sw_vec friction, double most,
                   sw_along *sum);
 
-/* Displacement of friction's spring by the memory of a touch, in the obstacle's axes [m]. */
+/* Displacement of friction's spring, from the memory of a touch, in the obstacle's axes [m]. */
 sw_vec sw_contact_stretch(const sw_contact *contact, const struct sw_touch *touch,
                           const struct sw_kept *kept);
-/* As soft of sw_press; memory: the touch's, or NULL. On a rod whose drive comes to rest
- * (sw_contact_brake) friction's spring is as stiff as the rod's edge, and stays so while it sticks
+/* As `soft` of sw_press; memory: the touch's, or NULL. On a rod whose drive comes to rest
+ * (sw_contact_brake), friction's spring is as stiff as the rod's edge, and stays so while it sticks
  * [-]. */
 double sw_contact_softness(const sw_contact *contact, const sw_system *system,
                            const struct sw_memory *memory, const struct sw_touch *touch);

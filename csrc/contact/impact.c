@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Impacts. A step that meets an obstacle it did not touch before is redone with the approach speed
- * cut to the speed that just reaches the surface (or reversed by the restitution). The impulse acts
- * at the step's start, so the integrator never sees the shock that would make it bounce. */
+/* Impacts. A step with a new touch is repeated with a lower approach speed, which just reaches the
+ * surface (or is reversed by the restitution). The impulse acts at the step's start, so that the
+ * integrator never sees the shock, which would make it bounce. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,8 +23,8 @@ static int was_struck(const sw_contact *c, const sw_pressed *t, size_t node, siz
   return 0;
 }
 
-/* 1 if the touch's impact was dealt with in this step. On the smooth curve another iterate may find
- * the same touch from the segment beside. */
+/* 1 if the touch's impact was already treated in this step. On the smooth curve another iterate may
+ * find the same touch from the neighbouring segment. */
 static int dealt_with(const sw_contact *c, const sw_pressed *t, size_t *looks) {
   if (was_struck(c, t, t->node, looks)) return 1;
   if (!t->sharp) return 0;
@@ -63,7 +63,7 @@ sw_status sw_contact_calm(sw_contact *c, size_t nodes) {
   return SW_OK;
 }
 
-/* Computes the share of the momentum that each node of a touch takes; held nodes take none. */
+/* Computes each node's share of a touch's momentum; held nodes have none. */
 static void shares(const sw_system *s, const sw_pressed *t, double out[SW_MEAN_MOST]) {
   const sw_body *b = &s->bodies[t->body];
   double sum = 0;
@@ -83,11 +83,10 @@ static sw_vec mean_velocity(const sw_contact *c, int obstacle, sw_vec p) {
   return sw_scale(sw_sub(after, p), 1.0 / (c->stage_time - c->time));
 }
 
-/* Returns the obstacle's velocity at p for an impact. *slow: a slower approach is no impact [m/s].
- * A closed touch uses the speed at the step's start: what the obstacle gains within the step is no
- * impact; the integrator handles it, and a restart would only disturb it. An open gap closes on the
- * way and uses the mean speed: struck with the starting speed, a wire would be reached early and
- * leave again. */
+/* Returns the obstacle's velocity at p for an impact. *slow: slower approaches are not impacts
+ * [m/s]. A closed touch uses the speed at the step's start: the integrator treats what the obstacle
+ * gains within the step, and a restart would only disturb it. A gap that closes within the step
+ * uses the mean speed: with the starting speed the wire would be reached early and leave again. */
 static sw_vec striking_velocity(const sw_contact *c, const sw_pressed *t, sw_vec p, double gap,
                                 double *slow) {
   const sw_vec start = sw_obstacle_velocity(&c->start[t->obstacle], p);
@@ -134,8 +133,8 @@ static double inertia_about(const sw_system *s, const sw_body *b, const section 
   return sum;
 }
 
-/* Changes a node's velocity by dv. A strike on a particle of a wire stops the whole section, as a
- * rigid one that may turn: the section's springs do this within any step except the shortest, and
+/* Changes a node's velocity by dv. A strike on a particle of a wire stops the whole section as a
+ * rigid body that may turn. The section's springs do this within all but the shortest steps, and
  * would throw it back. Returns the impulse over |dv| [kg]. */
 static double kick(sw_system *s, const sw_body *b, size_t node, sw_vec dv) {
   const section c = section_of(s, b, node);
@@ -154,13 +153,13 @@ static double kick(sw_system *s, const sw_body *b, size_t node, sw_vec dv) {
   return share * c.mass;
 }
 
-/* A touch and its obstacle, at the step's start. */
+/* A touch and its obstacle at the step's start. */
 typedef struct encounter {
   sw_vec at;             /* point on the wire's surface if it can roll, else on its axis [m] */
   double gap;            /* [m] */
   sw_vec wall;           /* the obstacle's velocity there [m/s] */
   sw_vec speed;          /* the wire's velocity relative to it [m/s] */
-  double approach, slow; /* closing speed of the gap; up to slow it is no impact [m/s] */
+  double approach, slow; /* closing speed of the gap; slower ones are not impacts [m/s] */
 } encounter;
 
 static encounter encounter_of(const sw_contact *c, const sw_system *s, const sw_pressed *t,
@@ -179,20 +178,20 @@ static encounter encounter_of(const sw_contact *c, const sw_system *s, const sw_
   return e;
 }
 
-/* Returns the velocity towards the obstacle that a touch loses; 0: it strikes nothing [m/s]. */
+/* Returns the velocity towards the obstacle that a touch loses; 0: no impact [m/s]. */
 static double velocity_lost(sw_contact *c, const sw_system *s, const sw_pressed *t,
                             const encounter *meets, double h) {
   const double allowed = meets->gap / h, e = c->obstacles[t->obstacle].restitution;
   const double pull = fmax(0.0, -sw_dot(sw_load(s->gravity), t->normal));
   const sw_meeting m = sw_rebound_meet(meets->gap, meets->approach, pull);
   if (e > 0 ? !(m.speed > meets->slow) : !(meets->approach > allowed + meets->slow)) return 0;
-  /* a rebound that comes back within the step is none */
+  /* a rebound that returns within the step does not count */
   const int rebounds = e * m.speed > 0.5 * pull * h;
   if (rebounds && sw_rebound_too_early(c, e, meets->gap, pull, m, h)) return 0;
   return fmax(0.0, rebounds ? meets->approach * (1.0 + e) : meets->approach - allowed);
 }
 
-/* 1 for a touch on a pad that already holds a wire: it only trembles and strikes nothing. */
+/* 1 for a touch on a pad that already holds a wire: it trembles and is not an impact. */
 static int trembles(const sw_contact *c, const sw_pressed *t) {
   return c->obstacles[t->obstacle].grips > 0 && c->pressing[t->obstacle];
 }
@@ -262,8 +261,8 @@ static int by_meeting(const void *left, const void *right) {
   return (p->touch > q->touch) - (p->touch < q->touch);
 }
 
-/* A standing wall without restitution is met at the wire's speed. Below this share of the slowest
- * impact there is surely no impact, whatever rounding does [-]. */
+/* The speed at a standing wall without restitution is the wire's. Below this share of the slowest
+ * impact speed there is certainly no impact, also with rounding [-]. */
 static const double SURELY = 1.0 - 1e-6;
 
 static int is_slow(const sw_contact *c, const sw_system *s, const sw_pressed *t) {
@@ -271,7 +270,7 @@ static int is_slow(const sw_contact *c, const sw_system *s, const sw_pressed *t)
   return -sw_dot(sw_mean_of(s->v, 0, &t->spot), t->normal) <= SURELY * SW_SLOWEST_IMPACT;
 }
 
-/* 1 if the touch's impact is not dealt with yet. Then *e is how it meets its obstacle. */
+/* 1 if the touch may still have an impact. Then *e describes it. */
 static int may_strike(const sw_contact *c, sw_system *s, const sw_pressed *t, encounter *e) {
   if (trembles(c, t) || dealt_with(c, t, &s->counters.looks)) return 0;
   const sw_levers levers = levers_of(s, t);
@@ -287,7 +286,7 @@ static int any_strikes(sw_contact *c, sw_system *s, double h) {
     encounter e;
     if (is_slow(c, s, t) || !may_strike(c, s, t, &e)) continue;
     if (!(velocity_lost(c, s, t, &e, h) > 0)) continue;
-    c->soonest = soonest; /* strike_all judges all touches again, one after another */
+    c->soonest = soonest; /* strike_all judges all touches again, one by one */
     return 1;
   }
   return 0;
@@ -306,7 +305,7 @@ int sw_contact_will_strike(const sw_contact *c, sw_system *s, size_t first, size
   return 0;
 }
 
-/* Lists the touches that may strike, also after others have struck. Returns their number. */
+/* Lists the touches that may strike, alone or after others have struck. Returns their number. */
 static size_t find_turns(sw_contact *c, sw_system *s) {
   size_t count = 0;
   for (size_t i = 0; i < c->pressed_count; i++) {
@@ -322,8 +321,8 @@ static size_t find_turns(sw_contact *c, sw_system *s) {
   return count;
 }
 
-/* In a step that does not bounce, keeps only touches that rebound; the others come to rest by
- * themselves. */
+/* For a step that does not bounce: keeps only touches that rebound; the others come to rest
+ * anyway. */
 static void leave_dull(sw_contact *c) {
   size_t kept = 0;
   for (size_t i = 0; i < c->pressed_count; i++)
@@ -331,7 +330,7 @@ static void leave_dull(sw_contact *c) {
   c->pressed_count = kept;
 }
 
-/* The touch that meets its obstacle first strikes first; of simultaneous ones the fastest does. The
+/* The touch that meets its obstacle first strikes first; among simultaneous ones the fastest. The
  * order matters because places of neighbouring segments share nodes, and it must not depend on the
  * end from which nodes are counted. */
 int sw_contact_strike_all(sw_contact *c, sw_system *s, double h, int dull) {

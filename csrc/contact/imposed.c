@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Finds depth that holds impose: no force can take it away. */
+/* Finds depth that holds impose, which no force can remove. */
 #include <math.h>
 
 #include "contact/touch.h"

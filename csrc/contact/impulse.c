@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Loads of obstacles in a step: the impulse that changed the wires' momentum. The stages of a
- * method build it from forces as they build the velocity. Impacts change velocities at the step's
- * start; they add their own. */
+ * method add forces to it with the weights that they have in the velocity. Impacts change
+ * velocities at the step's start and add their own impulse. */
 #include <math.h>
 
 #include "contact/jolt.h"
@@ -11,7 +11,7 @@ static sw_contact_load sum(sw_contact_load a, double share, sw_contact_load b) {
   return (sw_contact_load){sw_madd(a.force, b.force, share), sw_madd(a.moment, b.moment, share)};
 }
 
-/* Force on the wire: in implicit steps the force that moved the wire, else the force by the law. */
+/* Force on the wire: in implicit steps the force of the solve, else that of the contact law. */
 static sw_vec force_on(const sw_contact *c, const sw_touch *t) {
   const sw_press *p = &t->press;
   if (c->regime == SW_CONTACT_IMPLICIT) return sw_press_borne(p, t->friction);
@@ -19,8 +19,8 @@ static sw_vec force_on(const sw_contact *c, const sw_touch *t) {
 }
 
 /* Adds share times the forces of the touches, with moments about the obstacles' present pivots. The
- * fingers of a tool share one pivot; otherwise their pressing forces would turn the tool while it
- * turns in a step. */
+ * fingers of a tool share one pivot; with two pivots their pressing forces would turn the tool
+ * while it turns in a step. */
 static void add_now(const sw_contact *c, double share, sw_contact_load *(*at)(sw_contact_loads *)) {
   for (size_t i = 0; c->still.any && i < c->busy_count; i++) {
     sw_contact_loads *l = &c->loads[c->busy[i]];
@@ -55,8 +55,8 @@ void sw_contact_book(void *contact, const sw_booking *b) {
   if (b->own != 0) add_now(c, b->own, b->stage ? second_of : first_of);
 }
 
-/* A pad that turns with its tool has its lever in the middle of the step: the mean force has the
- * direction of the middle too, and the lever at the end would be half a turn ahead of it. */
+/* The lever of a pad that turns with its tool is taken at mid-step: the mean force has the
+ * direction of mid-step, and the lever at the end would be half a turn of the step ahead. */
 void sw_contact_gained(const sw_contact *c, int id, sw_vec *force, sw_vec *moment) {
   const size_t o = sw_contact_index(c, id);
   const sw_contact_at *from = &c->start[o], *to = &c->now[o];
@@ -103,7 +103,7 @@ void sw_contact_forget_blows(sw_contact *c) {
  * the larger of both, and by more than SHARP times the usual force [-]. */
 static const double SHOCK = 0.3, SHARP = 0.5;
 
-/* 1 if an obstacle's load at the end differs from its mean by what may be a shock of some wire. */
+/* 1 if an obstacle's load at the end differs from its mean by enough for a shock of some wire. */
 static int any_may_shake(const sw_contact *c, const sw_system *s) {
   double most = 0;
   for (size_t i = 0; i < c->busy_count; i++) {
@@ -150,7 +150,7 @@ double sw_contact_edge_stiffness(const sw_system *s, size_t body, size_t node) {
   return b->EA / b->plan->rest[e < edges ? e : edges - 1];
 }
 
-/* 1 if a difference of forces is too much for one of the wires that touch obstacle o. */
+/* 1 if a difference of forces is a shock for one of the wires that touch obstacle o. */
 static int shakes(const sw_contact *c, const sw_system *s, int o, double off) {
   for (size_t i = 0; i < c->touch_count; i++) {
     const sw_plan *p = s->bodies[c->touches[i].body].plan;
@@ -177,18 +177,19 @@ int sw_contact_shaken(const sw_contact *c, const sw_system *s) {
 static const double LIGHT = 1.1;
 /* A new blow on an obstacle is this many times as hard as the hardest one before [-]. */
 static const double HARDER = 1.5;
-/* A followed blow goes on while forces come and go that are harder than GOES_ON times the hardest
- * one and than HARD times the usual force [-]. */
-static const double GOES_ON = 0.5, HARD = 5.0; /* the latter: of usual forces [-] */
+/* A blow goes on while forces come and go that are above GOES_ON times its hardest force and above
+ * HARD times the usual force [-]. */
+static const double GOES_ON = 0.5, HARD = 5.0; /* HARD: of usual forces [-] */
 
 double sw_contact_least_blow(double usual, double hardest, int followed) {
   return followed ? fmax(HARD * usual, GOES_ON * hardest) : fmax(LIGHT * usual, HARDER * hardest);
 }
 
-/* A new blow may add little to what presses already: a cable that rolls down on a table presses on
- * it with several times its weight before its end slaps down. Its force differs from the mean by
+/* A new blow may add little to a force that already presses: a cable that rolls down on a table
+ * presses with several times its weight before its end slaps down. A blow differs from the mean by
  * more than PASSING times the larger of both, and by more than BRIEF times the usual force. With
- * SHOCK and SHARP, bend radii of 41 of 450 landings were more than 15 % off without a word [-]. */
+ * SHOCK and SHARP instead, bend radii of 41 of 450 landings were off by more than 15 % without an
+ * event [-]. */
 static const double PASSING = 0.15, BRIEF = 0.25;
 
 static int is_passing(double usual, sw_vec end, sw_vec mean, int followed) {
@@ -205,8 +206,8 @@ double sw_contact_jolt_of(double size, double usual, double h) {
   return fmax(size / usual, sqrt(h / SW_LONGEST_PART));
 }
 
-/* Load of the only striker: the obstacle's, without that of wires that rest. Among several strikers
- * a wire has its own: many that shake a little would hide the blow of one. */
+/* Load of the only striker: that of the obstacle without the wires that rest on it. Among several
+ * strikers each wire has its own load: many that shake a little would hide the blow of one. */
 static sw_blow blow_on(const sw_contact *c, const sw_contact_loads *l, double usual) {
   const sw_strikers *k = &l->strikers;
   if (k->count > 1) return sw_contact_own_blow(c, k, usual);
@@ -219,15 +220,15 @@ static sw_blow blow_on(const sw_contact *c, const sw_contact_loads *l, double us
 }
 
 /* 1 if some touch may be a blow. A touch that pressed before only slips or sticks, unless it
- * belongs to a blow that is followed. */
+ * belongs to a present blow. */
 static int any_may_strike(const sw_contact *c, int followed) {
   for (size_t i = 0; i < c->touch_count; i++)
     if (followed || !c->touches[i].known) return 1;
   return 0;
 }
 
-/* Jolt by a touch of a wire whose hardest blow so far is *own [N]. Pads of a gripper are left out;
- * a gripper has other means to close slowly on a wire. */
+/* Jolt of a wire's touch; *own: the wire's hardest blow so far [N]. Pads of a gripper do not count;
+ * the gripper closes slowly on a wire by other means. */
 static double jolt_of(sw_contact *c, const sw_system *s, const sw_touch *t, int followed,
                       double *own) {
   sw_contact_loads *l = &c->loads[t->obstacle];
@@ -236,7 +237,8 @@ static double jolt_of(sw_contact *c, const sw_system *s, const sw_touch *t, int 
   const sw_blow b = blow_on(c, l, sw_contact_usual_force(s, p));
   const double size = sw_norm(b.mean);
   if (!(size > sw_contact_least_blow(b.usual, fmin(l->past.hardest, *own), followed))) return 0;
-  if (size > p->beam.EA) return 0; /* a hold drives it in: a wire's blow is weaker */
+  if (size > p->beam.EA)
+    return 0; /* a hold drives the wire in: a blow of the wire would be weaker */
   if (!sw_contact_comes_and_goes(b.usual, b.start, b.mean, b.end, followed)) return 0;
   if (!followed) l->past.hardest = fmax(l->past.hardest, size), *own = fmax(*own, size);
   return sw_contact_jolt_of(size, b.usual, c->h);

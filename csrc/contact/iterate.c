@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Touches of an iterate: their forces by the common law, whether a matrix made with them serves
- * again, and whether they agree with the solve. */
+/* Touches of an iterate: their forces by the contact law, whether the last matrix is still valid,
+ * and whether they agree with the solve. */
 #include <math.h>
 
 #include "base/alloc.h"
@@ -23,7 +23,7 @@ static void apply(sw_contact *c, sw_system *s, sw_touch *t, const double *y, uns
   if (s->rolls) sw_levers_push(s, t, K, want);
 }
 
-/* 1 if the touch slides with friction. Its stiffness then differs from place to place. */
+/* 1 if the touch slides with friction. Its stiffness then changes with its place. */
 static int slides(const sw_touch *t) {
   return t->press.sliding && t->friction > 0 && t->press.lag > 0;
 }
@@ -52,7 +52,7 @@ static int is_marked(const sw_touch *t, const sw_mark *m) {
          sw_norm2(sw_sub(m->normal, t->press.normal)) < TURNED * TURNED;
 }
 
-/* Finds the touches of an iterate, and adds their forces unless want is 0. */
+/* Finds the touches of an iterate; adds their forces if want is not 0. */
 static sw_status look(sw_contact *c, sw_system *s, const double *y, unsigned want, sw_error *err) {
   sw_glance at;
   sw_status status = sw_contact_turn_over(c, &at);
@@ -83,12 +83,11 @@ sw_status sw_contact_keeps(void *contact, sw_system *s, const double *y, int *ou
   return SW_OK;
 }
 
-/* A touch left this near to an obstacle with restitution strikes together with its neighbours
- * [m]. */
+/* A touch this near to an obstacle with restitution strikes together with its neighbours [m]. */
 static const double NEXT_TO = 1e-6;
 
-/* Notes a touch that presses and so may have struck. Without memory its impact is dealt with in the
- * next step. */
+/* Notes a touch that presses and so may have struck. If memory runs out, its impact is treated in
+ * the next step. */
 static void note_pressed(sw_contact *c, const sw_touch *t) {
   const double open = c->obstacles[t->obstacle].restitution > 0 ? NEXT_TO : 0.0;
   if (t->held || !(t->press.normal_force > 0 || t->press.gap_after < open)) return;
@@ -116,17 +115,17 @@ sw_status sw_contact_eval(void *contact, sw_system *s, double time, double hbar,
   return SW_OK;
 }
 
-/* A touch's shift by the solved update, with that of the rolling surface. */
+/* Shift of a touch by the update, including that of a rolling surface. */
 static sw_vec surface_shift(const sw_system *s, const sw_touch *t, sw_vec shift) {
   const sw_levers levers = sw_touch_levers(s, t);
   if (!levers.count) return shift;
   return sw_add(shift, sw_levers_shift(&levers, s->bodies[t->body].spin_delta + 3, 4));
 }
 
-/* 1 if this is a stage's first update, on an obstacle that is not flat. It starts from a
- * prediction, where the normals of round obstacles are a little off, and is not accepted unchecked:
- * ropes that slide round a cylinder would shake (their force would swing by 12 % instead of 1 %),
- * and a mesh that rocks on a peg would gain energy. Meshes in a gripper's pads are excepted: the
+/* 1 for the first update of a stage on an obstacle that is not flat. It starts from a prediction,
+ * in which the normals of round obstacles are a little off, and must be checked by another one:
+ * otherwise the force of ropes that slide round a cylinder would swing by 12 % instead of 1 %, and
+ * a mesh that rocks on a peg would gain energy. Meshes in a gripper's pads are excepted: their
  * gripper then finds its force in fewer trials. */
 static int is_first(const sw_contact *c, const sw_system *s, const sw_touch *t) {
   if (c->obstacles[t->obstacle].grips > 0 && s->bodies[t->body].plan->web) return 0;
@@ -134,17 +133,17 @@ static int is_first(const sw_contact *c, const sw_system *s, const sw_touch *t) 
          t->press.active;
 }
 
-/* 1 if the touch may have got another place and normal, on an obstacle that is not flat. */
+/* 1 if the touch may have a new place and normal, on an obstacle that is not flat. */
 static int may_change(const sw_contact *c, const sw_touch *t, double shift) {
   const double radius = c->candidates[t->candidate].radius;
   return !c->flat[t->obstacle] && t->press.gap_after < radius &&
          !(shift <= SW_SMALL_SHIFT * radius);
 }
 
-/* Sets a touch's forces after the solved update; 1 = it agrees with what the solve assumed.
- * Friction of a loose object's many touches may never agree everywhere. After many updates it no
- * longer keeps iterations going if it shifts a touch by less than a small share of the radius; for
- * that step friction is then off by less than its own size. */
+/* Sets a touch's forces after the update. Returns 1 if they agree with the assumptions of the
+ * solve. Friction of a loose object's many touches may never agree everywhere. After many updates
+ * it no longer causes iterations if it shifts a touch by less than a small share of the radius; in
+ * that step friction may be off by less than its own size. */
 static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *y,
                   const double *delta, double scale) {
   const sw_vec shift = sw_mean_of(delta, 0, &t->spot);
@@ -165,8 +164,8 @@ static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *
   return !(changes || first) || sw_contact_stays(c, s, t, y, way, scale);
 }
 
-/* Returns the full stiffness of a touch from the next iterate on; touches that sink in too deep are
- * made stiffer [N/m]. */
+/* Returns the full stiffness of a touch from the next iterate on; touches that are too deep are
+ * stiffened [N/m]. */
 static double stiffer(const sw_contact *c, const sw_system *s, const sw_touch *t) {
   const int still = c->regime == SW_CONTACT_STATIC, squeezed = t->squeezed && !still;
   if (t->held || c->candidates[t->candidate].given) return t->stiffer;
@@ -181,7 +180,7 @@ static double stiffer(const sw_contact *c, const sw_system *s, const sw_touch *t
   return k / t->share;
 }
 
-/* Stiffens touches that are too deep; 1 = there were some. */
+/* Stiffens touches that are too deep. Returns 1 if there are any. */
 static int stiffen(sw_contact *c, const sw_system *s) {
   int any = 0;
   for (size_t i = c->parts.touch; i < c->touch_count; i++) {
@@ -192,8 +191,8 @@ static int stiffen(sw_contact *c, const sw_system *s) {
   return any;
 }
 
-/* Sets the forces of all touches after the update; 1 if they agree. Then pressing touches are
- * noted, and *changes tells whether stiffnesses should change. */
+/* Sets the forces of all touches after the update. Returns 1 if they agree; then pressing touches
+ * are noted, and *changes is 1 if stiffnesses should change. */
 static int update_all(sw_contact *c, const sw_system *s, const double *y, const double *delta,
                       int *changes) {
   const int may = c->regime != SW_CONTACT_EXPLICIT && !s->rough;
@@ -212,8 +211,8 @@ static int update_all(sw_contact *c, const sw_system *s, const double *y, const 
   return fine;
 }
 
-/* A wire stands, rather than lies, on up to this many rubbing touches. It may be bent and about to
- * slip, and its touches then depend on how it bends [-]. */
+/* A wire with at most this many touches with friction stands rather than lies. It may be bent and
+ * about to slip, and its touches then depend on its bends [-]. */
 enum { SINGLE = 4 };
 
 static int stands(const sw_contact *c) {
@@ -223,9 +222,9 @@ static int stands(const sw_contact *c) {
   return rubs > 0 && rubs <= SINGLE;
 }
 
-/* 1 if friction is the only nonlinearity of the touches, because all are on flat obstacles. Where
- * they slide is found before the update is made, or the update would lead astray. Places on edges
- * and round sides are found by updates. */
+/* 1 if friction is the only nonlinearity of the touches, because all are on flat obstacles. Then
+ * the sliding touches are found before the update is made; otherwise the update would go the wrong
+ * way. Places on edges and round sides are found by updates. */
 static int rubs_on_flat(const sw_contact *c, const sw_system *s) {
   int rubs = 0;
   if (s->rolls) return 0;
@@ -238,12 +237,12 @@ static int rubs_on_flat(const sw_contact *c, const sw_system *s) {
   return rubs;
 }
 
-/* Touches that do not agree after EASY_PASSES solves at one place search for agreement. No update
- * is made before they agree once positions took EASY_UPDATES updates, or SOME_UPDATES if at most
- * FEW_WRONG touches are wrong [-]. */
+/* After EASY_PASSES solves at one place, touches that do not agree are searched for agreement. No
+ * update is made before they agree once there were EASY_UPDATES updates of positions, or
+ * SOME_UPDATES if at most FEW_WRONG touches are wrong [-]. */
 enum { EASY_PASSES = 8, EASY_UPDATES = 14, SOME_UPDATES = 8, FEW_WRONG = 4 };
 
-/* 1 if the touches should agree before an update, which may be made, is made. */
+/* 1 if the touches should agree before the possible update is made. */
 static int rather_waits(const sw_contact *c, const sw_system *s) {
   if (stands(c)) return 0;
   if (c->softer || rubs_on_flat(c, s) || c->made >= EASY_UPDATES) return 1;
@@ -255,8 +254,8 @@ static int searches(sw_contact *c, const sw_system *s) {
   return ++c->passes > EASY_PASSES || s->rough == SW_MAY_BE_MADE || !sw_contact_wrong(c);
 }
 
-/* 1 if the current part of bodies strikes something, so that its friction need not agree: the trial
- * is redone with other speeds. */
+/* 1 if the current part of bodies strikes something. Its friction need not agree: the trial will be
+ * repeated with other speeds. */
 static int is_hasty(sw_contact *c, sw_system *s) {
   if (!sw_part_is_single(s) || c->careful || s->rough || c->regime != SW_CONTACT_IMPLICIT) return 0;
   for (size_t i = c->parts.touch; i < c->touch_count; i++)

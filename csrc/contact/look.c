@@ -6,8 +6,9 @@
 #include "contact/curve.h"
 #include "touch/same.h"
 
-/* 1 if a mesh's particle was in the obstacle at the step's start already: with no memory, it was
- * put there, or the obstacle was. What passes into it within a step is found by the swept test. */
+/* 1 if a mesh's particle was in the obstacle at the step's start already. If it has no memory, a
+ * script put it, or the obstacle, there. The swept test finds particles that get in within a
+ * step. */
 static int was_put_in(const sw_contact *c, const sw_system *s, const sw_candidate *k) {
   sw_closest near;
   if (k->segment || !s->bodies[k->body].plan->web) return 0;
@@ -17,9 +18,9 @@ static int was_put_in(const sw_contact *c, const sw_system *s, const sw_candidat
 }
 
 /* Keeps the side of a place. If the wire's axis is inside the obstacle, the nearest face may be the
- * wrong one, so the side remembered from the last accepted step is used. Without a memory the axis
- * got there within this step; the swept test will tell from which side, so the touch is left out:
- * returns 0. A wire that starts inside is pushed out the nearest way. */
+ * wrong one, so the side of the last accepted step is used. Without such a memory the axis got in
+ * within this step: returns 0, the touch is left out, and the swept test finds its side. A wire
+ * that starts inside is pushed out by the shortest path. */
 static int keep_side(const sw_contact *c, const sw_system *s, const sw_candidate *k, sw_vec local,
                      sw_closest *near) {
   if (near->gap >= 0 || c->flat[k->obstacle]) return 1; /* a half space has one side */
@@ -34,8 +35,8 @@ static int keep_side(const sw_contact *c, const sw_system *s, const sw_candidate
   return 1;
 }
 
-/* Fills the place that a barrier of this step keeps on its side. Returns 1 if the candidate has a
- * barrier, else 0. */
+/* Fills the place that a barrier of this step keeps on its side. Returns 1 if there is a
+ * barrier. */
 static int behind_barrier(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                           const double *y, sw_place *place) {
   const sw_barrier *b = sw_contact_barrier(c, k->obstacle, k->node, k->segment);
@@ -58,9 +59,9 @@ static sw_status add_near(sw_contact *c, const sw_system *s, const sw_candidate 
                                                        : SW_OK;
 }
 
-/* Keeps touches that pushed in the previous iterate where they were. The nearest place of a segment
- * that lies along an obstacle comes and goes with the last nanometre. first: the first touch found
- * in this iterate. */
+/* Keeps the place of touches that pushed in the previous iterate: the nearest place of a segment
+ * along an obstacle changes with the last nanometre. first: the first touch found in this
+ * iterate. */
 static sw_status keep_pushing(sw_contact *c, const sw_system *s, const sw_candidate *k,
                               const double *y, size_t first) {
   const int chords = k->segment && !k->samples && (!k->smooth || k->round);
@@ -81,8 +82,8 @@ static sw_status keep_pushing(sw_contact *c, const sw_system *s, const sw_candid
   return SW_OK;
 }
 
-/* Touches of one obstacle on edges or corners that are nearer to each other than this share of the
- * radius are one. On a round side every touch counts, with its share of the stiffness [-]. */
+/* Touches on edges or corners of one obstacle that are nearer to each other than this share of the
+ * radius are one touch. On a round side every touch counts, with its share of the stiffness [-]. */
 static const double ONE_POINT = 0.02;
 
 static int is_known(const sw_contact *c, const sw_candidate *k, const sw_place *place) {
@@ -109,8 +110,8 @@ static const sw_candidate *beside(const sw_contact *c, const sw_candidate *k, in
   return NULL;
 }
 
-/* Returns the candidate of the segment that the place lies in, even if a segment beside found the
- * place. Its memory and impacts must not depend on the end from which nodes are counted. */
+/* Returns the candidate of the segment that contains the place, even if the neighbouring segment
+ * found it. Memory and impacts must not depend on the end from which nodes are counted. */
 static const sw_candidate *owner(const sw_contact *c, const sw_candidate *k, sw_place *place) {
   const int by = place->near.at < 0 ? -1 : place->near.at > 1 ? 1 : 0;
   const sw_candidate *own = by ? beside(c, k, by) : NULL;
@@ -130,7 +131,7 @@ static sw_status add_sharp(sw_contact *c, const sw_system *s, const sw_candidate
 }
 
 static sw_status query(sw_contact *c, const sw_system *s, const sw_candidate *k, const double *y) {
-  const double reach = 2.0 * k->radius; /* keeps places that may begin to touch in the list */
+  const double reach = 2.0 * k->radius; /* also lists places that may soon touch */
   size_t first = c->touch_count;
   sw_places list;
   if (c->barrier_count && behind_barrier(c, s, k, y, list.place))
@@ -144,11 +145,11 @@ static sw_status query(sw_contact *c, const sw_system *s, const sw_candidate *k,
   return keep_pushing(c, s, k, y, first);
 }
 
-/* Candidates looked at in one go. Their touches are still in the cache when their forces are added
- * [-]. */
+/* Number of candidates checked together, so that their touches are still in the cache when their
+ * forces are added [-]. */
 enum { SOME = 64 };
 
-/* Number of touches whose position in the list is final: a later candidate may find a touch that
+/* Number of touches with a final position in the list: a later candidate may find a touch that
  * belongs to the segment before it. */
 static size_t found_for_good(const sw_contact *c, const sw_glance *at) {
   size_t i = c->touch_count;

@@ -9,10 +9,10 @@
 #include "contact/curve.h"
 #include "contact/depth.h"
 
-/* Friction uses the normal force as a mean over this many steps, because chords round a peg press
- * more and less from step to step. With half as many a wire's swing through a ring
- * (spec/shape/torus_spec) is three times as sensitive to rounding, with one step four times; with
- * twice as many it is no better [-]. */
+/* The normal force in friction is a mean over this many steps, because the pressure of chords round
+ * a peg changes from step to step. The swing of a wire through a ring (spec/shape/torus_spec) is
+ * three times as sensitive to rounding with half as many steps, four times with one step, and no
+ * better with twice as many [-]. */
 static const double MEAN_STEPS = 8.0;
 
 static double steady_force(const sw_contact *c, const sw_system *s, const sw_touch *t) {
@@ -20,9 +20,9 @@ static double steady_force(const sw_contact *c, const sw_system *s, const sw_tou
   return t->steady + (t->press.normal_force - t->steady) / MEAN_STEPS;
 }
 
-/* Stiffness that a touch goes back to where it presses less [N/m]. Of a mesh it stays in statics:
- * what steps of motion pressed together would else come apart a little in every search, and with it
- * the force of jaws that hold it. */
+/* Stiffness to which a touch returns where it presses less [N/m]. That of a mesh stays in statics.
+ * Otherwise what steps of motion pressed together would come apart a little in every search, and
+ * the force of jaws that hold it with it. */
 static double goes_back_to(const sw_contact *c, const sw_system *s, const sw_touch *t) {
   const int stays = c->regime == SW_CONTACT_STATIC && s->bodies[t->body].plan->web;
   return stays ? fmax(t->usual, t->press.k) : t->usual;
@@ -54,8 +54,7 @@ static sw_status remember(sw_contact *c, const sw_system *s, const sw_touch *t) 
   return SW_OK;
 }
 
-/* Copies the memory of a body that waits, from number m on. Returns the first number that is
- * left. */
+/* Copies the memory of a waiting body, from number m on. Returns the next number. */
 static size_t carry_over(sw_contact *c, const sw_body *b, size_t m) {
   const size_t end = b->first_node + b->plan->nodes;
   while (m < c->memory_count && c->memory[m].node < b->first_node) m++;
@@ -76,7 +75,7 @@ void sw_contact_commit(sw_contact *c, sw_system *s) {
   for (size_t b = 0, i = 0, m = 0; b < s->body_count; b++) {
     if (c->still.any && c->still.kept[b]) m = carry_over(c, &s->bodies[b], m);
     for (; i < c->touch_count && c->touches[i].body == b; i++)
-      (void)remember(c, s, &c->touches[i]); /* a lost anchor just begins again */
+      (void)remember(c, s, &c->touches[i]); /* a lost anchor starts anew */
   }
   c->still.accepted = 1;
   SW_SWAP(c->memory, c->next_memory);

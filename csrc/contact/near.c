@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Finds the places of a candidate near its obstacle: of its node, samples, chord or smooth
+/* Finds the places of a candidate near its obstacle: of its node, samples, chord, or smooth
  * curve. */
 #include "contact/round.h"
 
-/* Appends the place after the last one. Its `near` is already filled; wire: the wire's position. */
+/* Appends the place after the last one; `near` is already filled. wire: the wire's position. */
 static void take(sw_places *list, sw_vec wire) {
   sw_place *place = &list->place[list->count++];
   place->sharp = SW_SHARP_NOT;
   place->edge = sw_v(0, 0, 0), place->wire = wire, place->faint = 0;
 }
 
-/* Adds the obstacle's nearest place to a point of the candidate's segment, `at` along it. */
+/* Adds the obstacle's nearest place to a point of the candidate's segment; `at`: place on the
+ * segment. */
 static void near_point(const sw_shape *shape, sw_vec wire, double at, double reach,
                        sw_places *list) {
   sw_closest *near = &list->place[list->count].near;

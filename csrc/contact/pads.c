@@ -6,23 +6,23 @@
 
 #include "touch/same.h"
 
-/* If particles lie close enough, only particles meet a pad, not the edges between them. These edges
- * would leave and enter the pad's edges one by one, and the pad's force would jump. */
-static const double CLOSE = 3.0; /* least rings along the pad's face, its x and z [-] */
+/* If particles lie close enough, a pad touches only particles, not the edges between them. These
+ * would enter and leave the pad's edges one by one, and the pad's force would jump. */
+static const double CLOSE = 3.0; /* least number of rings along the pad's face, its x and z [-] */
 
-/* The same for a line. A node at the edge of a pad comes and goes, and with it the force of a whole
- * segment. So a pad with faces has evenly spread samples, this many along its width, which fade out
+/* The same for a line. A node at the edge of a pad comes and goes, and the force of a whole segment
+ * with it. So a pad with faces has evenly spaced samples, this many along its width, which fade out
  * at its edges [-]. */
 static const double SAMPLES = 12.0;
 
-/* Edges of a whole number of samples, give or take rounding, all have one more [-]. */
+/* Edges of a whole number of samples, within rounding, all have one sample more [-]. */
 static const double ROUNDING = 1e-9;
 
 /* A round pad presses along a short length, shorter across the wire than along it. There too the
- * line has samples, this many along the length that presses where they cross at a right angle. With
- * the nearest place instead, two places of a wire that turns press at once where they meet: up to
- * half of its energy came from nowhere. Twice as many samples shift where it comes to rest by up to
- * 5 mm of 200, half as many by 30 (spec/contact/round_pad_spec) [-]. */
+ * line has samples: this many along the pressing length where wire and pad cross at a right angle.
+ * With nearest places instead, two places of a turning wire press at once where they meet, and up
+ * to half of the energy came from nowhere. Twice as many samples shift the place of rest by up to 5
+ * mm of 200, half as many by 30 (spec/contact/round_pad_spec) [-]. */
 static const double IN_CONTACT = 4.5;
 
 /* Line stiffness of one side of a round section between plates, over its mean modulus: a solid
@@ -33,18 +33,18 @@ static const double SECTION = 2.0 * 0.084 / 0.2;
 /* Depth of the samples on a pad with faces, at the wanted force [m]. */
 static const double PRESSED_IN = 5e-6;
 
-/* A pad's touch on a particle of a mesh has this multiple of the section's stiffness. With 1, the
- * touch would be made stiffer during a squeeze, and its force would jump [-]. */
+/* Stiffness of a pad's touch on a particle of a mesh, over that of the section. With 1 the touch
+ * would be stiffened during a squeeze, and its force would jump [-]. */
 static const double STIFFER = 3.0;
-/* The same for what a mesh stands on in scenes where something moves and may squeeze it. A squeezed
- * section widens by some hundredths of a millimetre, and must not sink in by as much. With 3 the
- * push of a table on a wire between two pads is 13 % too small, with 30 it is right to 1 %
+/* The same for obstacles below a mesh in scenes where something moves and may squeeze it. A
+ * squeezed section widens by some 0.01 mm and must not sink in by as much. With 3 the push of a
+ * table on a wire between two pads is 13 % too small; with 30 it is right within 1 %
  * (spec/contact/squeezed_mesh_spec) [-]. */
 static const double STANDS = 10.0;
-/* In statics only what lies this near to a pad, in radii of the wire, has such touches. The rest of
- * the wire only lies there: its depth would be below the tolerance of an equilibrium, and searches
- * would go on for ever. The pads must be that near before they press; with twice as much the push
- * is the same within 1 %, but a wire of 100 MPa takes five times as long [-]. */
+/* In statics only places this near to a pad, in radii of the wire, have such stiff touches. The
+ * rest of the wire only lies there: its depth would be below the tolerance of an equilibrium, and
+ * searches would never end. The pads must be this near before they press. Twice as much gives the
+ * same push within 1 %, but a wire of 100 MPa takes five times as long [-]. */
 static const double NEAR = 2.0;
 
 /* Line stiffness of a wire's section [N/m2]. */
@@ -53,16 +53,16 @@ static double section_of(const sw_plan *p) {
   return SECTION * p->beam.EA / (M_PI * r * r);
 }
 
-/* How a line presses on a round pad. */
+/* Contact of a line with a round pad. */
 typedef struct round_pad {
   double line; /* stiffness per length of the line [N/m2] */
-  double half; /* half of the length that presses, where they cross at a right angle [m] */
+  double half; /* half of the pressing length where wire and pad cross at a right angle [m] */
 } round_pad;
 
-/* Of a line at depth d the length 2 z presses, with z^2 = 2 R d and R the sum of both radii; its
+/* At depth d a line presses along the length 2 z, with z^2 = 2 R d and R the sum of both radii; its
  * depth falls as a parabola, so F = 4/3 line d z. The depth at the wanted force is
- * SW_ALLOWED_DEPTH, or that of the section if it is softer. Returns 0 if the obstacle is no round
- * pad. */
+ * SW_ALLOWED_DEPTH, or that of the section if it is softer. Returns 0 if the obstacle is not a
+ * round pad. */
 static int find_round(const sw_contact *c, const sw_plan *p, size_t o, round_pad *out) {
   const double grips = c->obstacles[o].grips;
   sw_vec q, along;
@@ -70,7 +70,7 @@ static int find_round(const sw_contact *c, const sw_plan *p, size_t o, round_pad
   const double pad = sw_shape_middle(c->obstacles[o].shape, sw_v(0, 0, 0), &q, &along);
   if (!(pad > 0)) return 0;
   const double twice = 2.0 * (pad + p->beam.radius), section = section_of(p);
-  if (!(grips < HUGE_VAL)) { /* it closes to a distance: only the section limits the force */
+  if (!(grips < HUGE_VAL)) { /* the pad closes to a distance: only the section limits the force */
     *out = (round_pad){.line = section, .half = sqrt(twice * SW_ALLOWED_DEPTH)};
     return 1;
   }

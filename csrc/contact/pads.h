@@ -7,18 +7,18 @@
 
 enum { SW_LEAST_SAMPLES = 2 }; /* least samples of a segment [-] */
 
-/* Finds, for a body, the distance of samples along each pad (spaced), and which pads only its
- * particles meet (dense). */
+/* Finds for a body the distance of samples along each pad (spaced), and the pads that touch only
+ * its particles (dense). */
 void sw_pads_look(sw_contact *c, const sw_plan *p);
 
 /* Number of samples of segment i on obstacle o; 0: none [-]. */
 int sw_pad_samples(const sw_contact *c, const sw_plan *p, size_t i, size_t o);
 
-/* Stiffness of a pad's touch on a wire without a section: as soft as a section would be, and no
- * stiffer than its force needs. Between rigid things no force could be set [N/m]. */
+/* Stiffness of a pad's touch on a wire without a section: that of a section, but no stiffer than
+ * the force needs. Between rigid bodies no force could be set [N/m]. */
 double sw_pad_stiffness(const sw_contact *c, const sw_plan *p, const sw_candidate *k, size_t edge);
-/* Least stiffness of an obstacle's touch on a particle of a mesh, at x. 0: any; where all obstacles
- * stand still nothing squeezes [N/m]. */
+/* Smallest stiffness of an obstacle's touch on a particle of a mesh at x. 0: no limit, if all
+ * obstacles stand still and nothing squeezes [N/m]. */
 double sw_pad_mesh_stiffness(const sw_contact *c, const sw_plan *p, size_t particle, sw_vec x,
                              size_t obstacle);
 

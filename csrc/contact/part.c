@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lists of touches of an iterate and of the previous one. The system may solve a stage in parts,
- * each with some of the bodies. Touches of finished parts stay in the list, and those of the
- * current part are its tail. The previous list begins with the touches of the previous stage. The
- * part of the coupled bodies is the last one: its touches are then put in order between those of
- * the other bodies. */
+ * each with some of the bodies. Touches of finished parts stay in the list; those of the current
+ * part are its tail. The previous list begins with the touches of the previous stage. The coupled
+ * bodies are the last part; its touches are then sorted into those of the other bodies. */
 #include "system/part.h"
 
 #include <string.h>
@@ -11,8 +10,8 @@
 #include "base/alloc.h"
 #include "contact/touch.h"
 
-/* Matches a candidate with its touches of the previous iterate, from number i on; both are in the
- * same order. Returns the first touch that is left. */
+/* Matches a candidate with its touches of the previous iterate, from number i on; both lists have
+ * the same order. Returns the next touch. */
 static size_t match_one(const sw_contact *c, sw_candidate *k, size_t i) {
   k->last = i;
   while (i < c->last_count && c->last[i].node == k->node && c->last[i].obstacle == k->obstacle &&
@@ -21,8 +20,8 @@ static size_t match_one(const sw_contact *c, sw_candidate *k, size_t i) {
   return k->last_end = i;
 }
 
-/* The same for all candidates of the part, with touches from number i to end. Those of other bodies
- * are passed over. */
+/* Matches all candidates of the part with touches from number i to end. Skips those of other
+ * bodies. */
 static size_t match(sw_contact *c, size_t i, size_t end) {
   for (size_t r = 0; r < c->parts.ranges; r++) {
     const sw_range *range = &c->ranges[r];
@@ -62,7 +61,7 @@ static void find_ranges(sw_contact *c, const sw_system *s) {
   p->next = n;
 }
 
-/* Moves the tail of the list to its places between the other touches, without further memory. */
+/* Moves the tail of the list to its places between the other touches, without additional memory. */
 static void put_in_order_slowly(sw_contact *c) {
   for (size_t i = c->parts.touch; i < c->touch_count; i++) {
     const sw_touch t = c->touches[i];
@@ -73,7 +72,8 @@ static void put_in_order_slowly(sw_contact *c) {
   }
 }
 
-/* The same, faster: the previous list is not needed any more, and gives the room. */
+/* As put_in_order_slowly, but faster: uses the memory of the previous list, which is not needed any
+ * more. */
 static void put_in_order(sw_contact *c) {
   size_t to = c->touch_count, left = c->parts.touch, tail = to - left;
   if (!tail || !left || c->touches[left - 1].candidate < c->touches[left].candidate) return;
@@ -110,7 +110,7 @@ void sw_contact_part(void *contact, sw_system *s) {
   c->updates = c->looked = 0;
 }
 
-/* The touches of the current part become those of the previous iterate. */
+/* Makes the touches of the current part those of the previous iterate. */
 static sw_status turn_tail_over(sw_contact *c) {
   const size_t count = c->touch_count - c->parts.touch, at = c->parts.before;
   SW_TRY(sw_grow((void **)&c->last, &c->last_capacity, at + count, sizeof *c->last));

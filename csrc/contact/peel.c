@@ -1,20 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Finds where a wire lifts off, in statics. If the last touches of a row should be free, a solve
- * shows a pull at the end and a push beside it, like the couple of a clamp. To release the pull
- * moves the end by one touch only: a fine mesh would need one solve per node. But the wire is free
- * up to the place where its bending moment vanishes, and the forces of this solve give that moment.
- * */
+ * shows a pull at the end and a push beside it, like the couple of a clamp. Releasing only the pull
+ * moves the end by one touch: a fine mesh would need one solve per node. But the wire is free up to
+ * the place where its bending moment vanishes, and the forces of this solve give the moment. */
 #include <math.h>
 #include <stdint.h>
 
 #include "contact/touch.h"
 
-/* After EASY_UPDATES updates of a stage an end moves by half its last way each time, because it may
- * alternate. After MOST_UPDATES each touch decides for itself [-]. */
+/* After EASY_UPDATES updates of a stage an end moves by half its last distance each time, because
+ * it may alternate. After MOST_UPDATES each touch decides for itself [-]. */
 enum { EASY_UPDATES = 10, MOST_UPDATES = 40 };
 
-/* Share of a length inside the obstacle on which the wire lies: a third if rigid, more if soft
- * [-]. */
+/* Share of a length inside the obstacle on which the wire will lie: a third if the obstacle is
+ * rigid, more if it is soft [-]. */
 static const double LAID = 0.4;
 
 enum { ANY, PRESSING };
@@ -61,7 +60,7 @@ static double free_length(const sw_contact *c, const sw_system *s, size_t i, int
   return fabs(p->s[node] - arc(s, t));
 }
 
-/* Releases touches from the end i of a row inwards, over at most the free length. */
+/* Releases touches from the end i of a row inwards, at most over the free length. */
 static void peel(sw_contact *c, const sw_system *s, size_t i, int inwards) {
   const double share = pow(0.5, fmax(0.0, c->updates - EASY_UPDATES));
   double force = 0, moment = 0, left = share * free_length(c, s, i, -inwards);
@@ -77,9 +76,9 @@ static void peel(sw_contact *c, const sw_system *s, size_t i, int inwards) {
   }
 }
 
-/* Takes on touches beyond the row's end i, where the couple of a clamp presses the wire in. Without
- * the couple the wire would lie there over the share LAID of the length inside the obstacle, so the
- * touches beyond that stay released. */
+/* Adds touches beyond the row's end i, where the couple of a clamp presses the wire in. Without the
+ * couple the wire would lie there over the share LAID of the length inside the obstacle; touches
+ * beyond that stay released. */
 static void lay(sw_contact *c, const sw_system *s, size_t i, int outwards) {
   const size_t first = neighbour(c, i, outwards, ANY);
   size_t at = first, end = i;
@@ -88,10 +87,10 @@ static void lay(sw_contact *c, const sw_system *s, size_t i, int outwards) {
     if (c->touches[at].press.active) return;
     end = at;
   }
-  if (at == SIZE_MAX) return; /* pressed in up to the wire's end */
+  if (at == SIZE_MAX) return; /* the wire is inside up to its end */
   size_t k = neighbour(c, i, -outwards, PRESSING);
   for (int n = 0; k != SIZE_MAX && n < 2; n++, k = neighbour(c, k, -outwards, PRESSING))
-    c->touches[k].press.spare = 1; /* its pull belongs to that couple */
+    c->touches[k].press.spare = 1; /* its pull belongs to the couple */
   const double from = arc(s, &c->touches[i]), inside = fabs(arc(s, &c->touches[end]) - from);
   for (at = first; at != end;) {
     at = neighbour(c, at, outwards, ANY);
@@ -108,7 +107,7 @@ static void end_of_row(sw_contact *c, const sw_system *s, size_t i, int outwards
   if (next != SIZE_MAX && !sw_press_apart(&c->touches[next].press)) lay(c, s, i, outwards);
 }
 
-/* Sets which touches press next from the update's gaps, for an update that is not made. */
+/* Sets the touches that press next from the gaps of an update that is not made. */
 static void take_on(sw_contact *c) {
   for (size_t i = 0; i < c->touch_count; i++) {
     sw_press *p = &c->touches[i].press;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Finds whether a wire is pinched between two obstacles. There only the touches give way: made
- * stiffer, they press more, and the wire stays as deep as before. */
+/* Finds whether a wire is pinched between two obstacles. There only the touches give way: stiffer
+ * touches press more, and the wire stays as deep as before. */
 #include "contact/touch.h"
 
 /* 1 if the other touch is at the same node or a neighbouring one, and may press against this

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Finds the places of a wire's smooth curve near edges and corners. The curve must stay at least
- * the wire's radius away from each of them, so each counts, and none comes and goes as the wire
- * tilts. A curve that passes one on the wrong side cuts in. Then the places are the ways out of
- * straight pieces that touch the curve, moved to the curve's own feet. */
+ * the wire's radius away from each edge and corner. So each counts, and none comes and goes when
+ * the wire tilts. If a curve passes one on the wrong side, it cuts into the obstacle. Then the
+ * places are the ways out of straight pieces that touch the curve, moved to the curve's own
+ * feet. */
 #include <math.h>
 
 #include "contact/round.h"
 
-/* A curve that stands off its chord by less than this share of the radius is searched by its chord
- * [-]. */
+/* A curve is searched by its chord if it is nearer to it than this share of the radius [-]. */
 static const double STRAIGHT = 0.02;
 /* Straight pieces are longer by this share of an edge at both ends, so that no place between two of
  * them is missed [-]. */
@@ -34,8 +34,8 @@ static sw_place *same(sw_places *list, const sw_candidate *k, const sw_place *pl
 }
 
 /* Adds a place to the list. Close to a corner its edges touch at the same place; the nearest of
- * these is taken, whatever comes first. A full list keeps the nearest places. 1: the place is a new
- * one. */
+ * these is taken, independent of the order. A full list keeps the nearest places. Returns 1 if the
+ * place is new. */
 static int take(sw_places *list, const sw_candidate *k, const sw_place *place) {
   sw_place *known = same(list, k, place);
   const int is_new = !known;
@@ -49,9 +49,8 @@ static int take(sw_places *list, const sw_candidate *k, const sw_place *place) {
   return is_new;
 }
 
-/* A place found along a line is searched again along the curve's tangent there if the two
- * directions differ by more than this, because the tilt decides which of two near edges touches
- * [-]. */
+/* A place found along a line is searched again along the curve's tangent if the two directions
+ * differ by more than this, because the tilt decides which of two near edges touches [-]. */
 static const double TURNED = 0.01;
 
 static void along_tangent(const sw_piece *c, const sw_shape *shape, const sw_candidate *k,
@@ -116,7 +115,7 @@ typedef struct search {
   int doubt; /* 1: the curve may pass an edge or corner on the wrong side */
 } search;
 
-/* Finds the chord's nearest place to a line, or to a point if along is zero. 0: the curve stays too
+/* Finds the chord's nearest place to a line, or to a point if `along` is zero. 0: the curve is too
  * far away. */
 static int begin_at(const search *q, const sw_ridge *r, double *u) {
   const sw_vec *p = q->piece->p, d = sw_sub(p[2], p[1]), w = sw_sub(p[1], r->from);
@@ -144,7 +143,7 @@ static void try_ridge(void *user, const sw_ridge *r) {
     take(q->list, q->k, &place);
 }
 
-/* Sorts the nearest first: of places that are one touch, the first one is used. */
+/* Sorts the nearest first: of several places that are one touch, the first is used. */
 static void put_in_order(sw_places *list) {
   for (size_t i = 1; i < list->count; i++) {
     const sw_place place = list->place[i];

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Wires that are pushed onto an obstacle by their ends. For a moment inertia holds a stiff cable
- * straight, and it bears far more than its buckling load. In a step longer than this moment it
- * buckles at once, or slips off, by chance. */
+/* Wires that are pushed onto an obstacle by their ends. For a short time inertia keeps a stiff
+ * cable straight, and it carries far more than its buckling load. In a step longer than this time
+ * it buckles at once or slips off, by chance. */
 #include <math.h>
 
 #include "contact/jolt.h"
@@ -9,12 +9,12 @@
 
 /* A wire is pushed by its end if the cosine of its angle with the normal is above this [-]. */
 static const double END_ON = 0.5;
-/* Share of the moment for which the wire stays straight that a part may have, see below. Of 40
- * random pokes (spec/contact/poke_spec) 2 have a peak that is more than 10 % off, 9 with parts of
- * 0.1 ms; twice the value loses a cable that should stick (spec/contact/blows_spec), half of it
+/* Largest part, over the time for which the wire stays straight (see below). Of 40 random pokes
+ * (spec/contact/poke_spec) 2 have a peak that is off by more than 10 %; with parts of 0.1 ms 9
+ * have. Twice the value loses a cable that should stick (spec/contact/blows_spec); half of it
  * changes nothing [-]. */
 static const double SHARE = 0.012;
-/* Logarithm of the growth after which the wire has left its line [-]. */
+/* Logarithm of the growth of the bending at which the wire is no longer straight [-]. */
 static const double GROWTH = 8.0;
 
 static int is_end_on(const sw_system *s, const sw_touch *t) {
@@ -47,9 +47,9 @@ static double speed_of(const sw_contact *c, const sw_system *s, const sw_touch *
   return most;
 }
 
-/* Pushed with the speed v, the wire's force rises as P = EA v t/L. Under P its bending grows at the
- * rate P/(2 sqrt(EI m)) at most, m its mass per length, so it stays straight for the time T of
- * EA v T^2/(4 L sqrt(EI m)) = GROWTH. */
+/* Time for which the wire stays straight. Pushed with the speed v, its force rises as P = EA v t/L.
+ * Under P its bending grows at the rate P/(2 sqrt(EI m)) at most, with the mass per length m. So
+ * the time T follows from EA v T^2/(4 L sqrt(EI m)) = GROWTH. */
 static double straight_for(const sw_body *b, double length, double speed) {
   const double inert = sqrt(b->plan->beam.EI * b->plan->beam.mass);
   return sqrt(4.0 * GROWTH * length * inert / (b->EA_push * speed));

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* When a place meets its obstacle within a step, and what the rebound may change (rebound.h). */
+/* When a place meets its obstacle within a step, and how much the rebound may change
+ * (rebound.h). */
 #include "contact/rebound.h"
 
 #include <math.h>
@@ -9,16 +10,15 @@ sw_meeting sw_rebound_meet(double gap, double approach, double pull) {
   return (sw_meeting){speed + approach > 0 ? 2.0 * gap / (speed + approach) : HUGE_VAL, speed};
 }
 
-/* A rebound acts where the step began, above the surface, and so gains the height that the wire did
- * not fall through. Allowed gain, as a share of the rebound's own height [-]. */
+/* A rebound acts at the step's start, above the surface, and so gains the height that the wire did
+ * not fall. Allowed gain, over the rebound's own height [-]. */
 static const double HEIGHT_ERROR = 0.02;
-/* Largest gap at such a rebound, as a share of the way in a whole step. It is an error of time
- * [-]. */
+/* Largest gap at such a rebound, over the path in a whole step. It is an error of time [-]. */
 static const double WAY_ERROR = 1.0 / 8;
-/* A step that is cut ends before the surface is met, by this share of the time up to there. The
- * next step strikes at its start [-]. */
+/* A cut step ends before the touch, by this share of the time until it. The next step strikes at
+ * its start [-]. */
 static const double LEFT_OPEN = 0.02;
-/* A wire that meets the surface sooner than by gravity alone is pushed there. The step is then cut
+/* A wire that meets the surface earlier than by gravity alone is pushed there. The step is then cut
  * to this share [-]. */
 static const double CUT_AGAIN = 0.7;
 
@@ -43,11 +43,11 @@ static double momentum(const sw_system *s, const sw_body *b, size_t i, sw_vec wa
   return sum;
 }
 
-/* Masses couple neighbours. A node that turns round while its neighbours already fly off takes
- * kinetic energy from nowhere: a soft wire of E = 15 MPa with 20 edges, thrown at a table with
- * restitution 0.78, gained 2.8 % of its energy in one such impact, in steps of any size
+/* Masses couple neighbouring nodes. A node that reverses while its neighbours already fly off takes
+ * kinetic energy from nowhere. A soft wire (E = 15 MPa, 20 edges) thrown at a table with
+ * restitution 0.78 gained 2.8 % of its energy in one such impact, in steps of any size
  * (spec/physics/ledger_gain_spec). Nodes that land together rebound one after another, and the
- * first ones pay for the others. */
+ * energy lost by the first ones is available to the others. */
 double sw_rebound_limit(sw_contact *c, const sw_system *s, const sw_pressed *t,
                         const sw_rebound *r) {
   const sw_body *b = &s->bodies[t->body];

@@ -19,8 +19,8 @@ typedef struct sw_meeting {
  * obstacle [m/s2]. */
 sw_meeting sw_rebound_meet(double gap, double approach, double pull);
 
-/* 1 if a rebound from where the step begins would be wrong. Then c->soonest gets the time at which
- * the step should end. e: restitution [-]; h: the step [s]. */
+/* 1 if a rebound from the step's start would be wrong; c->soonest is then the time at which the
+ * step should end. e: restitution [-]; h: the step [s]. */
 int sw_rebound_too_early(sw_contact *c, double e, double gap, double pull, sw_meeting m, double h);
 
 /* A rebound of a touch. */
@@ -28,12 +28,11 @@ typedef struct sw_rebound {
   const double *w; /* change of each node of the touch for a change of 1 of its place [-] */
   sw_vec wall;     /* velocity of the obstacle there [m/s] */
   double wanted;   /* change of the place's velocity along the normal [m/s] */
-  double least;    /* change that just keeps it out of the obstacle [m/s] */
+  double least;    /* change that just keeps the place out of the obstacle [m/s] */
 } sw_rebound;
 
-/* Returns the change of velocity that is left of a rebound so that the step's impacts, as seen from
- * the wall, give the touch's body no kinetic energy; at least r->least. Books what it costs [m/s].
- */
+/* Returns the reduced change of velocity with which the step's impacts give the touch's body no
+ * kinetic energy relative to the wall; at least r->least [m/s]. Books the energy. */
 double sw_rebound_limit(sw_contact *c, const sw_system *s, const sw_pressed *t,
                         const sw_rebound *r);
 

@@ -23,17 +23,17 @@ typedef struct sw_candidate {
   size_t memory, memory_end; /* its range of the memory */
   size_t last, last_end;     /* its range of the previous iterate's touches */
   double usual;              /* stiffness of a new touch [N/m] */
-  double least;              /* least stiffness of one that goes on; 0: any [N/m] */
-  int given;                 /* 1: it keeps this stiffness, however deep it gets */
-  int smooth;                /* 1: the wire touches by its smooth curve there, not by its chords */
-  int round;                 /* 1: by its curve at a thin round obstacle, elsewhere by chords */
-  int arcs;                  /* 1: it meets a round side by its arc, see contact/arc.h */
-  double squeezing; /* from this force on, its touch cannot come out; 0: no such force [N] */
-  double firm; /* at a round obstacle: how firmly a touch keeps to the middle of its edge [-] */
-  double firm_beside[2]; /* firmness on the edges before and after it [-] */
-  double lone; /* share of the lean that a touch gets, from 0 (goes round) to 1 (straight) [-] */
-  int samples; /* number of touches, spread evenly along the segment; 0: touches at the nearest
-                  places */
+  double least;              /* smallest stiffness of a touch that goes on; 0: any [N/m] */
+  int given;                 /* 1: the stiffness is fixed, at any depth */
+  int smooth;       /* 1: the wire touches with its smooth curve there, not with its chords */
+  int round;        /* 1: with its curve at a thin round obstacle, elsewhere with chords */
+  int arcs;         /* 1: with its arc at a round side, see contact/arc.h */
+  double squeezing; /* from this force on the touch cannot come out; 0: no such force [N] */
+  double firm; /* at a round obstacle: how firmly a touch stays in the middle of its edge [-] */
+  double firm_beside[2]; /* firmness on the previous and the next edge [-] */
+  double lone;           /* lean of a touch, from 0 (the wire goes round) to 1 (straight) [-] */
+  int samples; /* number of touches, evenly spaced on the segment; 0: touches at the nearest places
+                */
 } sw_candidate;
 
 /* Values of `feature` that are no part of a shape: a touch kept by a barrier, and a touch of a
@@ -53,20 +53,20 @@ typedef struct sw_touch {
   sw_vec point;    /* on the obstacle, world [m] */
   sw_vec local;    /* the same in the obstacle's coordinates [m] */
   sw_vec acts;     /* where the force acts: the axis, or a rolling surface, world [m] */
-  double forgiven; /* part of the true depth that this step leaves alone [m] */
-  double left;     /* part of forgiven that is left since the touch was made stiffer [m] */
+  double forgiven; /* part of the true depth that this step does not correct [m] */
+  double left;     /* rest of `forgiven` after the touch was stiffened [m] */
   double let_out;  /* unexplained part of the true depth that this step removes [m] */
   double hardened; /* energy gained by a higher stiffness [J] */
-  double rise;     /* how much further out the wire's arc is, in the gap [m] */
-  double fallen;   /* how much less that is than at the step's start; 0: not less [m] */
+  double rise;     /* distance of the wire's arc outside the curve, part of the gap [m] */
+  double fallen;   /* decrease of `rise` since the step's start; 0: no decrease [m] */
   double usual;    /* stiffness of a new touch here [N/m] */
   double stiffer;  /* full stiffness from the next iterate on [N/m] */
-  double share;    /* its share of that stiffness, below 1 near a place of the edge beside [-] */
+  double share;    /* share of that stiffness; below 1 near a place on the next edge [-] */
   int known;       /* 1: it pressed at the step's start */
   int held;        /* 1: both ends are held, so there is no force */
-  int squeezed;    /* 1: made stiffer from step to step, not within a step */
+  int squeezed;    /* 1: stiffened from step to step, not within a step */
   double friction; /* coefficient in this step: kinetic if it slid before [-] */
-  double slid;     /* sliding way up to the step's start, since the touch began to press [m] */
+  double slid;     /* sliding path up to the step's start, since the touch began to press [m] */
   sw_vec seen;     /* the wire's position at this evaluation, in the obstacle's coordinates [m] */
   size_t candidate; /* index of its candidate */
   size_t stage;     /* stage in which it was found */
@@ -78,8 +78,8 @@ static inline int sw_touch_is_softer(const sw_touch *t) {
   return t->press.k < t->share * t->stiffer;
 }
 
-/* A touch that pressed at the end of a stage and may have struck: only what impacts need. A
- * sw_touch is large, and many nodes may land in one step. */
+/* A touch that pressed at the end of a stage and may have struck: only the data that impacts need.
+ * A sw_touch is large, and many nodes may land in one step. */
 typedef struct sw_pressed {
   uint32_t node, other, body;
   int obstacle, segment;
@@ -96,14 +96,14 @@ typedef struct sw_memory {
   size_t node;
   int feature;
   double at;
-  sw_vec normal, point; /* the side that the wire is on: local [-], [m] */
+  sw_vec normal, point; /* side of the wire: local [-], [m] */
   sw_kept kept;         /* its vectors are local too */
-  sw_vec seen;          /* the wire's position then, local [m] */
-  double rise;          /* how much further out than its chord its arc was [m] */
-  double slid;          /* sliding way since the touch began to press [m] */
+  sw_vec seen;          /* the wire's position at that time, local [m] */
+  double rise;          /* distance of its arc outside its chord at that time [m] */
+  double slid;          /* sliding path since the touch began to press [m] */
 } sw_memory;
 
-/* A crossing found by the swept test. The place is kept on its side of a plane for the rest of the
+/* A crossing found by the swept test. It keeps the place on one side of a plane for the rest of the
  * step. */
 typedef struct sw_barrier {
   int obstacle, segment;
@@ -113,7 +113,7 @@ typedef struct sw_barrier {
   uint32_t before;      /* the previous barrier at its node: number + 1, or 0 */
 } sw_barrier;
 
-/* A touch whose impact was dealt with in this step. */
+/* A touch whose impact was treated in this step. */
 typedef struct sw_impact {
   int obstacle, segment;
   size_t node;
@@ -151,24 +151,24 @@ typedef struct sw_pressing {
   sw_vec force;
 } sw_pressing;
 
-/* Weights of forces in a stage's impulse: of those at the step's start, at the end of the first
- * stage, and at the end of a later one [s]. */
+/* Weights of forces in a stage's impulse: at the step's start, at the end of the first stage, and
+ * at the end of a later stage [s]. */
 typedef struct sw_weights {
   double start, first, later;
 } sw_weights;
 
-/* What the blows of single wires are found from, where several touch obstacles. */
+/* Forces of single wires, from which their blows are found if several touch an obstacle. */
 typedef struct sw_singles {
   sw_pressing *first; /* (count) in the order of wires */
   size_t count, capacity;
   sw_weights stage[SW_BOOK_STAGES];
 } sw_singles;
 
-/* Who strikes an obstacle in a trial step. Without strikers, all its wires count as such. */
+/* The wires that strike an obstacle in a trial step. If there are none, all its wires count. */
 typedef struct sw_strikers {
   size_t count;                /* number of striking wires */
-  double usual;                /* usual forces of the striking wires, added [N] */
-  double all;                  /* the same of all its wires, while they are looked at [N] */
+  double usual;                /* sum of the usual forces of the striking wires [N] */
+  double all;                  /* the same of all its wires, during the look at them [N] */
   sw_vec rest_start, rest_end; /* loads of the others at the step's start and end [N] */
   sw_vec from, to, first;      /* the same of the wire looked at, and after the first stage [N] */
   sw_vec kicks;                /* its impulse by impacts at the step's start [N s] */
@@ -186,15 +186,15 @@ typedef struct sw_contact_loads {
   int busy;                /* 1: in the list `busy` of loaded obstacles */
 } sw_contact_loads;
 
-/* Data of a stage that is solved by parts, here of bodies: the current part. */
+/* Data of a stage that is solved in parts; here of the current part. */
 typedef struct sw_contact_parts {
   int on, begun;  /* on = 1: there are parts; begun = 1: the current part has been looked at */
-  int group;      /* 1: it is that of the coupled bodies, the last one */
+  int group;      /* 1: the current part is that of the coupled bodies, the last one */
   size_t ranges;  /* number of ranges of its candidates: one, or one for each coupled body */
-  size_t next;    /* the first candidate of bodies behind it, unless it is the last part */
+  size_t next;    /* the first candidate of later bodies, unless this is the last part */
   size_t touch;   /* its first touch */
   size_t before;  /* number of touches of the previous stage, of all parts */
-  size_t matched; /* how many of those are matched, up to the end of this part */
+  size_t matched; /* number of those that are matched, up to the end of this part */
 } sw_contact_parts;
 
 /* Candidates from first to end (exclusive). */

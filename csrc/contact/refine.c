@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Makes the touches of one wire agree with an iterate's solution, by more solves with the same
- * factor. Friction follows the normal force; touches that pull open; touches that the wire passes
- * close. The next iterate does the rest. */
+/* Makes the touches of one wire agree with an iterate's solution, by further solves with the same
+ * factor. Friction follows the normal force; pulling touches open; touches that the wire passes
+ * close. The next iterate corrects the rest. */
 #include <math.h>
 #include <string.h>
 
@@ -14,12 +14,12 @@
 
 /* MOST_CHANGED: most touches opened and closed in an iterate; with more, the next iterate is
  * cheaper. MOST_PASSES: passes over them; after QUICK_PASSES touches change one by one, because
- * together they may alternate. MOST_FOLLOW: solves for friction; the second one is right to a
- * percent [-]. */
+ * together they may alternate. MOST_FOLLOW: solves for friction; the second is right within 1 %
+ * [-]. */
 enum { MOST_CHANGED = 12, QUICK_PASSES = 4, MOST_PASSES = 20, MOST_FOLLOW = 2 };
 
-/* A touch that is opened or closed: the normal force that cancels its pull, or is its push, and the
- * shift by 1 N of that force. */
+/* A touch that is opened or closed: the normal force that cancels its pull or is its push, and the
+ * shift by 1 N of this force. */
 typedef struct changed {
   size_t touch;
   int closes, on; /* on = 0: the change was undone */
@@ -55,8 +55,8 @@ static sw_vec place(const refined *r, const sw_touch *t, const double *x) {
   return sw_mean_of(x, r->body->first_node, &t->spot);
 }
 
-/* Spreads a force at a touch over its nodes: shares of free nodes are added to `free` (NULL: not),
- * shares of held nodes go to their holds if `held` is 1. */
+/* Distributes a force at a touch to its nodes: shares of free nodes are added to `free` (unless it
+ * is NULL), shares of held nodes to their holds if `held` is 1. */
 static void push(const refined *r, const sw_touch *t, sw_vec f, double *free, int held) {
   const size_t from = r->body->first_node;
   for (size_t e = 0; e < t->spot.count; e++) {
@@ -85,7 +85,7 @@ static int lags(const refined *r) {
   return 0;
 }
 
-/* Total difference between the normal forces and the forces that friction used [N]. */
+/* Total difference between the normal forces and those used for friction [N]. */
 static double off(const refined *r) {
   double sum = 0;
   for (size_t i = r->first; i < r->end; i++) {
@@ -95,7 +95,7 @@ static double off(const refined *r) {
   return sum;
 }
 
-/* Makes friction follow the normal forces; back = 1: sets it back to the iterate's first solve. */
+/* Updates friction to the normal forces; back = 1: resets it to the iterate's first solve. */
 static void follow(refined *r, int back) {
   memset(r->more, 0, values(r) * sizeof *r->more);
   for (size_t i = r->first; i < r->end; i++) {
@@ -125,7 +125,7 @@ static int is_wrong(const refined *r, const sw_touch *t, const changed *one) {
 }
 
 /* 1 if the touch's state may change here: only with friction, and if it slides or is inactive.
- * Wires with frames, whose equations are not solved again, get no change here at all; the next
+ * Wires with frames have no changes here, because their equations are not solved again. The next
  * iterate changes the others. */
 static int may_change(const sw_touch *t) {
   return t->friction > 0 && (!t->press.active || t->press.sliding);
@@ -141,7 +141,8 @@ static void add_change(refined *r, size_t touch) {
   r->list[r->count++] = (changed){touch, !t->press.active, 0, 0, shift};
 }
 
-/* Undoes a change except for its friction, which is added to r->more; then returns 1. */
+/* Undoes a change, except for its friction, which is added to r->more. Returns 1 if there is
+ * any. */
 static int put_back(refined *r, changed *one) {
   sw_touch *t = &r->c->touches[one->touch];
   if (!one->on) return 0;
@@ -161,8 +162,8 @@ static void rub_back(refined *r, int rubbed) {
   add(values(r), 1.0, r->more, r->delta);
 }
 
-/* Changes the first touches whose state is wrong, at most `most` of them. Returns how many are
- * wrong; -1: too many, or one may not change. */
+/* Changes touches with a wrong state, at most `most` of them. Returns the number of wrong ones; -1:
+ * too many, or one may not change. */
 static int change_wrong(refined *r, int most) {
   size_t wrong[MOST_CHANGED];
   size_t all = r->count;
@@ -258,7 +259,7 @@ static void take_changes(const refined *r) {
   }
 }
 
-/* A touch with a longer shift than this is at another place in the next iterate, and may not pull
+/* A touch that shifts further than this is at another place in the next iterate and may not pull
  * there, except on a plane. Share of the radius [-]. */
 static const double FAR = 0.1;
 
@@ -272,11 +273,11 @@ static int goes_far(const refined *r) {
   return 0;
 }
 
-/* Solves for friction end if one leaves more than this share of the error. Friction that presses
- * its own touch may alternate with growing size; the iterates' secants are better there [-]. */
+/* Solves for friction end when one leaves more than this share of the error. Friction that presses
+ * its own touch may alternate and grow; the iterates' secants are better there [-]. */
 static const double ENOUGH = 0.5;
 
-/* Lets friction follow; 1: it fits, or nearly so. */
+/* Updates friction. Returns 1 if it fits, or nearly. */
 static int follow_all(refined *r, int *changes) {
   double before = off(r);
   for (int k = 0; k < MOST_FOLLOW && lags(r); k++) {
@@ -331,7 +332,7 @@ void sw_contact_refine(void *contact, sw_system *s) {
     const size_t n = 3 * b->plan->nodes;
     if (sw_grow((void **)&c->room, &c->room_capacity, (1 + MOST_CHANGED) * n, sizeof *c->room) !=
         SW_OK)
-      return; /* without memory, nothing is refined */
+      return; /* out of memory: nothing is refined */
     refined r = {.c = c,
                  .s = s,
                  .body = b,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reviews a trial step against obstacles: it is accepted, redone, or made smaller. */
+/* Reviews a trial step against obstacles: accepted, to be repeated, or to be made smaller. */
 #include <math.h>
 
 #include "contact/arc.h"
@@ -8,7 +8,8 @@
 #include "contact/jolt.h"
 #include "touch/same.h"
 
-/* 1 if a node left the reach that its candidates were chosen for. Then the reserve is widened. */
+/* 1 if a node left the range for which its candidates were chosen. Then the reserve is
+ * increased. */
 static int went_too_far(sw_contact *c, const sw_system *s, const double *x1) {
   double wider = 1.0;
   for (size_t i = 0; i < s->nodes; i++) {
@@ -23,10 +24,10 @@ static int went_too_far(sw_contact *c, const sw_system *s, const double *x1) {
   return 1;
 }
 
-/* A step may leave a touch this much deeper than it found it. The law's own depth is below half of
- * that [m]. */
+/* A step may make a touch deeper by at most this. The depth of the contact law is below half of it
+ * [m]. */
 static const double DEEPER = 1e-4;
-/* The same where a touch is as soft as a section and should give way; share of the radius [-]. */
+/* The same where a touch is as soft as a section and should yield; share of the radius [-]. */
 static const double SQUEEZED = 0.2;
 
 /* Depth of a place of the candidate's wire [m]. */
@@ -51,9 +52,9 @@ static int find_deepest(const sw_contact *c, const sw_system *s, const sw_candid
   return *depth > 0;
 }
 
-/* Depth of the candidate's wire at the step's start: the largest anywhere or at this place. The
- * latter is needed because the nearest place of a chord may have been its end, which belongs to its
- * node [m]. */
+/* Depth of the candidate's wire at the step's start: the largest anywhere or at this place [m]. The
+ * place itself is needed because the chord's nearest place may have been its end, which belongs to
+ * its node. */
 static double depth_before(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                            const sw_place *place) {
   sw_place before = *place;
@@ -70,9 +71,9 @@ static double depth_before(const sw_contact *c, const sw_system *s, const sw_can
   return fmax(deepest, depth_of(c, s, k, c->start, s->x, &before));
 }
 
-/* 1 if the wire moved far enough in the step to be deeper by this much. If not, a node has come
- * from an edge, over which the smooth curve counts, to a face, where the node counts: no smaller
- * step would help. */
+/* 1 if the wire moved far enough in the step to be deeper by this much. If not, a node has moved
+ * from an edge, where the smooth curve counts, to a face, where the node counts: no smaller step
+ * helps. */
 static int may_sink(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                     const double *x1, double more) {
   if (!k->smooth || c->broad.moves[k->obstacle]) return 1;
@@ -102,12 +103,11 @@ static int cuts_deep(const sw_contact *c, const sw_system *s, const double *x1, 
 
 static const double ROUNDING = 1e-9; /* of parts [-] */
 
-/* 1 if the step must be redone without rebound, at most once in a step. An impulse at the step's
- * start does not include forces within the step that drive a wire into an obstacle. The integrator
- * makes such a touch bounce: off a moving obstacle, which does work in each bounce, step after
- * step; or of a mesh, which would hop by g h^2 for ever, because the restart at each landing gives
- * back what damping takes. In parts in which a blow is followed a rod may rebound by its own bends,
- * as it does from a standing obstacle. */
+/* 1 if the step must be repeated without rebound, at most once. An impulse at the step's start does
+ * not contain forces within the step that drive a wire into an obstacle. The integrator lets such a
+ * touch bounce. Bounces off a moving obstacle do work in every step. A mesh would hop by g h^2 for
+ * ever, because the restart at each landing gives back the energy that damping takes. In the parts
+ * of a blow a rod may rebound by its own bends, as from a standing obstacle. */
 static int bounces(sw_contact *c, const sw_system *s, const double *v1) {
   if (c->plastic || c->regime == SW_CONTACT_EXPLICIT) return 0;
   const int whole = c->h > SW_LONGEST_PART * (1 + ROUNDING);
@@ -124,9 +124,9 @@ static int bounces(sw_contact *c, const sw_system *s, const double *v1) {
   return 0;
 }
 
-/* A barrier holds a place like an endless face, even if the obstacle ends just above it. If it
- * bears more than this many weights of its wire (or bending forces), it is in the way of a wire
- * that would pass over; a smaller step decides that [-]. */
+/* A barrier acts like an endless face, even if the obstacle ends just above it. If it carries more
+ * than this many weights (or bending forces) of its wire, the wire would pass over the obstacle,
+ * and the barrier is in its way; a smaller step decides [-]. */
 static const double MOST_BORNE = 10.0;
 
 static int bars_too_hard(const sw_contact *c, const sw_system *s, double h) {
@@ -140,15 +140,15 @@ static int bars_too_hard(const sw_contact *c, const sw_system *s, double h) {
   return 0;
 }
 
-/* A wire held by pads or friction may not leave them sideways in one step by more than this share
- * of its radius. A step begins with free flight, in which a wire may fall out from between pads
- * before any touch is found. A fourth to twice this value ends the same grips [-]. */
+/* A wire held by pads or friction may leave them sideways in one step by at most this share of its
+ * radius. A step begins with free flight, in which a wire may fall out from between pads before any
+ * touch is found. A quarter to twice this value ends the same grips [-]. */
 static const double AT_ONCE = 0.5;
-/* A touch holds the wire if it presses harder than this many times its node's share of the wire's
- * weight. Half and twice this value hold the same grips [-]. */
+/* A touch holds the wire if it presses with more than this many times its node's share of the
+ * wire's weight. Half and twice this value hold the same grips [-]. */
 static const double HELD = 2.0;
-/* A wire that slips off goes sideways at least this many times as far as along the normal; a wire
- * that is lifted off goes along the normal [-]. */
+/* A wire that slips off moves sideways at least this many times as far as along the normal; a
+ * lifted wire moves along the normal [-]. */
 static const double ASLANT = 10.0;
 
 static int is_pressed_still(const sw_contact *c, const sw_memory *m) {
@@ -169,8 +169,8 @@ static sw_vec tangent_at(const sw_contact *c, const sw_body *b, size_t o, const 
   return sw_unit_or(sw_rotate(sw_quat_conj(c->now[o].pose.q), t), sw_v(1, 0, 0));
 }
 
-/* 1 if a wire left a remembered touch sideways. A wire that already slides may go on along
- * itself. */
+/* 1 if a wire left a remembered touch sideways. Wires that already slide may go on in their own
+ * direction. */
 static int went_sideways(const sw_contact *c, const sw_body *b, const sw_memory *m,
                          const double *x1) {
   const size_t o = sw_contact_index(c, m->obstacle);
@@ -187,10 +187,10 @@ static int went_sideways(const sw_contact *c, const sw_body *b, const sw_memory 
   return aside > AT_ONCE * b->plan->beam.radius && aside > ASLANT * along;
 }
 
-/* 1 if a wire that was held gets free in a way that only a long step allows. */
+/* 1 if a held wire gets free in a way that only a long step allows. */
 static int slips_off(const sw_contact *c, const sw_system *s, const double *x1, double h) {
   const sw_body *b = s->bodies, *of = NULL;
-  double most = 0; /* force that a node of the body bears without being held [N] */
+  double most = 0; /* force of a touch that does not hold the wire [N] */
   if (h < SW_SMALLEST_CARE * c->nominal || c->regime == SW_CONTACT_EXPLICIT) return 0;
   for (size_t i = 0; i < c->memory_count; i++) { /* memory is in the order of nodes */
     const sw_memory *m = &c->memory[i];
@@ -217,8 +217,7 @@ sw_contact_verdict sw_contact_review(sw_contact *c, sw_system *s, const double *
     c->pressed_count = 0;
     return sw_contact_find_candidates(c, s, &err) == SW_OK ? SW_CONTACT_REDO : SW_CONTACT_SMALLER;
   }
-  /* kicks are added at the end, so that no impulse sees its neighbours' effect on the edges
-   * between */
+  /* kicks are added at the end: no impulse must see its neighbours' effect on the edges between */
   double *kicks = s->delta + 3 * s->nodes, *rates = s->v + 3 * s->nodes;
   for (size_t e = 0; e < s->rolls; e++) kicks[e] = 0;
   c->soonest = HUGE_VAL;

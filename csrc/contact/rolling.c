@@ -7,12 +7,12 @@
 #include "touch/bow.h"
 #include "touch/load.h"
 
-/* A wire that meets a round side at a smaller angle with its middle line rolls little on it: sine
- * squared [-]. */
+/* A wire that crosses the middle line of a round side at a smaller angle rolls little: sine squared
+ * [-]. */
 static const double ACROSS2 = 0.25;
 
-/* Shares of the nodes in the derivative of a touch's position by its place along the wire, counted
- * in edges; their sum is 0. */
+/* Shares of the nodes in the derivative of a touch's position with respect to its place on the
+ * wire, counted in edges; their sum is 0. */
 static sw_mean slope_of(const sw_body *b, const sw_touch *t) {
   const size_t first = b->first_node, edges = b->plan->edges;
   const double s = (double)(t->node - first) + t->at, centre = floor(s + 0.5);
@@ -32,7 +32,7 @@ static sw_vec along_of(const sw_mean *slope, const double *y) {
   return sum;
 }
 
-/* 1 if the touch is on a round side, and can move on along the wire. */
+/* 1 if the touch is on a round side and can move along the wire. */
 static int moves_on(const sw_contact *c, const sw_system *s, const sw_touch *t) {
   if (!(c->round[t->obstacle] > 0) || !(t->press.normal_force > 0) || !t->segment) return 0;
   if (c->candidates[t->candidate].samples || s->bodies[t->body].plan->web) return 0;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A wire bent over a thin peg between two of its nodes. Its smooth curve touches at the nearest
- * place to the peg's middle line, and is pushed perpendicular to itself there. A wire that goes
- * round the peg is equally near everywhere, and rounding would decide. So a touch keeps to the
+ * place to the peg's middle line and is pushed there perpendicular to itself. A wire that goes
+ * round the peg is equally near everywhere, and rounding would decide. So a touch stays near the
  * middle of its edge, more firmly with more curvature: x'.(x - q) + firm |x'|^2 (u - 1/2) = 0, with
- * the curve x, the place u along the edge and the nearest place q on the middle line. The touch
- * uses the distance of the curve's tangent from the line, which differs from the curve's distance
- * in second order. */
+ * the curve x, the place u on the edge and the nearest place q on the middle line. The touch uses
+ * the distance of the curve's tangent from the line, which differs from the curve's distance in
+ * second order. */
 #include "contact/round.h"
 
 #include <math.h>
@@ -13,16 +13,16 @@
 #include "base/halving.h"
 #include "touch/same.h"
 
-/* A wire meets a round obstacle by its curve always if the obstacle's radius plus the wire's is
- * below this many edges. Else it does so if it does not go round, and above SW_THICK only if it
- * does not even begin to [-]. */
+/* A wire touches a round obstacle with its curve if the radius of obstacle plus wire is below this
+ * many edges. If it is larger, only if the wire does not go round; above SW_THICK only if it does
+ * not even begin to go round [-]. */
 static const double THIN = 0.9;
-/* A wire goes round if curvature times radius is above this. Then its chords meet the obstacle
- * until they do not press any more; a capstan needs them. Chords lie outside the curve, so the
- * change to the curve releases the wire and makes no energy [-]. */
+/* A wire goes round if curvature times radius is above this. Then its chords touch the obstacle
+ * until they no longer press; a capstan needs them. Chords lie outside the curve, so the change to
+ * the curve releases the wire and makes no energy [-]. */
 static const double WOUND = 0.9;
-/* Least firmness at a thin obstacle, if curvature times radius is above twice LOOSE_FROM; it falls
- * to 0 at LOOSE_FROM [-]. */
+/* Smallest firmness at a thin obstacle if curvature times radius is above twice LOOSE_FROM; it
+ * decreases to 0 at LOOSE_FROM [-]. */
 static const double LOOSE = 0.1, LOOSE_FROM = 0.25;
 
 /* --- at the step's start -------------------------------------------------------------------- */
@@ -70,11 +70,11 @@ void sw_contact_find_wound(sw_contact *c, const sw_system *s, size_t body) {
   }
 }
 
-/* A wire is taken as straight up to this far beyond its edges [-]. */
+/* A wire is taken as straight this far beyond its edges [-]. */
 static const double BESIDE = 1.0;
-/* Chords, not curves, meet rims, up to this many radii plus edges from the ends [-]. */
+/* Chords, not curves, touch rims, and this many radii plus edges near the ends [-]. */
 static const double FROM_RIM = 1.0, EDGES_FROM_RIM = 2.0;
-/* Chords also meet a wire along a thick obstacle: sine of their angle below this [-]. */
+/* Chords also touch if the wire lies along a thick obstacle: sine of their angle below this [-]. */
 static const double ACROSS = 0.5;
 
 /* 1 if the wire, taken as straight, crosses the middle line well between its ends. */
@@ -99,13 +99,13 @@ static int passes_side(const sw_contact *c, const sw_system *s, const sw_candida
          sw_shape_middle(shape, sw_madd(x, e, -aside), &q, &e) > 0;
 }
 
-/* Most edges looked at to each side. This is more than a radius has if a drum is told by fine
- * edges; on what is nearly flat, looking further would cost more than the step [-]. */
+/* Most edges checked on each side. That is more than one radius of a drum with fine edges; on
+ * nearly flat sides, more would cost more time than the step [-]. */
 enum { FARTHEST = 64 };
 
-/* 1 if a wire begins to go round something thick, or is held there, judged along the wire as far as
- * the radius. Its chords then meet the obstacle from the start: a curve that gives way to chords
- * lets the wire go, and the wire strikes the obstacle again. */
+/* 1 if a wire begins to go round something thick, or is held there, judged over one radius along
+ * the wire. Its chords then touch the obstacle from the start: a curve that is replaced by chords
+ * releases the wire, and the wire strikes the obstacle again. */
 static int begins_round(const sw_system *s, const sw_body *b, double radius, size_t low,
                         size_t high) {
   const size_t far = (size_t)fmin(radius / b->plan->rest[low], FARTHEST);
@@ -115,8 +115,8 @@ static int begins_round(const sw_system *s, const sw_body *b, double radius, siz
   return radius * bend_at(s, b, first, last) > SW_GOES_ROUND;
 }
 
-/* Firmness at an obstacle; round: curvature times radius. A wire that hardly bends has a definite
- * nearest place: firmness there would make energy as the touch slides, and cost 20 % more
+/* Firmness at an obstacle; round: curvature times radius. The nearest place of a wire that hardly
+ * bends is definite: firmness there would make energy as the touch slides, and cost 20 % more
  * iterations (spec/contact/oblique_spec). */
 static double firmness(int thin, double round) {
   const double least = thin ? LOOSE * sw_limit(round / LOOSE_FROM - 1.0, 0.0, 1.0) : 0.0;
@@ -147,8 +147,8 @@ void sw_contact_find_round(const sw_contact *c, const sw_system *s, sw_candidate
 
 /* --- places ----------------------------------------------------------------------------------- */
 
-/* Function that rises through 0 at the place of touch; NAN beyond the ends of the middle line
- * [m2]. */
+/* Function that rises through 0 at the place of touch [m2]; NAN beyond the ends of the middle
+ * line. */
 static double rise_at(const sw_piece *c, double u) {
   sw_vec along, q, e;
   const sw_vec x = sw_contact_curve(c, u, &along);
@@ -159,8 +159,8 @@ static double rise_at(const sw_piece *c, double u) {
 enum { PARTS = 4, MOST_TURNS = 40 };  /* pieces of an edge; most search steps [-] */
 static const double AS_SHARP = 1e-14; /* [-] */
 
-/* Finds its zero between two places by secants; the value at an end that stays is halved
- * ("Illinois"). */
+/* Finds its zero between two places by secants; the value at an end that stays is halved (Illinois
+ * method). */
 static double find_place(const sw_piece *c, double low, double high, double at_low,
                          double at_high) {
   double last = low;
@@ -180,10 +180,10 @@ static double find_place(const sw_piece *c, double low, double high, double at_l
   return last;
 }
 
-/* Share of the stiffness that a place has beside a joint to the next edge. Where a wire begins to
- * go round, places on two edges come near each other at their joint. If both had full stiffness
- * from the beginning, the wire would meet twice the force at once, be thrown back, and meet one
- * again. So one place takes over from the other as the zero moves on. */
+/* Share of the stiffness of a place beside a joint to the next edge. Where a wire begins to go
+ * round, places on two edges come near each other at their joint. With full stiffness of both, the
+ * wire would get twice the force at once, be thrown back, and get one again. So the second place
+ * takes over from the first gradually as the zero moves. */
 static double share_beside(const sw_piece *c, double joint, double beside, double way) {
   sw_vec along, q, e;
   const sw_vec x = sw_contact_curve(c, joint, &along);
@@ -203,10 +203,11 @@ static double share_of(const sw_piece *c) {
  * middle of a ball [-]. */
 static const double THROUGH = 1e-9;
 
-/* Normal of a place that is w off the middle line: perpendicular to the curve and to the line. (The
- * part of w that is perpendicular to the curve has a share along the line where the wire crosses it
- * obliquely and the place is not the nearest one: that would push the wire along the obstacle, and
- * make energy.) A ball has a point for a line; there it is that part of w. */
+/* Normal of a place with the offset w from the middle line: perpendicular to the curve and to the
+ * line. The part of w perpendicular to the curve is not used: where the wire crosses the line
+ * obliquely and the place is not the nearest one, it has a component along the line, which would
+ * push the wire along the obstacle and make energy. For a ball the line is a point, and the normal
+ * is that part of w. */
 static sw_vec normal_of(sw_vec w, sw_vec along, sw_vec e) {
   const sw_vec out = sw_unit_or(sw_cross(along, e), sw_perpendicular(along));
   if (!(sw_norm2(e) > 0)) {
@@ -216,7 +217,7 @@ static sw_vec normal_of(sw_vec w, sw_vec along, sw_vec e) {
   return sw_dot(out, w) < 0 ? sw_neg(out) : out;
 }
 
-/* Makes the place at u; 0: the wire goes along the obstacle. */
+/* Makes the place at u; 0: the wire runs along the obstacle. */
 static int make_place(const sw_piece *c, double u, sw_place *place) {
   sw_vec tangent, q, e;
   const sw_vec x = sw_contact_curve(c, u, &tangent);
@@ -250,10 +251,9 @@ static mark mark_at(const sw_piece *c, double u) {
   return m;
 }
 
-/* Inside a ring the nearest place of the middle line goes further than the wire, and jumps to the
- * other side where the wire crosses the ring's axis. The function then rises, falls and rises
- * again. Returns 1 if it may do so between two marks: the line there turns by more than 15 degrees
- * [-]. */
+/* 1 if the function may rise, fall and rise again between two marks: the middle line there turns by
+ * more than 15 degrees [-]. Inside a ring the nearest place of the middle line moves faster than
+ * the wire, and jumps to the other side where the wire crosses the ring's axis. */
 static int wavers(const mark *a, const mark *b) {
   const double little = 0.966; /* cosine of that */
   return sw_dot(a->e, b->e) < little && sw_dist(a->q, b->q) > 1.2 * sw_dist(a->x, b->x);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A thin round obstacle touches the wire's smooth curve, as edges and corners do. Its radius may be
- * up to four edges if the wire does not go round it. Chords would hold a wire that slides over a
+ * up to four edges if the wire does not go round it. Chords would stop a wire that slides over a
  * peg (spec/contact/pegs_spec). */
 #ifndef SW_CONTACT_ROUND_H
 #define SW_CONTACT_ROUND_H
@@ -8,21 +8,21 @@
 #include "contact/curve.h"
 
 /* An obstacle is thick if its radius plus the wire's is more than this many edges. A wire that
- * begins to go round a thick obstacle touches it by its chords, as stiff as EA over that radius
- * [-]. */
+ * begins to go round a thick obstacle touches it with its chords, with a stiffness of at least EA
+ * over that radius [-]. */
 #define SW_THICK 4.0
 
 /* Finds the obstacles that a body goes round at the step's start. */
 void sw_contact_find_wound(sw_contact *c, const sw_system *s, size_t body);
-/* Decides at the step's start whether the candidate's obstacle is touched by the wire's curve, and
- * how firmly touches keep to the middles of edges. */
+/* Decides at the step's start whether the wire's curve touches the candidate's obstacle, and how
+ * firmly touches stay in the middle of edges. */
 void sw_contact_find_round(const sw_contact *c, const sw_system *s, sw_candidate *k);
 
 /* Lists the places of a piece less than reach away [m]. */
 void sw_contact_round_places(const sw_piece *piece, double reach, sw_places *list);
 
-/* 1 if, at this place of its chord a-b, in the obstacle's coordinates, a wire lies across the round
- * side. The wire's curve touches there. */
+/* 1 if a wire lies across the round side at this place of its chord a-b, in the obstacle's
+ * coordinates. There the wire's curve touches. */
 int sw_contact_is_rounds(const sw_contact *c, const sw_candidate *k, sw_vec a, sw_vec b, double at);
 /* 1 if a node's nearest place is on the round side. *along: direction of the middle line there. */
 int sw_contact_over_round(const sw_contact *c, const sw_candidate *k, const sw_closest *near,

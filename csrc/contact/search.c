@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Statics: finds the states of the touches (open, sticking, sliding) while the wires stay where
- * they are. The wires move only when all touches agree. Each solve continues from the least energy
+/* Statics: finds the states of the touches (open, sticking, sliding) at fixed positions of the
+ * wires. The wires move only when all touches agree. Each solve continues from the least energy
  * between the last update and the new one (touch/way.h). Everything except the touches' forces is
- * linear, and in balance with the solve's forces. */
+ * linear, and in balance with the forces of the solve. */
 #include <math.h>
 
 #include "base/alloc.h"
@@ -28,7 +28,7 @@ typedef struct way {
   const sw_ahead *to;
 } way;
 
-/* Slope of the energy at this share of the way [J]. */
+/* Slope of the energy at this share of the path [J]. */
 static double slope(const void *user, double share) {
   const way *w = user;
   double sum = 0;
@@ -53,9 +53,9 @@ static void go_on_from(sw_touch *t, sw_vec shift) {
 /* DOUBLINGS: doublings of the bend's length on the softest springs. On stiff springs a wire bends
  * within one edge where it lifts off, and each solve would release a few nodes. On soft springs it
  * bends over many edges and lifts off in few solves. Then springs become 16 times as stiff from
- * solve to solve, which halves the uncertainty of the lift-off place each time [-]. */
+ * solve to solve; this halves the uncertainty of the lift-off place each time [-]. */
 enum { DOUBLINGS = 12 };
-static const double SOFTEST = 1e-9; /* least softened stiffness, of the touch's own [-] */
+static const double SOFTEST = 1e-9; /* smallest softened stiffness, over the touch's own [-] */
 
 double sw_contact_softer(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                          double stiffness) {
@@ -65,8 +65,8 @@ double sw_contact_softer(const sw_contact *c, const sw_system *s, const sw_candi
   return p->web ? stiffness : fmin(stiffness, fmax(SOFTEST * stiffness, soft));
 }
 
-/* The first stage has bends of at most the share WIDEST of the wire, and of EACH edges for each
- * wrong touch [-]. */
+/* In the first stage bends have at most the share WIDEST of the wire, and EACH edges for each wrong
+ * touch [-]. */
 static const double WIDEST = 0.25, EACH = 4.0;
 
 static int first_stage(const sw_contact *c, const sw_system *s) {
@@ -79,10 +79,10 @@ static int first_stage(const sw_contact *c, const sw_system *s) {
   return (int)fmax(1.0, DOUBLINGS + 1 - floor(log2(fmin(most, EACH * wrong))));
 }
 
-/* Up to this many wrong touches are found one by one [-]. */
+/* At most this many wrong touches are found one by one [-]. */
 enum { FEW = 4 };
 
-/* Goes on to the next stage, until stages change nothing any more. */
+/* Goes on to the next stage, until stages change nothing. */
 static void harden(sw_contact *c, const sw_system *s) {
   int any = 0;
   for (size_t i = 0; i < c->touch_count; i++) any |= sw_touch_is_softer(&c->touches[i]);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Finds whether a touch stays at its place of the iterate. Its equations have a fixed place and
- * normal, and a shift may change both unless the surface is flat. Looking there again is far
- * cheaper than another iterate. */
+ * normal; a shift may change both, except on a flat surface. This check is much cheaper than
+ * another iterate. */
 #include <math.h>
 
 #include "contact/curve.h"
@@ -10,14 +10,14 @@
 /* A touch has stayed if its normal turned by at most TURNED, and its place moved by at most the
  * share MOVED of its segment [-]. */
 static const double TURNED = 0.01, MOVED = 0.01;
-/* Its gap's error must also change its force by less than OFF of it plus LITTLE of the scene's
- * [-]. */
+/* The change of its gap must also change its force by less than OFF of the force plus LITTLE of the
+ * scene's forces [-]. */
 static const double OFF = 0.01, LITTLE = 1e-3;
 
-/* A wire that goes further than this may meet other things; share of the radius [-]. */
+/* A wire that moves further than this may touch other things; share of the radius [-]. */
 static const double FAR = 0.5;
 
-/* Finds where the smooth curve is nearest now; 0: nowhere. */
+/* Finds the nearest place on the smooth curve now; 0: none. */
 static int find_on_curve(const sw_contact *c, const sw_system *s, const sw_touch *t,
                          const double *y, sw_place *out) {
   const sw_candidate *k = &c->candidates[t->candidate];
@@ -35,7 +35,7 @@ static int find_on_curve(const sw_contact *c, const sw_system *s, const sw_touch
   return nearest < SW_SAME_TOUCH;
 }
 
-/* Finds where the wire is nearest now; 0: nowhere. */
+/* Finds the nearest place on the wire now; 0: none. */
 static int find(const sw_contact *c, const sw_system *s, const sw_touch *t, const double *y,
                 sw_place *place) {
   const sw_candidate *k = &c->candidates[t->candidate];
@@ -54,7 +54,7 @@ static int find(const sw_contact *c, const sw_system *s, const sw_touch *t, cons
     if (away < nearest) *out = near[i], nearest = away;
   }
   if (nearest < SW_SAME_TOUCH) return 1;
-  out->at = t->at; /* a sample, a node, or a place that goes on pushing where it was */
+  out->at = t->at; /* a sample, a node, or a place that was kept because it pushes */
   return sw_shape_point(shape, t->segment ? sw_lerp(a, b, t->at) : a, reach, out);
 }
 
@@ -67,7 +67,7 @@ int sw_contact_stays(const sw_contact *c, const sw_system *s, const sw_touch *t,
   if (t->feature == SW_BEHIND_BARRIER) return 1;
   if (!find(c, s, t, y, &place)) return !p->active;
   const sw_closest near = place.near;
-  if (near.gap < 0) return 0; /* inside, the side must be found again */
+  if (near.gap < 0) return 0; /* inside the obstacle the side must be found again */
   const sw_vec normal = sw_contact_leaning(c, s, k, &place, t->steady);
   const double aslant = sw_contact_aslant(c, t->node, t->other, near.at, normal);
   const double gap = near.gap - k->skin + t->rise + aslant + t->forgiven;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Wires that strike an obstacle and wires that rest on it, and the blow of each. */
+/* Finds wires that strike an obstacle and wires that rest on it, and the blow of each. */
 #include "contact/strikers.h"
 
 #include "base/alloc.h"
@@ -32,8 +32,8 @@ static void keep_first(sw_contact *c) {
   }
 }
 
-/* As the obstacles' impulses are booked, but by weights: forces of single wires are only looked for
- * when a blow may have come. */
+/* As the obstacles' impulses are booked, but by weights: forces of single wires are only computed
+ * if there may be a blow. */
 void sw_contact_book_singles(sw_contact *c, const sw_booking *b) {
   const sw_weights one = c->singles.stage[0];
   const int later = b->stage > 0;
@@ -51,8 +51,8 @@ static sw_strikers *look_at(sw_contact *c, size_t obstacle, size_t body) {
   return l;
 }
 
-/* Adds the loads of a body at the step's start, from memory number m on. Returns the number of the
- * first memory that is left. */
+/* Adds the loads of a body at the step's start, from memory number m on. Returns the next
+ * number. */
 static size_t add_start(sw_contact *c, const sw_system *s, size_t body, size_t m) {
   const size_t first = s->bodies[body].first_node, end = first + s->bodies[body].plan->nodes;
   while (m < c->memory_count && c->memory[m].node < first) m++;
@@ -101,7 +101,7 @@ int sw_contact_look_at_next(sw_contact *c, const sw_system *s, sw_wire_look *at)
   return 1;
 }
 
-/* Methods that use earlier steps have weights that do not add up to the step. */
+/* The weights of methods that use earlier steps do not add up to the step. */
 sw_blow sw_contact_own_blow(const sw_contact *c, const sw_strikers *on, double usual) {
   const sw_weights w = c->singles.stage[c->last_stage];
   const double all = w.start + w.first + w.later;
@@ -117,8 +117,8 @@ sw_blow sw_contact_own_blow(const sw_contact *c, const sw_strikers *on, double u
 
 /* --- who strikes ----------------------------------------------------------------------- */
 
-/* 1 if the wire looked at rests. One alone on its obstacle may strike and bounce between the step's
- * ends; this makes no difference, see sw_contact_find_strikers. */
+/* 1 if the wire looked at rests. A single wire on its obstacle may also strike and bounce between
+ * the step's ends; this makes no difference, see sw_contact_find_strikers. */
 static int rests(const sw_contact *c, const sw_strikers *l, double usual) {
   if (!(sw_norm2(l->from) > 0 && sw_norm2(l->to) > 0)) return 0;
   if (sw_dist(l->from, l->to) > CALM * usual) return 0;
@@ -127,7 +127,7 @@ static int rests(const sw_contact *c, const sw_strikers *l, double usual) {
   return sw_dist(sw_contact_own_blow(c, l, usual).mean, middle) <= CALM * usual;
 }
 
-/* Counts a wire among the strikers or among those that rest. */
+/* Counts a wire with the strikers or with the resting wires. */
 static void judge(const sw_contact *c, sw_strikers *l, double usual) {
   l->all += usual;
   if (rests(c, l, usual))

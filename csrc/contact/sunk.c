@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Moves the outer particles of some meshes inwards, for contact only. These particles stand outside
- * the section that they represent, because this gives the right bending stiffness. Contact must
- * meet the section's surface. It sees the particles further in, along the normal of their
+/* Moves the outer particles of some meshes inwards, for contact only. These particles lie outside
+ * the section that they represent, because this gives the right bending stiffness. Contact must use
+ * the surface of the section. So it moves the particles inwards, along the normal of their
  * neighbours at the step's start. */
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Touches of wires that roll: friction acts on the surface, which also moves if edges turn about
+/* Touches of wires that roll. Friction acts on the surface, which also moves if edges turn about
  * themselves. A turn of edge e shifts the surface point at -r n from the axis by r n x t. A node's
  * turn is the weighted mean of its edges' turns. */
 #include <math.h>
@@ -38,7 +38,7 @@ sw_vec sw_levers_shift(const sw_levers *l, const double *turn, size_t stride) {
   return sum;
 }
 
-/* Returns K v; K is given by its upper half. */
+/* Returns K v; K: upper half of a symmetric matrix. */
 static sw_vec times(const double K[6], sw_vec v) {
   return sw_v(K[0] * v.x + K[1] * v.y + K[2] * v.z, K[1] * v.x + K[3] * v.y + K[4] * v.z,
               K[2] * v.x + K[4] * v.y + K[5] * v.z);

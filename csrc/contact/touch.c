@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Makes the touches of an iterate, with what they remember of earlier steps and of the previous
+/* Makes the touches of an iterate, with their memory of earlier steps and of the previous
  * iterate. */
 #include <float.h>
 #include <math.h>
@@ -14,15 +14,15 @@
 #include "touch/same.h"
 
 /* A touch continues in the next iterate if its gap is below STILL_NEAR of the radius and the cosine
- * of its normal's turn is above SAME_SIDE [-]. */
+ * of the turn of its normal is above SAME_SIDE [-]. */
 static const double STILL_NEAR = 0.5, SAME_SIDE = 0.7;
 
 /* Number of pulls that do not release a touch of a mesh in statics. The first solve with a pull may
- * just have met too many touches at once, and then nothing would hold the mesh. */
+ * have had too many touches at once; without them nothing would hold the mesh. */
 enum { SPARE_PULLS = 1 };
 
-/* MOST_ARC: largest sine of a turn between chords that stand for an arc. A neighbouring chord
- * counts in full from 1/BESIDE of the force on, and gradually below; otherwise friction would jump
+/* MOST_ARC: largest sine of a turn between chords that represent an arc. A neighbouring chord
+ * counts fully from 1/BESIDE of the force on, and gradually below; otherwise friction would jump
  * with it [-]. */
 static const double MOST_ARC = 0.8, BESIDE = 10.0;
 
@@ -41,8 +41,8 @@ static sw_touch *new_touch(sw_contact *c) {
   return memset(t, 0, sizeof *t);
 }
 
-/* Moves the new touch to its position in the list, which is in the order of candidates. A segment
- * may find a touch of the segment beside. */
+/* Moves the new touch to its position in the list, which is sorted by candidate. A segment may find
+ * a touch of the neighbouring segment. */
 static void take_in(sw_contact *c) {
   size_t i = c->touch_count++;
   const size_t candidate = c->touches[i].candidate;
@@ -53,8 +53,8 @@ static void take_in(sw_contact *c) {
   c->touches[i] = t;
 }
 
-/* Largest distance along the segment between places of one touch, at most the given share; a sample
- * keeps its place [-]. */
+/* Largest distance along the segment between places of one touch: the given share, or half the
+ * distance of samples [-]. */
 static double within(const sw_candidate *k, double share) {
   return k->samples ? fmin(share, 0.5 / k->samples) : share;
 }
@@ -74,8 +74,8 @@ static double away(const sw_memory *m, const sw_candidate *k, double at) {
   return fabs(((double)m->node - (double)k->node) + m->at - at);
 }
 
-/* Finds the memory of a touch that slid off one segment onto its neighbour, or onto the node
- * between them: such a touch keeps its friction spring. */
+/* Finds the memory of a touch that slid from one segment to its neighbour, or to the node between
+ * them: such a touch keeps its friction spring. */
 static const sw_memory *inherited(const sw_contact *c, const sw_candidate *k, double at) {
   const int id = c->obstacles[k->obstacle].id;
   const sw_memory *best = NULL;
@@ -93,8 +93,8 @@ static const sw_memory *inherited(const sw_contact *c, const sw_candidate *k, do
   return best;
 }
 
-/* Returns the nearer one of best and a touch on an edge in the last iterate with the same
- * obstacle. */
+/* Returns `best` or the touch of the last iterate on an edge of the same obstacle, whichever is
+ * nearer. */
 static const sw_touch *nearer(const sw_touch *last, const sw_candidate *k, double at,
                               double *nearest, const sw_touch *best) {
   if (!last->sharp || last->obstacle != k->obstacle || last->body != k->body) return best;
@@ -104,8 +104,8 @@ static const sw_touch *nearer(const sw_touch *last, const sw_candidate *k, doubl
   return last;
 }
 
-/* Returns the touch of the previous iterate; on a smooth curve also from the segment beside. Within
- * a stage solved by parts the list also has touches of the previous stage. */
+/* Returns the touch of the previous iterate; on a smooth curve also from the neighbouring segment.
+ * In a stage solved in parts the list also has touches of the previous stage. */
 static const sw_touch *last_for(const sw_contact *c, const sw_candidate *k, double at) {
   const sw_touch *best = NULL;
   double nearest = within(k, SW_SAME_TOUCH);
@@ -123,16 +123,16 @@ static const sw_touch *last_for(const sw_contact *c, const sw_candidate *k, doub
   return best;
 }
 
-/* Position of a touch as a mean of nodes. A round obstacle also meets chords, at its rims and along
- * itself; their touches are on the chord, the others of a smooth wire on its curve. */
+/* Position of a touch as a mean of nodes. Chords touch a round obstacle at its rims and along
+ * itself; such touches are on the chord, the others of a smooth wire on its curve. */
 static sw_mean spot_of(const sw_system *s, const sw_candidate *k, const sw_touch *t, double at) {
   const int on_chord = k->round && k->segment && !t->sharp && t->feature != SW_BEHIND_BARRIER;
   return on_chord ? sw_mean_chord(k->node, k->other, at) : sw_contact_spot(s, k, at);
 }
 
 /* Displacement of the wire's material at the touch since the step's start, relative to the
- * obstacle's. For a wire that rolls, that of its surface. Sunk nodes count with their own place:
- * how they are sunk is that of the step's start, and does not turn with the obstacle. */
+ * obstacle's; of a rolling wire that of its surface. Sunk nodes count with their own place: the
+ * sinking is computed at the step's start and does not turn with the obstacle. */
 static sw_vec relative_shift(const sw_contact *c, const sw_system *s, const sw_touch *t,
                              const double *y) {
   const sw_vec from = sw_mean_of(s->x, 0, &t->spot);
@@ -149,8 +149,8 @@ static sw_vec relative_shift(const sw_contact *c, const sw_system *s, const sw_t
   return sw_add(sw_add(sw_sub(to, carried), arm), rolled);
 }
 
-/* The same since the wire was last seen there. This includes the motion of an explicit method after
- * its last evaluation in a step. */
+/* The same since the touch was last seen. This includes the motion of an explicit method after its
+ * last evaluation in a step. */
 static sw_vec shift_since(const sw_contact *c, const sw_system *s, const sw_touch *t,
                           const double *y) {
   const sw_candidate *k = &c->candidates[t->candidate];
@@ -174,8 +174,8 @@ static const sw_memory *pressed_memory(const sw_contact *c, const sw_system *s,
 }
 
 /* A predicted slide of a mesh's particle counts only if a spring of this multiple of its inertia
- * would slide too. A prediction moves a sticking particle far more than its touch's spring gives
- * way, though only its inertia asks for that [-]. */
+ * would slide too. A prediction moves a sticking particle far more than its touch's spring yields,
+ * although only its inertia requires that [-]. */
 static const double NEIGHBOURS = 30.0;
 
 /* Stiffness of friction's spring in the test for a sure slide [N/m]. */
@@ -199,10 +199,10 @@ static double force_beside(const sw_contact *c, const sw_candidate *k, int by) {
   return sum;
 }
 
-/* Coefficient of friction on chords round an obstacle. Chords touch in their middles and friction
- * there turns with them, while on a wire it follows the arc. If a chord and its pressing neighbours
- * turn by phi from middle to middle, ln(T2/T1) = mu phi needs the coefficient sinh(mu phi)/sin(phi)
- * instead of mu (balance of a polygon's corners) [-]. */
+/* Coefficient of friction on chords round an obstacle [-]. Chords touch in their middles and
+ * friction turns with them, while on a wire it follows the arc. If a chord and its pressing
+ * neighbours turn by phi from middle to middle, ln(T2/T1) = mu phi needs the coefficient sinh(mu
+ * phi)/sin(phi) instead of mu (balance of a polygon's corners). */
 static double of_arc(const sw_contact *c, const sw_system *s, const sw_memory *m, const sw_touch *t,
                      double mu) {
   const sw_candidate *k = &c->candidates[t->candidate];
@@ -225,8 +225,8 @@ static double of_arc(const sw_contact *c, const sw_system *s, const sw_memory *m
 }
 
 /* Where nothing touched before, a shift along the surface of up to this many roundings of the
- * position counts as none. It would give friction a random direction, a different one for each
- * touch [-]. */
+ * position counts as zero. It would give friction a random direction, different for each touch
+ * [-]. */
 static const double ROUNDINGS = 16.0 * DBL_EPSILON;
 
 static sw_vec without_rounding(sw_vec u, sw_vec normal, sw_vec place) {
@@ -234,25 +234,25 @@ static sw_vec without_rounding(sw_vec u, sw_vec normal, sw_vec place) {
   return sw_norm2(sw_madd(u, normal, -away)) <= most * most ? sw_scale(normal, away) : u;
 }
 
-/* 1 if a touch without memory has not slid so far in this step: it closed where it is. If a mesh's
- * particle did slide in the previous iterate, it goes on, although the last solve left a gap. Its
- * friction would else be on in every other iterate, and open that gap in between. */
+/* 1 if a touch without memory has not slid in this step: it closed where it is. A mesh's particle
+ * that slid in the previous iterate goes on, although the last solve left a gap: otherwise its
+ * friction would act in every other iterate, and open the gap in between. */
 static int closed_here(const sw_web *web, const sw_press *press, const sw_touch *last) {
   const int slid = web && last && sw_norm2(last->press.trial) > 0;
   return press->gap >= 0 && press->active && !slid;
 }
 
-/* 1 if a slide's reversals are counted, so that it sticks at last: in statics always for meshes of
- * elements, whose particles between pads would else turn round in every other iterate. */
+/* 1 if reversals of a slide are counted, so that it finally sticks. In statics always for meshes of
+ * elements: their particles between pads would otherwise reverse in every other iterate. */
 static int counts_reversals(const sw_contact *c, const sw_system *s, const sw_touch *t) {
   if (c->regime == SW_CONTACT_IMPLICIT) return c->updates > 0;
   const sw_web *web = s->bodies[t->body].plan->web;
   return (web && web->solid_rate2 > 0) || sw_contact_moves(c);
 }
 
-/* Begins friction of a touch. A new touch has moved freely, so it slides first. For a wire that
- * rolls, a long spring does not mean a slide: on a curved surface both its shift and its turn are
- * predicted less exactly than that. */
+/* Begins friction of a touch. A new touch has moved freely, so it slides first. For a rolling wire
+ * a long spring does not mean a slide: on a curved surface its shift and its turn are predicted
+ * less exactly than that. */
 static void begin_friction(const sw_contact *c, const sw_system *s, const sw_memory *m,
                            const sw_touch *last, const double *y, sw_touch *t) {
   sw_press *press = &t->press;
@@ -284,9 +284,9 @@ int sw_contact_is_held(const sw_system *s, const sw_candidate *k) {
   return held[k->node - b->first_node] != SW_FREE && held[k->other - b->first_node] != SW_FREE;
 }
 
-/* Stiffness of a new touch. A wire pushed on by its end bears far more than its weight, and
+/* Stiffness of a new touch [N/m]. A wire pushed by its end carries far more than its weight, and
  * stiffening its touch after it has sunk in would throw the end back. So the end's touch is as
- * stiff as the wire itself from the beginning [N/m]. */
+ * stiff as the wire itself from the beginning. */
 static double end_stiffness(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                             const double *y, sw_vec normal) {
   const sw_body *b = &s->bodies[k->body];
@@ -299,7 +299,7 @@ static double end_stiffness(const sw_contact *c, const sw_system *s, const sw_ca
   return fmax(k->usual, along * along * b->EA / b->plan->rest[e]);
 }
 
-/* Stiffness of a touch; usual: that of a new one, which rises where pads come near [N/m]. */
+/* Stiffness of a touch [N/m]. usual: that of a new one, which is higher near pads. */
 static double stiffness_of(const sw_contact *c, const sw_candidate *k, const sw_memory *m,
                            const sw_touch *last, double usual) {
   if (c->regime == SW_CONTACT_EXPLICIT) return k->usual;
@@ -307,24 +307,23 @@ static double stiffness_of(const sw_contact *c, const sw_candidate *k, const sw_
   return !m ? usual : fmax(m->kept.k, c->regime == SW_CONTACT_STATIC ? usual : 0.0);
 }
 
-/* 1 if a touch is that of the previous iterate, moved a little. */
+/* 1 if a touch is that of the previous iterate, a little shifted. */
 static int goes_on(const sw_contact *c, const sw_candidate *k, const sw_press *press,
                    const sw_touch *last) {
   return last && c->regime != SW_CONTACT_EXPLICIT && press->gap < STILL_NEAR * k->radius &&
          sw_dot(press->normal, last->press.normal) > SAME_SIDE;
 }
 
-/* 1 if friction's direction follows from the place. In bundles it is an unknown, as between wires:
- * otherwise wires that are thrown about would reverse in every other iterate. A single wire may do
- * so too, but most agree sooner by the place; after some updates its direction becomes an
- * unknown. */
+/* 1 if the place gives friction's direction. In bundles the direction is an unknown, as between
+ * wires: otherwise thrown wires would reverse in every other iterate. A single wire may reverse
+ * too, but most agree sooner by the place; after some updates its direction becomes an unknown. */
 static int goes_by_place(const sw_contact *c, const sw_system *s, const sw_candidate *k) {
   const int apart = s->coupling.part && !(s->bodies[k->body].coupled & SW_TOUCHING);
   return (apart && c->updates < SW_PATIENCE) || c->regime != SW_CONTACT_IMPLICIT ||
          s->bodies[k->body].plan->web;
 }
 
-/* Sets a touch's data that follow from its place. */
+/* Sets the data of a touch that follow from its place. */
 static void take_place(const sw_contact *c, const sw_system *s, const sw_candidate *k, double at,
                        const double *y, const sw_place *place, sw_touch *t) {
   const sw_pose *pose = &c->now[k->obstacle].pose;
@@ -350,10 +349,10 @@ static void activate(const sw_contact *c, const sw_system *s, const sw_candidate
   if (still && m && web && web->per_ring) press->spare = SPARE_PULLS;
   sw_press_activate(press, goes_on(c, k, press, last) ? &last->press : NULL);
   if (!still || last || web || press->active) return;
-  press->active = sw_press_lies(press); /* this touch may be all that carries the wire */
+  press->active = sw_press_lies(press); /* this touch may carry the whole wire */
 }
 
-/* Sets how much further out than its chord or smooth curve the wire's arc is. */
+/* Sets the distance of the wire's arc outside its chord or smooth curve. */
 static void rise(const sw_contact *c, const sw_system *s, const sw_candidate *k, const sw_memory *m,
                  const double *y, const sw_place *place, sw_touch *t) {
   if (!k->arcs || t->feature == SW_BEHIND_BARRIER) return;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Contact of wires with obstacles, inside. Candidate: a node or segment and an obstacle that may
- * touch in the step. Touch: a place of a candidate where an iterate lets them press. */
+/* Contact of wires with obstacles: internal data. Candidate: a node or segment and an obstacle that
+ * it may touch in the step. Touch: a place of a candidate where they may press in an iterate. */
 #ifndef SW_CONTACT_TOUCH_H
 #define SW_CONTACT_TOUCH_H
 
@@ -14,7 +14,7 @@ struct sw_contact {
   sw_contact_loads *loads; /* (count) impulses in the step; zero except for obstacles in busy */
   int *busy;               /* (busy_count) obstacles near wires in this step, or pressed before */
   size_t busy_count;
-  int informed; /* 1: the owner has told the obstacles' loads and which obstacles may move */
+  int informed; /* 1: the owner has given the obstacles' loads and told which obstacles may move */
   sw_broad broad;
   int last_stage; /* last stage whose loads were booked in this trial */
   sw_singles singles;
@@ -30,12 +30,12 @@ struct sw_contact {
   double *round;              /* (count) radius of its round side; 0: no round side [m] */
   int *wound;   /* (count) last body that goes round it in this step: number + 1, or 0 */
   int *dense;   /* (count) 1: particles of the current body lie close to each other */
-  double *sunk; /* (3 nodes) shift by which contact finds a node deeper; NULL: no node [m] */
+  double *sunk; /* (3 nodes) shift of each node's place for contact; NULL: no node is shifted [m] */
   size_t sunk_capacity;
-  sw_ahead *ahead; /* (2 ahead_count) statics: states of the touches in the search, then room */
-  size_t ahead_count, ahead_capacity; /* ahead_count = 0: there is no search */
+  sw_ahead *ahead; /* (2 ahead_count) statics: states of the touches in the search, work space */
+  size_t ahead_count, ahead_capacity; /* ahead_count = 0: no search */
   int softer;    /* softening stage of the search; 0: touches have their full stiffness [-] */
-  int passes;    /* solves at one place in which touches look for their states [-] */
+  int passes;    /* solves at one place in the search for the touches' states [-] */
   double *reach; /* (nodes) widest gap to a resting obstacle that may close in the step [m] */
   size_t reach_capacity;
   /* candidates and touches */
@@ -52,52 +52,52 @@ struct sw_contact {
   size_t turn_capacity;
   sw_memory *memory, *next_memory; /* memory of touches from step to step */
   size_t memory_count, memory_capacity, next_count, next_capacity;
-  double *lost; /* (places) at a body's first node: what its impacts cost in this step [J] */
+  double *lost; /* (places) at a body's first node: energy lost by its impacts in this step [J] */
   uint32_t *impact_at, *barrier_at; /* (places) a node's last impact or barrier: number + 1, or 0 */
   size_t places, place_capacity;
   sw_barrier *barriers;
   size_t barrier_count, barrier_capacity;
   sw_impact *impacts;
   size_t impact_count, impact_capacity;
-  sw_mark *marks; /* touches of the last matrix, to tell whether it serves again */
+  sw_mark *marks; /* touches of the last matrix, to decide whether it is still valid */
   size_t mark_count, mark_capacity;
   sw_contact_parts parts; /* bodies that are solved separately */
   sw_range *ranges;       /* (parts.ranges) candidates of the current part */
   size_t range_capacity;
-  double *room; /* refinement: solutions of a wire's equations */
+  double *room; /* work space of refinement: solutions of a wire's equations */
   size_t room_capacity;
-  int unmarked, looked; /* 1: the marks are not valid; the next evaluation's touches are found */
+  int unmarked, looked; /* 1: the marks are not valid; 1: the next evaluation's touches are found */
   size_t stage;         /* number of the stage; it grows from step to step */
-  double first; /* share of the step's first stage in the state that this stage begins from [-] */
+  double first; /* share of the step's first stage in the starting state of this stage [-] */
   double time, h, stage_time; /* the step's start and size; when obstacles were placed last [s] */
   double nominal;             /* the run's full step [s] */
-  double asked;               /* part (substep) that was first tried, before any was refused [s] */
-  int brakes;                 /* 1: a drive that slides wires comes to rest soon */
+  double asked;               /* part (substep) that was first tried, before refusals [s] */
+  int brakes;                 /* 1: a drive with which wires slide comes to rest soon */
   sw_contact_regime regime;
   int plastic;     /* 1: nothing rebounds in this step */
-  int hasty;       /* 1: this trial ends before friction of a striking wire is settled */
+  int hasty;       /* 1: this trial ends before the friction of a striking wire agrees */
   int careful;     /* 1: no trial of this step may be hasty */
-  double soonest;  /* first rebound that is not at the step's start, as time after the start [s] */
-  double least;    /* rebounds earlier than this after the start count as at the start [s] */
+  double soonest;  /* first rebound after the step's start, as time after the start [s] */
+  double least;    /* rebounds earlier than this count as at the start [s] */
   double struck;   /* work of moving obstacles in the step's impacts [J] */
   int fresh;       /* SW_CONTACT_FRESH, or SW_CONTACT_EMERGING, or 0 */
   int updates;     /* of touches in the stage so far [-] */
   int made;        /* updates that were also applied to positions [-] */
-  double widening; /* factor on the reserve for flight, if nodes exceeded it [-] */
+  double widening; /* factor on the reserve for flight, raised if nodes exceeded it [-] */
 };
 
-/* Force scale of a wire's touches; much smaller forces do not matter [N]. Touches are in the order
- * of wires: *end is the first touch of the next wire. */
+/* Force scale of a wire's touches; much smaller forces do not matter [N]. Touches are sorted by
+ * wire: *end is the first touch of the next wire. */
 double sw_contact_scale(const sw_contact *c, size_t first, size_t *end);
 
-/* Way that a node of velocity v may go in the step without a new search for candidates; and the
- * least such way [m]. */
+/* Distance that a node of velocity v may move in the step without a new search for candidates, and
+ * its smallest value [m]. */
 #define SW_FLIGHT_LEAST 1e-4
 double sw_flight_reserve(const sw_contact *c, const sw_system *s, sw_vec v);
 
-/* Books an impact at the step's start that gave an obstacle this impulse at a point [m], [N s].
+/* Books an impact at the step's start: its impulse on an obstacle at a point [m], [N s].
  * sw_contact_forget_blows: a step begins without loads. sw_contact_conclude: the trial was
- * accepted; stores the loads that obstacles remember. */
+ * accepted; stores the loads for the next step. */
 void sw_contact_add_blow(sw_contact *c, int obstacle, sw_vec point, sw_vec impulse);
 void sw_contact_forget_blows(sw_contact *c);
 void sw_contact_conclude(sw_contact *c, const sw_system *s);
@@ -107,39 +107,39 @@ void sw_contact_expect(sw_contact *c, int obstacle);
 sw_status sw_contact_calm(sw_contact *c, size_t nodes);
 sw_pressed sw_contact_pressed(const sw_touch *t);
 /* Changes the velocities at the step's start so that the wire reaches the touch but does not pass
- * it. Returns 1 if something changed. */
+ * it. Returns 1 if a velocity changed. */
 int sw_contact_strike(sw_contact *c, sw_system *s, const sw_touch *t, double h);
-/* The same for all touches that pressed in the trial, in the order in which they meet their
- * obstacles. dull: 1 if the step does not bounce. */
+/* The same for all touches that pressed in the trial, in the order of their meetings. dull: 1 if
+ * the step does not bounce. */
 int sw_contact_strike_all(sw_contact *c, sw_system *s, double h, int dull);
 /* 1 if a touch from first to end will strike by its force. Only obstacles without restitution. */
 int sw_contact_will_strike(const sw_contact *c, sw_system *s, size_t first, size_t end);
 
-/* Raises barriers where wires cross obstacles on their way to x1. h: the step; 0 in statics, where
- * there are no speeds to change. Returns 1 if there are new ones. */
+/* Raises barriers where wires cross obstacles on their way to x1. h: the step; 0 in statics, which
+ * has no speeds to change. Returns 1 if there are new barriers. */
 int sw_contact_cross(sw_contact *c, sw_system *s, const double *x1, double h);
 
 /* Returns the first barrier raised for the node or segment, or NULL. */
 const sw_barrier *sw_contact_barrier(const sw_contact *c, int obstacle, size_t node, int segment);
 
-/* Finds how far nodes are sunk at the system's state. SW_ENOMEM. */
+/* Finds the shifts of sunk nodes. SW_ENOMEM. */
 sw_status sw_contact_sink(sw_contact *c, const sw_system *s);
 /* Fills the list of candidates for the step. */
 sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err);
 
-/* Progress of an iterate's look at its candidates. */
+/* State of an iterate's look at its candidates. */
 typedef struct sw_glance {
   size_t next, end;   /* candidates that are left, of this range */
   size_t range;       /* number of the part's range */
-  size_t match, last; /* the first candidate that is not matched with its touches of the previous
-                         iterate, and the first of these touches that is left */
+  size_t match, last; /* first candidate that is not yet matched with touches of the previous
+                         iterate, and first of these touches that is left */
 } sw_glance;
 
 /* Begins an iterate: its touches become those of the previous iterate. SW_ENOMEM. */
 sw_status sw_contact_turn_over(sw_contact *c, sw_glance *at);
 /* Goes on to the part's next range of candidates; 0: there are no more. */
 int sw_contact_next_range(const sw_contact *c, sw_glance *at);
-/* Matches candidates up to at->next, and of the segment beside, with their previous touches. */
+/* Matches candidates up to at->next, and of the next segment, with their previous touches. */
 void sw_contact_match(const sw_contact *c, sw_glance *at);
 
 /* Returns the memory of the candidate's touch nearest to this place, or NULL. */
@@ -153,31 +153,31 @@ struct sw_place;
 /* Adds a touch of a candidate at a place. SW_ENOMEM. */
 sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candidate *k,
                                const double *y, const struct sw_place *place);
-/* Finds touches of some more candidates at positions y. *found: number of touches whose position in
- * the list is final. SW_ENOMEM. */
+/* Finds touches of further candidates at positions y. *found: number of touches with a final
+ * position in the list. SW_ENOMEM. */
 sw_status sw_contact_look_on(sw_contact *c, const sw_system *s, const double *y, sw_glance *at,
                              size_t *found, sw_error *err);
 
-/* 1 if, after an update by shift [m] to positions y, the touch keeps the place and normal of its
- * equations. scale: smaller forces do not matter [N]. */
+/* 1 if the touch keeps the place and normal of its equations after an update by shift [m] to
+ * positions y. scale: smaller forces do not matter [N]. */
 int sw_contact_stays(const sw_contact *c, const sw_system *s, const sw_touch *t, const double *y,
                      double shift, double scale);
 
 /* After a static solve: releases touches at the ends of rows where the wire lifts off. */
 void sw_contact_peel(sw_contact *c, const sw_system *s);
 
-/* After a static solve whose update is not made: sets the touches' states to those of the best
- * place on its way. 0: out of memory, or a wire rolls. */
+/* After a static solve whose update is not made: sets the touches' states to those of the least
+ * energy on the path of the update. 0: out of memory, or a wire rolls. */
 int sw_contact_search(sw_contact *c, const sw_system *s, const double *delta);
 
-/* Number of touches that pull, or do not press where they should. */
+/* Number of touches that pull, or that should press and do not. */
 size_t sw_contact_wrong(const sw_contact *c);
 /* Returns the softened stiffness of a touch in the search [N/m]. */
 double sw_contact_softer(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                          double stiffness);
 
-/* Depth on the segment beside a held node that no force takes away. A node held beyond an edge is
- * below the faces that end there, but inside none [m]. */
+/* Depth on the segment beside a held node that no force removes [m]. A node held beyond an edge is
+ * below the faces that end there, but inside none. */
 double sw_contact_imposed(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                           const sw_touch *t, const double *y);
 /* 1 if the wire is pinched between the touch's obstacle and another one. */
@@ -219,7 +219,7 @@ static inline sw_vec sw_touch_place(const double *x, size_t node, size_t other, 
                        : sw_load(x + 3 * node);
 }
 
-/* Position that the surface is skin away from, with the system's nodes at x [m]. */
+/* Position from which the surface has the distance `skin`, with the system's nodes at x [m]. */
 static inline sw_vec sw_contact_where(const sw_contact *c, const double *x, size_t node,
                                       size_t other, double at) {
   const sw_vec p = sw_touch_place(x, node, other, at);
@@ -231,9 +231,9 @@ static inline sw_vec sw_mean_place(const sw_contact *c, const double *x, const s
   return c->sunk ? sw_sub(p, sw_mean_of(c->sunk, 0, spot)) : p;
 }
 
-/* Correction of a sunk place's gap [m]. A place sunk along the normal n of its surface meets a face
- * of normal -n at that surface. If the surface is turned against the face, the distance is kept, so
- * that a flattened section keeps its distance. */
+/* Correction of the gap of a sunk place [m]. A place sunk along the normal n of its surface touches
+ * a face of normal -n at that surface. If the surface is oblique to the face, the sinking counts
+ * fully, so that a flattened section keeps its distance. */
 static inline double sw_contact_aslant(const sw_contact *c, size_t node, size_t other, double at,
                                        sw_vec normal) {
   if (!c->sunk) return 0;

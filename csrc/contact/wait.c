@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Sets aside the touches of bodies that wait, and puts them back (wait.h). */
+/* Puts the touches of waiting bodies aside, and puts them back (wait.h). */
 #include "contact/wait.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 #include "contact/touch.h"
 #include "system/wait.h"
 
-/* Anything nearer to a wire than this many radii, and what may come as near, disturbs it [-]. */
+/* A wire is disturbed by anything that is, or may come, nearer than this many radii [-]. */
 static const double NEAR = 2.0;
 
 static sw_bounds box_of(const sw_system *s, const sw_body *b) {
@@ -44,7 +44,7 @@ typedef struct list {
   size_t count;
 } list;
 
-/* Returns the body's touches. *at: number of the first one that may be its own; it moves on. */
+/* Returns the body's touches. *at: number of the first one to check; it is updated. */
 static list touches_of(const sw_body *b, sw_touch *all, size_t count, size_t *at) {
   const size_t first = b->first_node, end = first + b->plan->nodes;
   while (*at < count && all[*at].node < first) ++*at;
@@ -62,7 +62,7 @@ static int any_comes_out(const list *l) {
   return 0;
 }
 
-/* 1 if a touch gets softer from step to step after a blow: its wire still sinks. */
+/* 1 if a touch becomes softer from step to step after a blow: its wire still sinks. */
 static int eases(const sw_contact *c, const sw_system *s, const sw_touch *t) {
   return sw_press_eases(&t->press, t->usual, t->stiffer, sw_contact_deepest(c, s, t));
 }
@@ -100,7 +100,7 @@ void sw_contact_forget_still(sw_contact *c) {
   load_obstacles(c);
 }
 
-/* Makes room for a flag per body; without memory nothing waits. */
+/* Makes room for one flag per body; 0: out of memory, and nothing waits. */
 static int has_room(sw_contact *c, size_t bodies) {
   if (c->still.bodies == bodies) return 1;
   sw_contact_forget_still(c);
@@ -124,7 +124,7 @@ sw_status sw_contact_wake(sw_contact *c, sw_system *s, sw_error *err) {
   return SW_OK;
 }
 
-/* Sets the touches of the bodies that wait aside. */
+/* Puts aside the touches of the waiting bodies. */
 static sw_status set_aside(sw_contact *c, const sw_system *s) {
   size_t from_touches = 0, from_still = 0, count = 0;
   SW_TRY(sw_grow_empty((void **)&c->still.room, &c->still.room_capacity,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Touches of bodies that wait (system/wait.h). They are set aside as they were at the last accepted
- * state, with the loads that they put on obstacles. Nobody looks at them until the body is solved
- * again; its memory then finds them anew. Only for the files of this folder. */
+/* Touches of bodies that wait (system/wait.h). They are put aside as they were at the last accepted
+ * state, with their loads on obstacles. They are not evaluated until the body is solved again; its
+ * memory then finds them anew. Only for the files of this folder. */
 #ifndef SW_CONTACT_WAIT_H
 #define SW_CONTACT_WAIT_H
 
@@ -9,8 +9,8 @@
 
 typedef struct sw_still {
   sw_touch *list;                   /* (count) in the order of nodes */
-  size_t count, capacity, pressing; /* the last: touches with a force */
-  sw_touch *room;                   /* for the next list */
+  size_t count, capacity, pressing; /* pressing: touches with a force */
+  sw_touch *room;                   /* work space for the next list */
   size_t room_capacity;
   unsigned char *kept; /* (bodies) 1: the body's touches are in the list */
   size_t bodies;
@@ -18,7 +18,7 @@ typedef struct sw_still {
   int accepted; /* 1: the other touches are those of the accepted state */
 } sw_still;
 
-/* A step begins: decides which bodies wait, and sets their touches aside. SW_ENOMEM. */
+/* Call when a step begins: decides which bodies wait, and puts their touches aside. SW_ENOMEM. */
 sw_status sw_contact_wait(sw_contact *c, sw_system *s);
 /* Puts those touches back among the others. SW_ENOMEM: nothing is changed. */
 sw_status sw_contact_put_back(sw_contact *c);

@@ -18,11 +18,10 @@ static const double PRECISION = 1e-3; /* of the wanted force [-] */
  * they moved by another 12 nm (spec/physics/gripper_still_spec) [-]. */
 static const double EXACT = 1e-5;
 static const double ROUGHLY = 0.015; /* the same in the step that first reaches the force [-] */
-static const double REACHED =
-    0.02; /* the force counts as reached if it is less than this share too small [-] */
-enum { MOST_TRIALS = 10 };               /* the last one is taken with the force that it has [-] */
-enum { MOST_FIRST = 20 };                /* the same until the first touch gives a force [-] */
-enum { MOST_RESTS = 12 };                /* the same for equilibria [-] */
+static const double REACHED = 0.02;  /* the force counts as reached from this share below it [-] */
+enum { MOST_TRIALS = 10 };           /* the last one is taken with the force that it has [-] */
+enum { MOST_FIRST = 20 };            /* the same until the first touch gives a force [-] */
+enum { MOST_RESTS = 12 };            /* the same for equilibria [-] */
 static const double SAME_OPENING = 1e-9; /* at a step's end [m] */
 static const double TELLS = 1e-7;        /* closer openings give no stiffness [m] */
 enum {

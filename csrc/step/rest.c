@@ -161,8 +161,7 @@ static sw_status follow_holds(sw_statics *p, sw_error *err) {
 
 /* Wires that move much further than their holds and obstacles have jumped to another
  * equilibrium. */
-static const double JUMP =
-    4.0; /* largest shift over the largest shift of holds and obstacles [-] */
+static const double JUMP = 4.0;           /* largest shift over that of holds and obstacles [-] */
 static const double SMALLEST_JUMP = 0.01; /* of the longest wire [-] */
 /* Wires that move further than this beyond their holds fall without limit. Where rounding is as
  * large as their steps they seem to rest [of the longest wire]. */

@@ -13,8 +13,7 @@
 /* A jerk is a moment at which a drive starts, stops or turns a corner abruptly. Forces just before
  * it belong to a velocity that ends there, and must not start the next step. A method that begins
  * with them counts a dashpot's old force for part of the step: an error of first order. */
-static const double BESIDE =
-    1e-9; /* velocities are compared this long before and after a jerk [s] */
+static const double BESIDE = 1e-9; /* velocities are compared this far from a jerk [s] */
 /* Smaller changes of velocity are not a jump: 10 nm in a step of 10 ms [m/s], [rad/s]. */
 static const double NO_JUMP = 1e-6;
 

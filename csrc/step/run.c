@@ -103,8 +103,7 @@ static void begin_forces(const sw_scene *s) {
 sw_status sw_scene_begin_run(sw_scene *s, int wear, sw_error *err) {
   sw_course *course = sw_scene_course(s);
   SW_TRY(sw_scene_editable(s, err));
-  SW_TRY(sw_scene_readable(
-      s, err)); /* a run without steps would not notice a scene that cannot be read */
+  SW_TRY(sw_scene_readable(s, err)); /* a run without steps would not notice it */
   sw_scene_reset_extremes(s);
   begin_forces(s);
   sw_scene_set_wears(s, wear);

@@ -174,8 +174,7 @@ void sw_slip_tell(sw_scene *s, double step) {
     const double want = isfinite(f->push) ? f->push : copysign(f->limit, f->way ? f->way : drive);
     const double off = disobeys(s, h, f, want, step);
     if (off == 0) continue;
-    sw_events_go_on(sw_scene_events_of(s), "jump", h->name,
-                    sw_scene_time(s)); /* one event in a run */
+    sw_events_go_on(sw_scene_events_of(s), "jump", h->name, sw_scene_time(s)); /* one in a run */
     sw_scene_tell(s, "jump", h->name, h->s1 - wire->mesh.s[0], off,
                   "feed '%s' of wire '%s': the drive's force is %.6g N at t = %.6g s "
                   "instead of %.6g N: it jumps there, by a blow or a touch that opens or "

@@ -311,9 +311,7 @@ static sw_status stop_at_once(const sw_motion *m, double t, double h, double *at
   const double after = function ? ASIDE_OF_FUNCTION * h + sw_motion_step(m) : ASIDE;
   const double before = function ? after : ASIDE + NEAR * h;
   sw_motion_state was, is;
-  SW_TRY(sw_stop_eval(
-      m, t + after, &is,
-      err)); /* first, because it usually decides: while wires slide, most drives move */
+  SW_TRY(sw_stop_eval(m, t + after, &is, err)); /* first: most drives move, and this decides */
   if (!(sw_stop_speed(&is) < STILL)) return SW_OK;
   SW_TRY(sw_stop_eval(m, t - before, &was, err));
   if (sw_stop_speed(&was) > SW_CREEPS && jumps(&was, &is, before + after)) *at = 0;
