@@ -52,8 +52,8 @@ static double longest2(const sw_body *b, const double *x) {
   return most;
 }
 
-/* Width of a cell: the gap of the search plus the largest extent of two things from their middles,
- * with their radii [m]. */
+/* Width of a cell: the gap of the search plus twice the largest distance of a thing's surface from
+ * its middle [m]. */
 static double width_of(const sw_mutual *m, const sw_system *s, double reach) {
   double radius = 0, length2 = 0, far = 0;
   for (size_t k = 0; k < s->body_count; k++) {

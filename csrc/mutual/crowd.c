@@ -12,11 +12,11 @@
 #include "mutual/joined.h"
 #include "touch/same.h"
 
-/* In statics pairs are looked for up to this many distances; else up to the distance plus the way
- * that they may come nearer in the step [-]. */
+/* In statics the search for pairs reaches this many distances; in motion, the distance plus the
+ * approach that is possible in the step [-]. */
 static const double STATIC_REACH = 2.0;
-static const double FARTHEST = 5.0; /* largest reach of the search in distances, at any speed [-] */
-static const double SMALL_PUSH = 0.01; /* share of the distance; less lets iterations end [-] */
+static const double FARTHEST = 5.0; /* largest reach of the search at any speed, in distances [-] */
+static const double SMALL_PUSH = 0.01; /* smaller pushes, over the distance, do not count [-] */
 
 typedef struct group {
   size_t body;
@@ -88,7 +88,7 @@ static double reach_of(const group *g, double speed, double h) {
   return fmin(g->distance + SW_RESERVE * h * speed, FARTHEST * g->distance);
 }
 
-/* More near pairs than this mean that particles are much closer than they should be [-]. */
+/* With more near pairs than this, particles are much closer than they should be [-]. */
 static const size_t MOST_NEAR = 30000000;
 
 /* A search for pairs. */
@@ -113,7 +113,7 @@ static sw_status look_at(void *user, const sw_thing *t, const sw_thing *u) {
   return SW_OK;
 }
 
-/* Finds the pairs: each particle meets the particles put into the cells before it. */
+/* Finds the pairs: compares each particle with those already in the cells. */
 static sw_status find_pairs(group *g, const sw_body *b, const double *x, const double *v,
                             double h) {
   search all = {g, x, v, h};
@@ -145,8 +145,8 @@ sw_status sw_crowd_begin_step(sw_crowd *c, sw_system *s, double h) {
 
 /* --- forces ------------------------------------------------------------------------------- */
 
-/* Adds the stiffness along the line between both. The part across it is negative (it turns the
- * line); it is added only where an equilibrium is looked for and iterations converge. */
+/* Adds the stiffness along the line between both. The part across the line is negative (it turns
+ * the line). It is added only in a search for an equilibrium and where iterations converge. */
 static void add_stiffness(sw_body *b, const group *g, const sw_couple *p, double r, sw_vec t) {
   const double u[3] = {t.x, t.y, t.z};
   const sw_field *f = &b->field;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Particles of an object that push each other apart if they come nearer than a distance d, unless a
- * link, fold or element joins them: E = 1/2 k (d - r)^2 for r < d. The pairs that may do so in a
- * step are found at its start, and the matrix is made for these. The force keeps folds of fabric
- * apart if d is at least half the distance between neighbours. It is no surface: a particle pushed
- * harder than k d passes through, and a particle that comes nearer by more than four distances in
- * one step is missed. */
+/* Particles of an object that push each other apart if they are nearer than a distance d, unless a
+ * link, fold or element joins them: E = 1/2 k (d - r)^2 for r < d. The pairs that may push in a
+ * step are found at its start, and the matrix is planned for these. The force keeps folds of fabric
+ * apart if d is at least half the distance between neighbours. It is not a surface: a particle
+ * pushed harder than k d passes through, and a particle that approaches by more than four distances
+ * in one step is missed. */
 #ifndef SW_MUTUAL_CROWD_H
 #define SW_MUTUAL_CROWD_H
 
@@ -23,7 +23,7 @@ sw_status sw_crowd_begin_step(sw_crowd *crowd, sw_system *system, double h);
 /* Adds forces and stiffness at positions y to the bodies' fields. */
 void sw_crowd_eval(const sw_crowd *crowd, sw_system *system, const double *y, unsigned want);
 
-/* 1 if the update delta, which reached y, did not change which pairs push. Small pushes are
+/* 1 if the same pairs push before and after the update delta, which reached y. Small pushes are
  * ignored. */
 int sw_crowd_settled(const sw_crowd *crowd, const sw_system *system, const double *y,
                      const double *delta);

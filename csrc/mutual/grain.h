@@ -34,7 +34,7 @@ typedef struct sw_grains {
   size_t near_count, near_capacity;
   double *listed_at; /* (listed_nodes x 3) positions that the list was made for [m] */
   size_t listed_nodes, listed_capacity;
-  double listed_gap; /* gap up to which the list is complete at those positions [m] */
+  double listed_gap; /* gap up to which the list is complete with nodes at listed_at [m] */
 } sw_grains;
 
 static inline sw_grains *sw_grains_of(sw_mutual *m) { return (sw_grains *)(void *)m; }

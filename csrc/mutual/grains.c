@@ -33,8 +33,8 @@ static void free_own(sw_mutual *m) {
 
 /* --- review ---------------------------------------------------------------------------- */
 
-/* Largest distance of a node from its free flight in the step, because the search allowed for free
- * flight only [m]. */
+/* Largest distance of a node from its free flight in the step [m]. The search covers free flight
+ * only. */
 static double stray(const sw_system *s, const double *x1, double h) {
   double most = 0;
   for (size_t i = 0; i < s->nodes; i++) {

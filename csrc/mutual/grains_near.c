@@ -25,19 +25,19 @@ static double stiffness_at(const sw_grains *g, const sw_system *s, uint32_t body
   return g->m.regime == SW_CONTACT_EXPLICIT ? own : fmax(own, sw_contact_hardness(p->web, i));
 }
 
-/* More near pairs than this mean that particles lie much closer than they should [-]. */
+/* With more near pairs than this, particles lie much closer than they should [-]. */
 static const size_t MOST_NEAR = 30000000;
 
-/* 1 if this kind of pair is looked at: a particle with everything; a wire's node with edges of
- * surfaces; edges with each other and with segments. These cover the rest. */
+/* 1 if this kind of pair is checked: a particle with anything; a wire's node with edges of
+ * surfaces; edges with each other and with segments. The other kinds are covered by these. */
 static int counts(const sw_system *s, const sw_thing *t, const sw_thing *u) {
   const int points = (t->node == t->end) + (u->node == u->end);
   const int wires = !s->bodies[t->body].plan->web + !s->bodies[u->body].plan->web;
   return points == 2 ? wires == 0 : wires < 2;
 }
 
-/* 1 if both are near each other along a mesh, and one of them is part of a line. Bent as sharply as
- * the radius allows, a line meets itself after pi radii of length. */
+/* 1 if both are near each other along a mesh, and one of them is part of a line. A line bent with
+ * the smallest radius touches itself after a length of pi radii. */
 static int is_beside(const sw_web *w, const sw_plan *p, size_t one, size_t two) {
   if (!sw_web_has_lines(w)) return 0;
   const double skin = fmax(sw_plan_skin(p, one), sw_plan_skin(p, two));
@@ -67,7 +67,7 @@ static double hardness(const sw_grains *g, const sw_system *s, const sw_ends *e)
   return least;
 }
 
-/* 1 if even the balls around two things leave more than this gap [m]. */
+/* 1 if even balls around both things are further apart than this gap [m]. */
 static int is_far(const sw_thing *t, const sw_thing *u, double gap) {
   const double reach = gap + t->radius + u->radius + t->half + u->half;
   const sw_vec apart = sw_sub(t->middle, u->middle);
@@ -93,8 +93,8 @@ static sw_status look_at(sw_grains *g, const sw_system *s, const sw_thing *t, co
   return SW_OK;
 }
 
-/* Of a point and an edge the point looks for the pair; of two points or two edges the first one
- * does. */
+/* Of a point and an edge, the point searches for the pair; of two points or two edges, the first
+ * one. */
 static sw_status meets(void *user, const sw_thing *t, const sw_thing *u) {
   const search *all = user;
   const int point = t->node == t->end, other = u->node == u->end;
@@ -132,8 +132,8 @@ static void widen_range(sw_vec v, sw_vec *low, sw_vec *high) {
   *high = sw_v(fmax(high->x, v.x), fmax(high->y, v.y), fmax(high->z, v.z));
 }
 
-/* Returns a bound of the difference of any two of the vectors a - b of nodes that take part; b:
- * NULL for 0. What moves as a whole has none. */
+/* Returns a bound of the difference between two of the vectors a - b of nodes that take part; b:
+ * NULL for 0. Common motion does not count. */
 static double largest_difference(const sw_grains *g, const sw_system *s, const double *a,
                                  const double *b) {
   sw_vec low = sw_v(HUGE_VAL, HUGE_VAL, HUGE_VAL), high = sw_neg(low);
@@ -150,9 +150,9 @@ static double largest_difference(const sw_grains *g, const sw_system *s, const d
   return most > 0 ? fmin(2.0 * sqrt(most), sw_dist(low, high)) : 0.0;
 }
 
-/* The list reaches further than a step needs, by this share of the largest sum of radii, if things
- * then move for SOME_STEPS steps before it must be made again [-]. At twice and at half of the
- * share crossing tubes take as long, within 10 %. */
+/* The list reaches further than a step needs, by this share of the largest sum of radii, if it then
+ * lasts for SOME_STEPS steps [-]. With twice and half of the share crossing tubes take as long,
+ * within 10 %. */
 static const double SPARE = 0.25, SOME_STEPS = 4.0;
 
 static sw_status list(sw_grains *g, const sw_system *s) {

@@ -52,7 +52,7 @@ static sw_meet *new_touch(sw_grains *g, const sw_system *s, const sw_grain_pair 
   if (!t) return NULL;
   t->of = k->of, t->pair = (uint32_t)(k - g->pairs);
   t->reach = k->reach, t->usual = k->usual;
-  t->emerges = 1; /* its depth is let out as slowly as that of meshes */
+  t->emerges = 1; /* its depth is reduced as slowly as that of meshes */
   t->press.soft = softness(s, &k->of), t->press.by_place = 1;
   for (int n = 0; n < 2; n++)
     t->at[n] = at[n], t->bow[n] = bow[n], t->slides[n] = slides && at[n] > 0 && at[n] < 1;
@@ -66,7 +66,7 @@ static sw_rods rods_of(const double *x, const sw_ends *e) {
                    {sw_vec_at(x, e->node[1]), sw_vec_at(x, e->end[1])}};
 }
 
-/* 1 if both pass through each other on the straight way from x0 to y. Fills the place and the
+/* 1 if both pass through each other on the straight path from x0 to y. Fills the place and the
  * direction just before. */
 static int passes(const double *x0, const double *y, const sw_grain_pair *k, double at[2],
                   sw_vec *normal) {
@@ -78,8 +78,8 @@ static int passes(const double *x0, const double *y, const sw_grain_pair *k, dou
   return 1;
 }
 
-/* Edges closer to parallel than this touch along their length; their points' touches cover that
- * [-]. */
+/* Edges closer to parallel than this touch along their length; the touches of their points cover
+ * that [-]. */
 static const double PARALLEL = 1e-3;
 
 static int crosses(const double *y, const sw_ends *k, double at[2]) {
@@ -97,9 +97,9 @@ static double along(const double *x, uint32_t point, uint32_t from, uint32_t to)
   return uu > 0 ? sw_dot(u, sw_sub(sw_vec_at(x, point), sw_vec_at(x, from))) / uu : 0.0;
 }
 
-/* Finds the place of touch; 0: it belongs to another pair. Edges cross within both. A point's place
- * is within the edge. On a wire's segment it may also be the first node, if the segment before does
- * not reach the point, or the wire's end. */
+/* Finds the place of touch; 0: it belongs to another pair. Crossing edges touch inside both. A
+ * point touches inside the edge. On a wire's segment it may also touch at the first node, if the
+ * previous segment does not reach the point, or at the wire's end. */
 static int owns(const sw_system *s, const double *y, const sw_ends *k, double at[2]) {
   const sw_body *b = &s->bodies[k->body[1]];
   const uint32_t point = k->node[0], from = k->node[1], to = k->end[1];
@@ -123,7 +123,7 @@ static sw_status find(sw_grains *g, const sw_system *s, const double *y, const s
   const int barred = passes(s->x, y, k, at, &normal), own = !barred && owns(s, y, &k->of, at);
   if (!barred && !own) {
     if (!last || !(last->press.normal_force > 0)) return SW_OK;
-    at[0] = last->at[0], at[1] = last->at[1]; /* a touch that pushed stays where it was */
+    at[0] = last->at[0], at[1] = last->at[1]; /* a touch that pushed keeps its place */
   }
   const sw_bow bow[2] = {sw_bow_between(k->of.node[0], k->of.end[0], at[0]),
                          sw_bow_between(k->of.node[1], k->of.end[1], at[1])};

@@ -23,8 +23,8 @@ static double arc_of(const sw_system *s, const sw_meet *t, int side) {
   return from + t->at[side] * (arc[t->of.end[side] - b->first_node] - from);
 }
 
-/* What bears a body on both sides of a place: the nearest before and after it. Places of the same
- * arc length are in the order of their numbers. */
+/* The nearest supports of a body on both sides of a place. Places of the same arc length are sorted
+ * by their numbers. */
 typedef struct beside {
   double at, before, after; /* arc lengths; +-HUGE_VAL: nothing [m] */
   size_t number;
@@ -38,9 +38,9 @@ static void regard(beside *b, double at, size_t number) {
     b->after = fmin(b->after, at);
 }
 
-/* Mass of the part of a wire that a touch holds at rest: halfway to what bears the wire beside it,
- * touches or holds, as friction there keeps the mean of the tension between both; a free end with
- * all its mass [kg]. */
+/* Mass of the part of a wire that a touch holds at rest [kg]: on both sides half the length to the
+ * next touch or hold, because friction there keeps the mean of the tensions between both; a free
+ * end with all its mass. */
 static double mass_of(const sw_mutual *m, const sw_contact *c, const sw_system *s, size_t number,
                       int side) {
   const uint32_t body = m->touches[number].of.body[side];
@@ -70,7 +70,7 @@ static int is_of_lines(const sw_system *s, const sw_meet *t) {
   return !s->bodies[t->of.body[0]].plan->web && !s->bodies[t->of.body[1]].plan->web;
 }
 
-/* Returns the speed along each other that the place still had [m/s]. */
+/* Sets the friction of a touch. Returns the remaining sliding speed of its place [m/s]. */
 static double halt(sw_mutual *m, const sw_contact *c, const sw_system *s, size_t number) {
   sw_meet *t = &m->touches[number];
   sw_press *p = &t->press;

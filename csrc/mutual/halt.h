@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Friction between wires that come to rest together with what drives them: contact/halt.h for
- * touches of wires with each other. */
+/* Friction between wires that come to rest together with their drive: contact/halt.h for touches of
+ * wires with each other. */
 #ifndef SW_MUTUAL_HALT_H
 #define SW_MUTUAL_HALT_H
 
@@ -8,7 +8,7 @@
 #include "mutual/mutual.h"
 
 void sw_mutual_against(const sw_mutual *pairs, const sw_system *system, sw_against *sum);
-/* contact: that with obstacles, which bear the wires too, or NULL. */
+/* contact: contact with obstacles, which support the wires too, or NULL. */
 double sw_mutual_halt(sw_mutual *pairs, const sw_contact *contact, const sw_system *system,
                       double still);
 double sw_mutual_friction(const sw_mutual *pairs);

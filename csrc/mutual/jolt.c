@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Blows of wires on each other, which are followed in parts (substeps) of a step. */
+/* Blows of wires on each other. Steps with a blow are divided into parts (substeps). */
 #include "mutual/jolt.h"
 
 #include <math.h>
@@ -30,18 +30,18 @@ static push push_of(const sw_mutual *m, const uint32_t body[2]) {
   return p;
 }
 
-/* Looks backwards: the same two wires mostly touch a few touches before. */
+/* Searches backwards: most touches of the same two wires are a few places earlier in the list. */
 static int is_first(const sw_mutual *m, size_t touch) {
   for (size_t i = touch; i-- > 0;)
     if (are_bodies(&m->touches[i].of, m->touches[touch].of.body)) return 0;
   return 1;
 }
 
-/* A force that stretches a wire by more than this is not its blow: holds drive it into the other
- * wire, and parts of any size would be as rough [-]. */
+/* A force that stretches a wire by more than this is not a blow of the wire: holds drive it into
+ * the other wire, and parts of any size would be as rough [-]. */
 static const double DRIVEN = 0.1;
 
-/* Returns the jolt of two bodies if its force is harder than *hardest of one of them allows, else 0
+/* Returns the jolt of two bodies if its force exceeds the limit by *hardest of one of them, else 0
  * [-]. */
 static double jolt_of(const sw_mutual *m, const sw_system *s, const uint32_t body[2], int dull,
                       int followed, double *const hardest[2]) {

@@ -29,8 +29,8 @@ static double free_share(const sw_system *s, const sw_meet *t, int side, sw_vec 
   return (one ? 0.0 : 1.0 - at) + (two ? 0.0 : at);
 }
 
-/* Depth that holds impose: no force can part wires that are held closer together than their radii
- * [m]. */
+/* Depth that holds impose [m]: no force can part wires that are held closer together than their
+ * radii. */
 static double imposed(const sw_system *s, const sw_meet *t) {
   sw_vec a, b;
   const double one = free_share(s, t, 0, &a), share = fmax(one, free_share(s, t, 1, &b));
@@ -39,10 +39,11 @@ static double imposed(const sw_system *s, const sw_meet *t) {
 
 static int is_line(const sw_system *s, uint32_t body) { return !s->bodies[body].plan->web; }
 
-/* 1 if the touch of two wires pressed at the step's start. Made stiffer within a step it would
- * press more at the same depth, and store energy from nowhere: a twisted pair that was drawn taut
- * redid each step, and its wires sank into each other by 0.3 of the radius
- * (spec/contact/drawn_pair_spec). It gets stiffer from step to step, at the same force. */
+/* 1 if the touch of two wires pressed at the step's start. If it were stiffened within a step, it
+ * would press more at the same depth and store energy from nowhere: a twisted pair that was drawn
+ * taut repeated each step, and its wires sank into each other by 0.3 of the radius
+ * (spec/contact/drawn_pair_spec). Such a touch is stiffened from step to step, with the same
+ * force. */
 static int is_squeezed(const sw_mutual *m, const sw_system *s, const sw_met *met,
                        const sw_meet *t) {
   if (!met || m->regime != SW_CONTACT_IMPLICIT) return 0;
@@ -56,8 +57,8 @@ static double axial_of(const sw_system *s, const sw_meet *t) {
               sw_contact_edge_stiffness(s, t->of.body[1], t->of.node[1]));
 }
 
-/* Sets how much depth a touch leaves alone. Wires that were placed in each other come out slowly:
- * within one step the depth would turn into speed. */
+/* Sets the part of a touch's depth that the step does not correct. Wires that were placed in each
+ * other come out slowly: within one step the depth would become speed. */
 static void forgive(const sw_mutual *m, const sw_system *s, const sw_met *met, sw_meet *t) {
   if (m->regime == SW_CONTACT_EXPLICIT || t->press.gap >= 0) return;
   const double always = imposed(s, t);
@@ -82,10 +83,11 @@ static double stiffness_of(const sw_mutual *m, const sw_meet *t, const sw_met *m
   return met && met->kept.normal_force > 0 ? met->kept.k : t->usual;
 }
 
-/* Wires along each other, and particles, that pressed at the step's start press in the first
- * iterate too, unless the prediction opens them by more than this share of the sum of radii [-].
- * Their depth is far below their motion in a step, so a prediction cannot tell whether they part.
- * Crossings are excepted: in a tight knot they slide along both segments and would not settle. */
+/* Touches of wires along each other, and of particles, that pressed at the step's start also press
+ * in the first iterate, unless the prediction opens them by more than this share of the sum of
+ * radii [-]. Their depth is far below their motion in a step, so a prediction cannot show whether
+ * they part. Crossings are excepted: in a tight knot they slide along both segments and would not
+ * converge. */
 static const double STILL_NEAR = 0.02;
 
 static int stays_near(const sw_mutual *m, const sw_meet *t) {
@@ -93,12 +95,12 @@ static int stays_near(const sw_mutual *m, const sw_meet *t) {
   return t->kind != SW_CROSSING || t->press.by_place;
 }
 
-/* A force that turns with its normal has negative stiffness. At a predicted place, as deep as a
- * wire flew in the step, this would be thousands of weights. So it is left out until the last
- * update shifted all pressing touches by at most CALM_SHIFT of the radii; a wire that flies throws
- * its neighbours too. A touch shifted by more than NEAR_SHIFT keeps the iteration going [-]. Both
- * apply only to depth that may be predicted: not to depth by placing or by holds, which is real,
- * and not to crossings, which slide in knots. */
+/* A force that turns with its normal has negative stiffness. At a predicted place, where a wire may
+ * be as deep as it flew in the step, this would be thousands of weights. So it is left out until
+ * the last update shifts all pressing touches by at most CALM_SHIFT of the radii: a flying wire
+ * throws its neighbours too. A touch that shifts by more than NEAR_SHIFT keeps the iteration going
+ * [-]. Both apply only to depth that may come from the prediction. Depth by placing or by holds is
+ * real, and crossings slide in knots. */
 static const double CALM_SHIFT = 0.01, NEAR_SHIFT = 0.02;
 
 static int may_fly(const sw_mutual *m, const sw_meet *t) {
@@ -111,9 +113,10 @@ static int is_far(const sw_mutual *m, const sw_meet *t, const sw_meet *last, int
   return last->stage == m->stage && sw_norm(last->press.shift) > NEAR_SHIFT * t->reach;
 }
 
-/* Normal force of a touch without a past: from its depth, but zero if the depth may be predicted,
- * because that would give thousands of weights. Friction then starts at zero. Enough friction to
- * stop the lighter wire would push the wires of a bundle about that only fall on each other [N]. */
+/* Normal force of a touch without memory: computed from its depth, but zero if the depth may come
+ * from the prediction, which would give thousands of weights [N]. Friction then starts at zero.
+ * Enough friction to stop the lighter wire would throw about the wires of a bundle that only fall
+ * on each other. */
 static double first_force(const sw_meet *t) {
   return t->flies ? 0.0 : fmax(0.0, -t->press.gap) * t->press.k;
 }
@@ -131,7 +134,7 @@ static void begin_friction(const sw_mutual *m, const sw_system *s, const double 
   if (last && m->updates > 0) press->reversals = last->press.reversals;
   sw_press_resume(press, pressed ? &met->kept : NULL, last ? &last->press : NULL, went_on,
                   first_force(t));
-  /* soft springs let touches creep: in such a solve also those slide that stick */
+  /* soft springs let touches creep; in such a solve sticking touches slide too */
   if (m->soft && pressed && press->active) press->sliding = met->kept.sliding;
   sw_press_begin(press, sw_mutual_rule(m, t->of.body)->friction, went_on || pressed, HUGE_VAL);
 }
@@ -163,8 +166,8 @@ void sw_meet_add(sw_mutual *m, const sw_system *s, const double *y, sw_meet *t, 
   m->touch_count++;
 }
 
-/* Lines that go on to press each other become as little deep as in obstacles: with the usual depth
- * the pull of a twisted pair of cables was 5 % too low. */
+/* Lines that continue to press each other have as little depth as in obstacles. With the usual
+ * depth the pull of a twisted pair of cables was 5 % too low. */
 double sw_meet_depth(const sw_meet *t) {
   const double usual = sw_meet_deepest(t), shallow = 0.5 * SW_SHALLOW * t->reach;
   return t->squeezed ? fmin(usual, shallow) : usual;
@@ -184,7 +187,7 @@ sw_met sw_meet_remember(const sw_system *s, const sw_meet *t) {
 }
 
 /* Axes further apart than this share of the sum of radii did not pass each other in this iteration.
- * The limit is needed because in a knot normals turn by more than a right angle within two segments
+ * Without the limit knots fail: their normals turn by more than a right angle within two segments
  * [-]. */
 static const double PASSED = 0.5;
 
@@ -195,20 +198,20 @@ void sw_meet_side(const sw_met *met, double reach, sw_vec *normal, double *dista
 
 /* --- before a solve ---------------------------------------------------------------- */
 
-/* Number of first solves with softer springs. Where wires flew into each other in the prediction,
- * every overlap would first be held at its surface, and touches beside each other would push and
- * pull with many times their real force; half of the resulting states are wrong. Springs are SOFTER
- * times as stiff for each soft solve that is left, this one included [-]. Falling bundles of 16 and
- * 20 wires then need a half to a third of the solves; with one or three soft solves, or 3 or 100
- * times as soft, 1.1 to 1.7 times as many (spec/contact/bundle_spec). */
+/* Number of first solves with softer springs. Where the prediction lets wires fly into each other,
+ * stiff springs would hold every overlap at its surface, and neighbouring touches would push and
+ * pull with many times their real force; half of the resulting states are wrong. The stiffness is
+ * SOFTER times for each remaining soft solve, this one included [-]. Falling bundles of 16 and 20
+ * wires then need a third to a half of the solves; with one or three soft solves, or 3 or 100 times
+ * as soft, 1.1 to 1.7 times as many (spec/contact/bundle_spec). */
 enum { SOFT_SOLVES = 2 };
 static const double SOFTER = 0.1;
-/* Overlaps above this share of the radii are of wires that flew in the prediction [-]. */
+/* A larger overlap, over the radii, comes from flight in the prediction [-]. */
 static const double FLOWN = 0.005;
-/* Stiff springs throw wires about while these still pass round each other. So springs stay as soft
- * as they are while an update shifts some pressing touch by more than this share of the radii, in
- * at most the first LONG_SOFT solves. 24 falling bundles of 7 to 20 wires then need 0.72 times the
- * solves, with a share of 0.05 or 0.1 as many [-]. */
+/* Stiff springs throw wires about while these still slide past each other. So springs keep their
+ * softness while an update shifts some pressing touch by more than this share of the radii, for at
+ * most the first LONG_SOFT solves. 24 falling bundles of 7 to 20 wires then need 0.72 times the
+ * solves; shares of 0.05 and 0.1 give the same [-]. */
 static const double PASSES_ROUND = 0.07;
 enum { LONG_SOFT = 6 };
 
@@ -233,7 +236,7 @@ void sw_mutual_soften(sw_mutual *m) {
 
 /* --- after a solve ---------------------------------------------------------------- */
 
-/* Stiffens touches that are too deep; 1 = there were some. */
+/* Stiffens touches that are too deep. Returns 1 if there are any. */
 static int stiffen(sw_mutual *m, const sw_system *s) {
   const int small = sw_press_is_short(m->regime == SW_CONTACT_STATIC, m->h, m->nominal);
   int any = 0;
@@ -250,8 +253,8 @@ static int stiffen(sw_mutual *m, const sw_system *s) {
   return any;
 }
 
-/* Finds force scales. For a body, forces far below its largest touch do not matter; for two bodies,
- * the smaller scale counts. */
+/* Finds force scales: forces far below the largest touch of a body do not matter; for a touch of
+ * two bodies the smaller scale counts. */
 static void find_scales(sw_mutual *m) {
   for (size_t b = 0; b < m->bodies; b++) m->largest[b] = 0;
   for (size_t i = 0; i < m->touch_count; i++)
@@ -304,13 +307,13 @@ static int update_all(sw_mutual *m, const double *delta) {
   return all == AGREES || (all == ALL_BUT_FRICTION && rubs_enough(m));
 }
 
-/* Touches agree within this many solves, or they are about to cycle. Later updates are shortened to
- * the energy's minimum if the energy's slope at the end is more than RISES times its initial fall.
- * This limit falls by FALLS from solve to solve; two touches that alternate need a very small one.
- * For 20 wires whose nodes do not lie beside each other, in steps of 2.5 ms: without shortening
- * most steps are halved, some for ever; with half of RISES, twice of FREE_SOLVES, or a limit that
- * falls half or twice as fast, at most 1.2 times the solves (spec/contact/bundle_spec). Further
- * soft solves do not count. */
+/* Touches agree within this many solves, or they will probably cycle. Later updates are shortened
+ * to the energy's minimum if the slope of the energy at the end is more than RISES times its
+ * initial fall. This limit is multiplied by FALLS from solve to solve; two alternating touches need
+ * a very small one. Measured with 20 wires whose nodes do not lie beside each other, in steps of
+ * 2.5 ms: without shortening most steps are halved, some without end; with half of RISES, twice of
+ * FREE_SOLVES, or a limit that falls half or twice as fast, at most 1.2 times the solves
+ * (spec/contact/bundle_spec). Further soft solves do not count. */
 enum { FREE_SOLVES = 12 };
 static const double RISES = 0.5, FALLS = 0.8; /* [-] */
 
@@ -350,7 +353,7 @@ int sw_mutual_settled(sw_mutual *m, sw_system *s, const double *delta) {
     const sw_meet *t = &m->touches[i];
     if (!(t->press.normal_force > 0 || t->press.gap_after < 0)) continue;
     if (sw_grow((void **)&m->hits, &m->hit_capacity, m->hit_count + 1, sizeof *m->hits) != SW_OK)
-      break; /* the impact is then dealt with in the next step */
+      break; /* out of memory: the impact is treated in the next step */
     m->hits[m->hit_count++] =
         (sw_hit){.bow = {t->bow[0], t->bow[1]}, .normal = t->press.normal, .reach = t->reach};
   }

@@ -27,31 +27,31 @@ typedef struct sw_meet {
   sw_ends of;
   uint32_t pair; /* number in the finder's list of pairs that may touch in the step */
   sw_meet_kind kind;
-  size_t stage;   /* stage in which the touch was found */
-  double at[2];   /* places along both, from node to end [-] */
-  sw_bow bow[2];  /* the same places as means of nodes */
-  int slides[2];  /* 1: the place follows the nearest points */
-  double firm[2]; /* how firmly a sliding place keeps to the middle of each segment [-] */
-  int flies;    /* 1: an overlap here may be of wires that flew into each other in the prediction */
-  int turns;    /* 1: the linearisation includes the turn of its normal */
-  int far;      /* 1: too far from its last place for its force to be known */
-  int barred;   /* 1: kept on its side by a barrier */
-  int emerges;  /* 1: the wires were placed in each other and still come out */
-  int known;    /* 1: it pressed at the step's start */
-  double reach; /* sum of the radii [m] */
-  double usual; /* stiffness of a new touch [N/m] */
+  size_t stage;    /* stage in which the touch was found */
+  double at[2];    /* places along both, from node to end [-] */
+  sw_bow bow[2];   /* the same places as means of nodes */
+  int slides[2];   /* 1: the place follows the nearest points */
+  double firm[2];  /* how firmly a sliding place stays in the middle of each segment [-] */
+  int flies;       /* 1: an overlap here may come from flight of the wires in the prediction */
+  int turns;       /* 1: the linearisation includes the turn of its normal */
+  int far;         /* 1: too far from its last place for a known force */
+  int barred;      /* 1: kept on its side by a barrier */
+  int emerges;     /* 1: the wires were placed in each other and still come out */
+  int known;       /* 1: it pressed at the step's start */
+  double reach;    /* sum of the radii [m] */
+  double usual;    /* stiffness of a new touch [N/m] */
   double stiffer;  /* stiffness from the next iterate on [N/m] */
   double aslant;   /* true distance minus the distance along the fixed normal of a barrier [m] */
-  double forgiven; /* part of the true depth that this step leaves alone [m] */
+  double forgiven; /* part of the true depth that this step does not correct [m] */
   double let_out;  /* unexplained part of the true depth that this step removes [m] */
-  double left;     /* part of forgiven that is left since the touch was made stiffer [m] */
-  int squeezed;    /* 1: made stiffer from step to step, not within a step */
+  double left;     /* rest of `forgiven` after the touch was stiffened [m] */
+  int squeezed;    /* 1: stiffened from step to step, not within a step */
   double steady;   /* steady normal force at the step's start [N] */
   sw_vec square;   /* its normal without the lean [-] */
   sw_press press;  /* its normal points towards the first thing */
 } sw_meet;
 
-/* Depth that the touch may have within a step [m]. */
+/* Largest allowed depth of the touch within a step [m]. */
 static inline double sw_meet_deepest(const sw_meet *t) {
   return sw_depth_for(SW_DEEPEST, 0.5 * t->reach);
 }
@@ -69,7 +69,7 @@ typedef struct sw_met {
 
 /* Makes the memory of a touch at a step's end. */
 sw_met sw_meet_remember(const sw_system *system, const sw_meet *touch);
-/* Depth up to which its stiffness is needlessly high [m]. */
+/* Depth below which its stiffness is higher than needed [m]. */
 double sw_meet_depth(const sw_meet *touch);
 
 /* A touch that pressed at the end of a stage and may have struck. */
@@ -84,7 +84,7 @@ typedef struct sw_finder {
   const char *name, *too_many; /* for messages */
   sw_status (*make)(const sw_system *system, const sw_pair_rule *rules, sw_mutual **out);
   void (*free)(sw_mutual *mutual); /* frees the finder's own data */
-  /* Makes the last search invalid, because positions were changed by hand. NULL: searches are
+  /* Invalidates the last search, because positions were changed by hand. NULL: searches are
    * independent. */
   void (*forget)(sw_mutual *mutual);
   /* Chooses the pairs that may touch in the step. */
@@ -93,12 +93,12 @@ typedef struct sw_finder {
   sw_status (*wake)(sw_mutual *mutual, sw_system *system);
   /* Finds this iterate's touches at positions y. */
   sw_status (*find)(sw_mutual *mutual, const sw_system *system, const double *y);
-  /* Chooses more pairs if a step to x1 met others: 1 = redo the step, -1 = out of memory. */
+  /* Chooses more pairs if a step to x1 met others: 1 = repeat the step, -1 = out of memory. */
   int (*widen)(sw_mutual *mutual, sw_system *system, const double *x1, double h);
-  /* 1 = some would pass each other; barriers keep them on their sides from now on. -1 = some pass
-   * in spite of barriers: take a smaller step. NULL: touches prevent passing. */
+  /* 1: some would pass each other; barriers keep them on their sides from now on. -1: some pass in
+   * spite of barriers: take a smaller step. NULL: touches prevent passing. */
   int (*cross)(sw_mutual *mutual, const sw_system *system, const double *x1);
-  /* 1 = a step to x1 makes some deeper than allowed. */
+  /* 1 if a step to x1 makes touches deeper than allowed. */
   int (*cuts)(const sw_mutual *mutual, const sw_system *system, const double *x1);
   /* Adds to the memory of a touch at a step's end. NULL: there is nothing to add. */
   void (*note)(const sw_mutual *mutual, const sw_system *system, const sw_meet *touch, sw_met *out);
@@ -118,12 +118,12 @@ struct sw_mutual {
   sw_pair_rule *rules; /* (bodies x bodies) */
   size_t bodies;
   sw_contact_regime regime;
-  double h, nominal; /* [s] */
-  size_t stage;      /* number of the stage; it grows from step to step */
-  double first; /* share of the step's first stage in the state that this stage begins from [-] */
-  int updates, solves; /* of the stage so far; solves whose update is not made count too [-] */
-  int soft;        /* the touches' springs are softer in this solve, by this power of SOFTER [-] */
-  int more_soft;   /* such solves of the stage beyond those that there always are [-] */
+  double h, nominal;   /* [s] */
+  size_t stage;        /* number of the stage; it grows from step to step */
+  double first;        /* share of the step's first stage in the starting state of this stage [-] */
+  int updates, solves; /* of the stage so far; also solves whose update is not made [-] */
+  int soft;        /* power of SOFTER by which the touches' springs are softer in this solve [-] */
+  int more_soft;   /* such solves of the stage beyond the usual number [-] */
   double widest;   /* largest shift of a pressing touch in the last update, over the radii [-] */
   int calm;        /* 1: the last update moved no pressing touch far */
   double *base;    /* (bodies) stiffness for each body's forces [N/m] */
@@ -156,7 +156,7 @@ int sw_mutual_takes_part(const sw_mutual *mutual, size_t body);
 static inline const sw_pair_rule *sw_mutual_rule(const sw_mutual *m, const uint32_t body[2]) {
   return &m->rules[m->bodies * body[0] + body[1]];
 }
-/* A step begins, and it is known who waits: sets the touches between these aside. SW_ENOMEM. */
+/* Call after the waiting bodies of a step are known: puts touches between them aside. SW_ENOMEM. */
 sw_status sw_mutual_set_aside(sw_mutual *mutual, const sw_system *system);
 void sw_mutual_forget_still(sw_mutual *mutual);    /* drops them */
 sw_status sw_mutual_carry_over(sw_mutual *mutual); /* their memory, when a step is accepted */
@@ -180,11 +180,11 @@ void sw_meet_add(sw_mutual *mutual, const sw_system *system, const double *y, sw
                  double gap, sw_vec normal, const sw_met *met, const sw_meet *last);
 /* Softens springs in the first solves of a stage, when the touches of an iterate are found. */
 void sw_mutual_soften(sw_mutual *mutual);
-/* Corrects the side: if axes passed each other within the iteration, as the remembered normal
- * tells, reverses the normal and the sign of the distance. */
+/* Corrects the side: if the remembered normal shows that axes passed each other within the
+ * iteration, reverses the normal and the sign of the distance. */
 void sw_meet_side(const sw_met *m, double reach, sw_vec *normal, double *distance);
 /* Places with a gap below this share of the sum of radii are listed, so that a new touch finds its
- * state of the previous iterate [-]. */
+ * state in the previous iterate [-]. */
 #define SW_LISTED_GAP 0.25
 
 /* Adds a touch's force to the first body and its opposite to the second one, at positions y. K

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Spreads a touch's force and stiffness over the nodes of its places: one node of a particle, two
- * of a segment or three of a curve. The turning normal adds stiffness to the law's own K at the
- * touch: with the nearest points free to slide, the distance d has the second derivative (1/d) [
- * w_i w_j (I - n n') - g_i' Q^-1 g_j ] between nodes i and j, where w are the weights of the touch
- * (negative on the second segment), Q the second derivatives of |r|^2/2 with respect to the places
- * along the wires, and g its mixed ones. The normal force N adds -N times that. */
+/* Distributes a touch's force and stiffness to the nodes of its places: one node of a particle, two
+ * of a segment or three of a curve. The turning normal adds stiffness to the K of the contact law:
+ * with sliding nearest points, the distance d has the second derivative (1/d) [ w_i w_j (I - n n')
+ * - g_i' Q^-1 g_j ] between nodes i and j, where w are the weights of the touch (negative on the
+ * second segment), Q the second derivatives of |r|^2/2 with respect to the places along the wires,
+ * and g its mixed ones. The normal force N adds -N times that. */
 #include "mutual/meet.h"
 #include "solve/band3.h"
 #include "touch/load.h"
@@ -39,7 +39,8 @@ static void begin(blocks *b, const sw_bow bow[2]) {
 
 static int side_of(const blocks *b, int i) { return i >= b->from[1]; }
 
-/* 0 for the other node of a segment that is touched at one node: the touch has no effect on it. */
+/* 0 for a node on which the touch has no effect: the other node of a segment touched at one
+ * node. */
 static int takes_part(const blocks *b, const int slides[2], int i) {
   return b->w[i] != 0 || slides[side_of(b, i)];
 }
@@ -52,15 +53,14 @@ static void take_law(blocks *b, const double K[6]) {
       for (int m = 0; m < 9; m++) block(b, i, j)[m] = b->w[i] * b->w[j] * full[m];
 }
 
-/* How the places along the wires follow the nearest ones: second derivatives of half the squared
- * distance. */
+/* Sliding of the places along the wires: second derivatives of half the squared distance. */
 typedef struct places {
   sw_vec along[2];   /* derivative of the distance vector by each place [m] */
   double aa, bb, ab; /* [m2] */
   const int *slides;
 } places;
 
-/* Inverts these for the places that may slide; the others' rows are zero. 0: nearly parallel. */
+/* Inverts these for the sliding places; the rows of the others are zero. 0: nearly parallel. */
 static int invert_places(const places *p, double Q[3]) {
   const double aa = p->aa, bb = p->bb, ab = p->ab;
   Q[0] = Q[1] = Q[2] = 0;
@@ -119,7 +119,7 @@ static sw_status link_nodes(sw_system *s, const sw_bow bow[2], const int slides[
   return SW_OK;
 }
 
-/* If axes are nearer than this share of the sum of radii, normals mean little [-]. */
+/* Normals are not reliable if axes are nearer than this share of the sum of radii [-]. */
 static const double WELL_APART = 0.5;
 
 /* The lower limit holds because the curve never bends so much that a place is not a nearest one. */

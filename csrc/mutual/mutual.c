@@ -159,8 +159,8 @@ sw_status sw_mutual_eval(sw_mutual *m, sw_system *s, const double *y, unsigned w
 
 /* --- review ------------------------------------------------------------------------- */
 
-/* Counts the striking places of a step, once: a step that strikes is redone by implicit Euler,
- * which deals with all places. The bodies reach each other within it and go on together at any
+/* Counts the striking places of a step. A step that strikes is repeated once by implicit Euler,
+ * which treats all places: the bodies reach each other within it and go on together at any
  * stiffness; the integrator sees no shock, and nothing rebounds. */
 static size_t strikes(const sw_mutual *m, const sw_system *s, double h) {
   size_t count = 0;
@@ -211,7 +211,7 @@ void sw_mutual_commit(sw_mutual *m, sw_system *s) {
     const sw_meet *t = &m->touches[i];
     if (sw_grow((void **)&m->next_memory, &m->next_capacity, m->next_count + 1,
                 sizeof *m->next_memory) != SW_OK)
-      break; /* a lost anchor just begins again */
+      break; /* a lost anchor starts anew */
     sw_met *out = &m->next_memory[m->next_count++];
     *out = sw_meet_remember(s, t);
     if (m->finder->note) m->finder->note(m, s, t, out);
@@ -306,7 +306,7 @@ static int renumber(sw_ends *e, const size_t *new_node, const size_t *new_body) 
   return 1;
 }
 
-/* Adds a touch made from memory, which stands for it in read-outs until a step finds touches. */
+/* Adds a touch made from memory, for read-outs until a step finds touches. */
 static sw_status show(sw_mutual *m, const sw_met *met) {
   sw_meet *t = sw_meet_new(m);
   if (!t) return SW_ENOMEM;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Contact between bodies: wires with wires and themselves; objects of particles with wires, each
- * other and themselves. The law is that of obstacles. Two finders (pairs.c, grains.c) give the
- * places of touch and how these depend on nodes; the rest is common. The effect on both bodies
- * stays in the matrix as bridges between their nodes. */
+ * other and themselves. The contact law is that of obstacles. Two finders (pairs.c, grains.c) find
+ * the places of touch and their dependence on nodes; the rest is common. The stiffness between the
+ * two bodies is in the matrix as bridges between their nodes. */
 #ifndef SW_MUTUAL_MUTUAL_H
 #define SW_MUTUAL_MUTUAL_H
 
@@ -24,13 +24,13 @@ typedef struct sw_pair_rule {
  * copied. Segments are round rods. Wires that cross touch where their smooth curves, or their
  * segments, are nearest; nearly parallel segments touch at each other's nodes. SW_ENOMEM. */
 sw_status sw_pairs_new(const sw_system *system, const sw_pair_rule *rules, sw_mutual **out);
-/* Makes contact of objects of particles and of wires that are meshes with each other, with
- * themselves and with wires that are lines. A particle at the surface is a ball, an edge of the
- * surface a round rod, a line a chain of such. Joined particles, and particles with a common
- * partner, do not touch. Between edges there is no surface: a thin wire passes through the gaps.
- * *out = NULL: no such rule. SW_ENOMEM. */
+/* Makes contact of objects of particles and of meshes with each other, with themselves and with
+ * lines. A particle at the surface is a ball, an edge of the surface a round rod, a line a chain of
+ * rods. Joined particles, and particles with a common partner, do not touch. Between edges there is
+ * no surface: a thin wire passes through the gaps. *out = NULL: there is no such rule.
+ * SW_ENOMEM. */
 sw_status sw_grains_new(const sw_system *system, const sw_pair_rule *rules, sw_mutual **out);
-/* 1 if an object of particles is among the bodies of such contact. */
+/* 1 if the bodies of such contact include an object of particles. */
 int sw_grains_have_loose(const sw_mutual *grains);
 /* Makes a copy with the same rules and memory, for a look ahead. *out must be NULL before; the
  * caller frees it, also on failure. SW_ENOMEM. */
@@ -42,10 +42,10 @@ int sw_mutual_idle(const sw_mutual *mutual);
 
 /* Marks the bodies that may touch others or themselves in this step as coupled (system/part.h). */
 void sw_pairs_mark(const sw_mutual *pairs, sw_system *system);
-/* 1 if a body that waits is among them. */
+/* 1 if these include a waiting body. */
 int sw_pairs_meet_waiting(const sw_mutual *pairs, const sw_system *system);
-/* Before a step begins: wakes the bodies that may touch one that does not wait. SW_ENOMEM. Before
- * that, sw_mutual_regard tells how long the step is. */
+/* Call before a step begins: wakes the bodies that may touch one that does not wait. SW_ENOMEM.
+ * Before it, call sw_mutual_regard with the size of the step. */
 void sw_mutual_regard(sw_mutual *mutual, const sw_system *system, sw_contact_regime regime,
                       double h, double nominal);
 sw_status sw_mutual_wake(sw_mutual *mutual, sw_system *system);
@@ -63,8 +63,8 @@ sw_status sw_mutual_eval(sw_mutual *mutual, sw_system *system, const double *y, 
  * NULL. Returns the share of the solution that should be applied [-]. */
 double sw_mutual_refine(sw_mutual *mutual, sw_contact *contact, sw_system *system);
 int sw_mutual_settled(sw_mutual *mutual, sw_system *system, const double *delta);
-/* 1 if, at their velocities, wires (of sw_pairs_new) will strike each other in a step of size h
- * from now. */
+/* 1 if wires (of sw_pairs_new) will strike each other in a step of size h from now, by their
+ * velocities. */
 int sw_pairs_expect(const sw_mutual *pairs, const sw_system *system, double h);
 /* dull: 1 if the trial does not rebound. */
 sw_contact_verdict sw_mutual_review(sw_mutual *mutual, sw_system *system, const double *x1,
@@ -79,7 +79,7 @@ sw_status sw_mutual_set_memory(sw_mutual *mutual, const void *memory, size_t byt
 /* first (bodies + 1): the first node of each body. */
 int sw_mutual_memory_fits(const void *memory, size_t bytes, const size_t *first, size_t bodies);
 int sw_mutual_memory_names(const void *memory, size_t bytes, size_t node);
-/* 1: more bodies than `most` (at most SW_NEAR_MOST) touch others or themselves, or nearly do. */
+/* 1 if more than `most` bodies (at most SW_NEAR_MOST) touch others or themselves, or nearly do. */
 enum { SW_NEAR_MOST = 16 };
 int sw_mutual_crowded(const sw_mutual *mutual, size_t most);
 /* Like sw_contact_seen. */
@@ -103,9 +103,8 @@ typedef struct sw_pair_place {
   double gap;             /* [m] */
 } sw_pair_place;
 
-/* Reads the next place with a force, from touch *next on (0 to begin with), of this body, or of any
- * body (SIZE_MAX). 0: there are no more. sw_presses_count (touch/tally.h) counts the places of
- * all bodies. */
+/* Reads the next place with a force, from touch *next on (0 at first), of this body or of any
+ * (SIZE_MAX). 0: no more places. sw_presses_count (touch/tally.h) counts those of all bodies. */
 int sw_mutual_next_place(const sw_mutual *mutual, size_t body, size_t *next, sw_pair_place *out);
 double sw_mutual_penetration(const sw_mutual *mutual, size_t *node); /* [m] */
 /* Like those of sw_contact. */

@@ -31,7 +31,7 @@ typedef struct sw_pair {
                   the step */
   int held;    /* 1: all four nodes are held, so there is no force */
   int smooth;  /* 1: they cross, and their smooth curves meet; 0: their chords do */
-  double firm[2];        /* if smooth: how firmly a touch keeps to the middle of each segment [-] */
+  double firm[2];        /* if smooth: how firmly a touch stays in the middle of each segment [-] */
   double lone[2];        /* 1: the wire is hardly bent there; 0: it goes round the other one [-] */
   double reach;          /* sum of the radii [m] */
   double usual;          /* stiffness of a new touch [N/m] */
@@ -54,20 +54,20 @@ typedef struct sw_pairs {
   sw_mutual m;  /* first member: a pointer to it points to this struct too */
   double *edge; /* (bodies) longest edge of each body [m] */
 
-  /* list of segments near each other, used for many steps */
+  /* list of near segments, used for many steps */
   sw_near *near;
   size_t near_count, near_capacity;
   double *listed_at; /* (nodes x 3) positions that the list was made for [m] */
   size_t listed_nodes, listed_capacity;
-  double listed_reach; /* gap up to which the list is complete at those positions [m] */
+  double listed_reach; /* gap up to which the list is complete with nodes at listed_at [m] */
   double *before;      /* (nodes x 3) positions at the last step's start [m] */
-  double *travel;      /* (nodes) length of each node's way since the list was made [m] */
+  double *travel;      /* length of each node's path since the list was made [m] */
 
   sw_pair *pairs; /* (m.pair_count) */
   size_t pair_capacity;
   sw_pair_barrier *barriers; /* (m.barrier_count) */
   size_t barrier_capacity;
-  double least_left; /* minus the least gap of listed segments that were not chosen [m] */
+  double least_left; /* minus the smallest gap of listed segments that were not chosen [m] */
 } sw_pairs;
 
 /* The edge that begins at a node. */
@@ -77,7 +77,7 @@ static inline sw_vec sw_edge_at(const double *x, size_t node) {
 
 static inline sw_pairs *sw_pairs_of(sw_mutual *m) { return (sw_pairs *)(void *)m; }
 
-/* Makes the list of near segments again if it does not cover gaps up to reach. */
+/* Makes the list of near segments anew if it does not cover gaps up to reach. */
 sw_status sw_pairs_list(sw_pairs *pairs, const sw_system *system, double reach);
 
 /* The largest distance of nodes between two sets of positions [m]. */

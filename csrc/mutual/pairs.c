@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Contact between wires: making, freeing, and what their touches remember. */
+/* Contact between wires: creation, and the memory of its touches. */
 #include <math.h>
 
 #include "base/alloc.h"
@@ -7,7 +7,7 @@
 #include "system/part.h"
 #include "touch/lean.h"
 
-/* Adds the steady force, by the slower of both wires. */
+/* Adds the steady force; its time constant is that of the slower wire. */
 static void note(const sw_mutual *m, const sw_system *s, const sw_meet *t, sw_met *out) {
   const sw_pair *k = &((const sw_pairs *)(const void *)m)->pairs[t->pair];
   const sw_body *one = &s->bodies[k->body[0]], *two = &s->bodies[k->body[1]];

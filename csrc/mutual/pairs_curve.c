@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Two wires cross. Their smooth curves x(u) and y(v), with u and v along their segments, touch
- * where they are nearest: x'.(x - y) = 0 and y'.(y - x) = 0. A wire that goes round the other one
- * is equally near everywhere. So, as on pegs (contact/round.c), its place keeps to the middle of
- * its edge, more firmly the more it is bent: x'.(x - y) + firm |x'|^2 (u - 1/2) = 0, and likewise
- * for y. Wires along each other meet by chords. */
+/* Two wires cross. Their smooth curves x(u) and y(v), with u and v along their segments, touch at
+ * their nearest places: x'.(x - y) = 0 and y'.(y - x) = 0. A wire that goes round the other one is
+ * equally near everywhere. So, as on pegs (contact/round.c), its place stays near the middle of its
+ * edge, more firmly with more bending: x'.(x - y) + firm |x'|^2 (u - 1/2) = 0, and likewise for y.
+ * Wires along each other touch with chords. */
 #include "mutual/pairs_curve.h"
 
 #include <math.h>
@@ -11,16 +11,16 @@
 #include "touch/lean.h"
 #include "touch/same.h"
 
-/* Wires meet by curves if the sum of their radii is below this share of the longest edge, as on
+/* Wires touch with curves if the sum of their radii is below this share of the longest edge, as on
  * pegs [-]. */
 static const double ROUND = 0.9;
-/* Wires begin to cross where the sine of the angle between them is above ACROSS, and go on until it
- * is below STILL_ACROSS: strands of a twisted pair lie along each other [-]. */
+/* A crossing begins where the sine of the angle between the wires is above ACROSS, and ends below
+ * STILL_ACROSS. The strands of a twisted pair lie along each other [-]. */
 static const double STILL_ACROSS = 0.35, ACROSS = 0.5;
 
 /* --- at the step's start -------------------------------------------------------------------- */
 
-/* 1 if the wires meet by chords everywhere. The answer is the same for all their segments. */
+/* 1 if the wires touch with chords everywhere. The answer is the same for all their segments. */
 static int are_fine(const sw_pairs *p, const sw_system *s, const sw_near *n) {
   if (n->body[0] == n->body[1]) return 1; /* a coiled wire lies along itself at any angle */
   const double one = s->bodies[n->body[0]].plan->beam.radius;
@@ -75,7 +75,7 @@ static search begin(const sw_system *s, const sw_pair *k, const double at[2]) {
   return f;
 }
 
-/* Least determinant, relative: wires along each other have no crossing, but the search must end
+/* Smallest relative determinant: wires along each other have no crossing, but the search must end
  * [-]. */
 static const double NEARLY = 1e-3;
 
@@ -131,8 +131,9 @@ int sw_pair_crossing(const sw_system *s, const sw_pair *k, const double *y, doub
   return 1;
 }
 
-/* A pair counts as parallel if its segments diverge little, so short segments do at any angle.
- * Parallel ones meet by chords, without a search, if the sine of their angle is below this [-]. */
+/* A pair counts as parallel if its segments diverge little; short segments do so at any angle.
+ * Parallel pairs touch with chords, without a search, if the sine of their angle is below this
+ * [-]. */
 static const double ALONG = 0.2;
 
 static int runs_along(const double *x, const sw_pair *k) {

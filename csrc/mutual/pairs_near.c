@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Finds segments near each other. The list holds all pairs within a generous reach. It is valid
- * until a node has moved by half of the spare reach. A grid of cells finds it. */
+/* Finds segments near each other with a grid of cells. The list holds all pairs within a generous
+ * reach. It is valid until a node has moved by half of the reserve of this reach. */
 #include <math.h>
 #include <string.h>
 
@@ -39,8 +39,8 @@ static double widest_radius(const sw_pairs *p, const sw_system *s) {
   return widest;
 }
 
-/* 1 unless both segments are of one wire and too near along it: bent as tightly as its radius
- * allows, a wire meets itself after pi radii of length. Nearer pairs and neighbours are skipped. */
+/* 0 for segments of one wire that are too near along it, and for neighbours. A wire bent with the
+ * smallest radius touches itself after a length of pi radii. */
 static int apart_along(const sw_system *s, const sw_near *n) {
   if (n->body[0] != n->body[1]) return 1;
   const sw_body *b = &s->bodies[n->body[0]];
@@ -52,7 +52,7 @@ double sw_pair_radii(const sw_system *s, const uint32_t body[2]) {
   return s->bodies[body[0]].plan->beam.radius + s->bodies[body[1]].plan->beam.radius;
 }
 
-/* More near pairs than this mean that segments are much shorter than the wire is thick [-]. */
+/* With more near pairs than this, segments are much shorter than the wire is thick [-]. */
 static const size_t MOST_NEAR = 30000000;
 
 /* A search for near segments. */
@@ -61,7 +61,7 @@ typedef struct search {
   const sw_system *s;
 } search;
 
-/* Adds a pair to the list if it is near. Of two segments the first one looks. */
+/* Adds a pair to the list if it is near. Of two segments the first one searches. */
 static sw_status look_at(void *user, const sw_thing *t, const sw_thing *u) {
   const search *all = user;
   const sw_system *s = all->s;
@@ -129,7 +129,7 @@ double sw_pairs_largest_move(const double *x0, const double *x1, size_t nodes) {
   return sqrt(largest_distance2(nodes, x0, x1));
 }
 
-/* Adds the lengths of the nodes' ways since the last step, taken as straight. */
+/* Adds the lengths of the nodes' paths since the last step, taken as straight. */
 SW_HOT
 static void add_travel(size_t n, const double *restrict x, double *restrict before,
                        double *restrict travel) {
@@ -141,8 +141,8 @@ static void add_travel(size_t n, const double *restrict x, double *restrict befo
   for (size_t i = 0; i < 3 * n; i++) before[i] = x[i];
 }
 
-/* The list's reach is GENEROSITY times the reach asked for, plus LEAST_SPARE of the largest radius,
- * so that it serves longer. */
+/* The list's reach is GENEROSITY times the requested reach plus LEAST_SPARE of the largest radius,
+ * so that it lasts longer. */
 static const double GENEROSITY = 2.0;  /* factor [-] */
 static const double LEAST_SPARE = 2.0; /* of the largest radius [-] */
 
@@ -163,19 +163,19 @@ static double longest_edge(const sw_plan *p) {
   return longest;
 }
 
-/* Segments that diverge by less than this along the shorter of them touch along their length, not
- * at a point. Wires that go on beside each other, as those of a twisted pair, may diverge by more:
- * by their crossings they would touch here and there, and the places would come and go. Shares of
- * the sum of radii [-]. */
+/* Segments touch along their length, not at a point, if they diverge by less than this along the
+ * shorter of them. WOUND_SPREAD is for wires that stay beside each other, as in a twisted pair: as
+ * crossings they would touch here and there, and the places would come and go. Shares of the sum of
+ * radii [-]. */
 static const double PARALLEL_SPREAD = 0.25, WOUND_SPREAD = 0.75;
-/* Only edges up to this many sums of radii: along longer ones the nodes, which then touch, are too
- * far apart [-]. */
+/* WOUND_SPREAD is only for edges up to this many sums of radii: the nodes, which then touch, must
+ * not be too far apart [-]. */
 static const double WOUND_EDGE = 3.0;
-/* A wire goes on beside another one if the nodes beyond its segment are not further away than the
- * segment by more than this share of the sum of radii. Crossing wires are further away by 0.2 and
- * more [-]. */
+/* A wire stays beside another one if the nodes beyond its segment are not further away than the
+ * segment by more than this share of the sum of radii. Nodes of crossing wires are further away by
+ * 0.2 and more [-]. */
 static const double BESIDE = 0.1;
-enum { NEIGHBOURS = 3 }; /* segments to either side in which the other wire is looked for [-] */
+enum { NEIGHBOURS = 3 }; /* segments on each side in which the other wire is searched [-] */
 
 static double distance_to(const double *x, sw_vec q, uint32_t segment) {
   const sw_vec a = sw_vec_at(x, segment), u = sw_edge_at(x, segment);
@@ -183,7 +183,7 @@ static double distance_to(const double *x, sw_vec q, uint32_t segment) {
   return sw_dist(q, sw_madd(a, u, fmin(1.0, fmax(0.0, at))));
 }
 
-/* 1 if the node lies no further than `most` from the wire near its segment. */
+/* 1 if the node is at most `most` away from the wire near its segment. */
 static int is_beside(const sw_system *s, sw_vec q, uint32_t body, uint32_t segment, double most) {
   const sw_body *b = &s->bodies[body];
   const size_t i = segment - b->first_node, from = i > NEIGHBOURS ? i - NEIGHBOURS : 0;
@@ -221,8 +221,8 @@ static double lighter_mass(const sw_system *s, const sw_near *n) {
               segment_mass(&s->bodies[n->body[1]], n->two));
 }
 
-/* Gap up to which a pair is chosen: a share of its radii, plus the way that gravity and its speed
- * (or an upper bound of it) close in the step. */
+/* Gap up to which a pair is chosen: a share of its radii, plus the approach by gravity and by its
+ * speed (or an upper bound of it) in the step. */
 static double reserve_of(const sw_pairs *p, double reach, double fast) {
   const double reserve = SW_LISTED_GAP * reach + p->m.fall + SW_RESERVE * p->m.h * fast;
   return reserve > p->m.least_reserve ? reserve : p->m.least_reserve;
@@ -243,9 +243,9 @@ static double fastest(const sw_system *s) {
   return sqrt(most);
 }
 
-/* A pair whose gap is wider than its approach in the step plus this is not in the matrix until it
- * touches. The zeros of a bundle's second neighbours would make the factor twice as long. Share of
- * the sum of radii [-]. */
+/* A pair is not in the matrix until it touches if its gap is larger than its approach in the step
+ * plus this share of the sum of radii [-]. The zeros of a bundle's second neighbours would make the
+ * factor twice as long. */
 static const double TO_BRIDGE = .03;
 
 /* Plans the pair's bridges in the matrix; for curves those of their crossing at the step's
@@ -278,7 +278,7 @@ static sw_status add_pair(sw_pairs *p, sw_system *s, const sw_near *n, double su
   return SW_OK;
 }
 
-/* Finds which pairs cross by curves, and then the matrix' pattern. */
+/* Finds the pairs that cross with curves, then the pattern of the matrix. */
 static sw_status look_at_curves(sw_pairs *p, sw_system *s) {
   for (size_t i = 0; i < p->m.pair_count; i++) {
     sw_pair *k = &p->pairs[i];
@@ -312,7 +312,7 @@ static sw_status list_near(sw_pairs *p, const sw_system *s, double *fast) {
   return sw_pairs_list(p, s, reserve_of(p, 2.0 * widest_radius(p, s), *fast));
 }
 
-/* Who is woken wakes its neighbours. */
+/* A woken body wakes its neighbours. */
 sw_status sw_pairs_wake(sw_mutual *m, sw_system *s) {
   sw_pairs *p = sw_pairs_of(m);
   double fast;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Crossings of wires: segments whose axes come much nearer than their radii allow are kept on their
- * sides of each other. Also reviews a step: missed pairs and depths. */
+/* Reviews a step for missed pairs and depths. Segments whose axes come much nearer than their radii
+ * allow get a barrier that keeps them on their sides of each other. */
 #include <math.h>
 
 #include "base/alloc.h"
@@ -24,8 +24,8 @@ static int raise_barrier(sw_pairs *p, const sw_pair *k, const double at[2], sw_v
   return 1;
 }
 
-/* Removes the part of a distance along the segments if they are parallel. Ends of parallel segments
- * may be nearest at a slant, where they do not touch. */
+/* If the segments are parallel, removes the part of a distance along them. The nearest points of
+ * ends of parallel segments may lie obliquely, where they do not touch. */
 static sw_vec square_to(const sw_system *s, const sw_pair *k, sw_vec apart) {
   const sw_vec u = sw_edge_at(s->x, k->one);
   return k->parallel ? sw_madd(apart, u, -sw_dot(apart, u) / fmax(sw_norm2(u), 1e-300)) : apart;
@@ -99,8 +99,8 @@ int sw_pairs_widen(sw_mutual *m, sw_system *s, const double *x1, double h) {
   return sw_mutual_choose(m, s) == SW_OK ? 1 : -1;
 }
 
-/* 1 if two bodies press each other, or did at the step's start. Their nodes may then cut a bend
- * that the wires go round. */
+/* 1 if two bodies press each other, or did at the step's start. Straight paths of their nodes may
+ * then cut a bend round which the wires go. */
 static int are_pressed(const sw_mutual *m, const sw_pair *k) {
   for (size_t i = 0; i < m->touch_count; i++) {
     const sw_meet *t = &m->touches[i];

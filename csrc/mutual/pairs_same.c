@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Finds which touch of the last iterate or step continues in a touch of this iterate. Nodes of
+/* Finds the touch of the last iterate or step that continues in a touch of this iterate. Nodes of
  * parallel wires often lie beside nodes, and rounding decides which of two segments has the nearest
  * place. A node's touch on either segment is the same touch. */
 #include <math.h>
@@ -21,7 +21,7 @@ static uint32_t first_memory(const sw_pairs *p, uint32_t i, uint32_t one, uint32
 
 void sw_pairs_match(sw_pairs *p) {
   size_t before = 0;
-  uint32_t from[3] = {0, 0, 0}; /* pairs are in that order too */
+  uint32_t from[3] = {0, 0, 0}; /* pairs have the same order */
   for (size_t i = 0; i < p->m.pair_count; i++) {
     sw_pair *k = &p->pairs[i];
     for (uint32_t row = 0; row < 3; row++)
@@ -86,8 +86,8 @@ static void look_in(search *f, const sw_pair *in) {
   }
 }
 
-/* Looks in the pairs of the same segment one with the segments beside two, which are neighbours in
- * the list. */
+/* Searches the pairs of segment one with the neighbours of segment two, which are next in the
+ * list. */
 static void look_beside(search *f, const sw_pair *in) {
   const sw_pair *first = f->p->pairs, *end = first + f->p->m.pair_count;
   if (in > first && in[-1].one == in->one && in[-1].two + 1 == in->two) look_in(f, in - 1);

@@ -18,8 +18,8 @@ static sw_vec end_of(const sw_system *s, const sw_pair *k, int side, double at, 
   return sw_mean_of(x, 0, &bow.spot);
 }
 
-/* A half edge is split so that no piece is further from its curve than this share of the sum of
- * radii, into at most MOST_PARTS pieces [-]. */
+/* A half edge is divided into at most MOST_PARTS pieces, so that no piece is further from its curve
+ * than this share of the sum of radii [-]. */
 static const double STRAIGHT = 0.1;
 enum { MOST_PARTS = 8 };
 
@@ -86,8 +86,8 @@ static sw_rods part_way(const sw_rods *from, const sw_rods *to, double t) {
   return r;
 }
 
-/* As sw_rods_sweep, for a distance of the axes. least: rods that move less against each other do
- * not come so near, unless they start too near [m]. */
+/* As sw_rods_sweep, for a distance of the axes. least: rods with a smaller relative motion do not
+ * come so near, unless they start too near [m]. */
 static int comes_near(const sw_rods *from, const sw_rods *to, double near, double least,
                       double at[2], sw_vec *normal, double *when) {
   const double speed = approach(from, to);

@@ -39,8 +39,8 @@ static sw_status behind_barrier(sw_pairs *p, const sw_system *s, const sw_pair *
   return SW_OK;
 }
 
-/* A place at a joint is on two segments and belongs to the earlier one. Places nearer than this
- * share of an edge are the same [-]. */
+/* Places nearer than this share of an edge are one place. A place at a joint of two segments
+ * belongs to the first [-]. */
 static const double ONE_PLACE = 1e-6;
 
 static int is_had(const sw_pairs *p, const sw_pair *k, const double at[2]) {
@@ -52,8 +52,8 @@ static int is_had(const sw_pairs *p, const sw_pair *k, const double at[2]) {
   return 0;
 }
 
-/* Adds the touch at given places, unless the wires are apart there. Smooth wires cross as curves:
- * the touch is on their curves, and a place at a joint counts once. */
+/* Adds the touch at given places, unless the wires are apart there. A crossing of smooth wires is
+ * on their curves, and a place at a joint counts once. */
 static sw_status touch_at(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
                           sw_meet_kind kind, const double at[2], const int slides[2]) {
   const int curved = k->smooth && kind == SW_CROSSING;
@@ -85,9 +85,9 @@ static int is_last(const sw_system *s, uint32_t body, uint32_t e) {
   return e + 2 == s->bodies[body].first_node + s->bodies[body].plan->nodes;
 }
 
-/* 1 if the segment owns a nearest point at its end. The point counts once: for the segment that
- * starts there, and only if the segment before does not come nearer still. away: from the other
- * wire to here, along the outward normal. */
+/* 1 if the nearest point at the segment's end counts for this segment: if the segment starts there,
+ * and the previous segment does not come nearer. away: from the other wire to here, along the
+ * outward normal. */
 static const double ROUNDING = 1e-9; /* [-] */
 
 static int owns_end(const sw_system *s, uint32_t body, uint32_t e, double at, sw_vec away,
@@ -95,7 +95,7 @@ static int owns_end(const sw_system *s, uint32_t body, uint32_t e, double at, sw
   if (at >= 1.0) return is_last(s, body, e);
   if (at > 0.0 || e == s->bodies[body].first_node) return 1;
   const sw_vec before =
-      sw_edge_at(y, e - 1); /* rounding must not make both segments leave it to the other */
+      sw_edge_at(y, e - 1); /* rounding must not make both segments leave the point to the other */
   return sw_dot(away, before) <= ROUNDING * sw_norm(away) * sw_norm(before);
 }
 
@@ -122,13 +122,13 @@ static double along(const double *y, uint32_t e, sw_vec q) {
   return sw_dot(u, sw_sub(q, sw_vec_at(y, e))) / fmax(sw_norm2(u), 1e-300);
 }
 
-/* Beside a bend there are two nearest places, one on each segment. Within this distance of the
- * joint [-] they are one, and belong to the first segment. Further off they are two, as where the
- * point is the middle of a circle that the wire goes round. */
+/* Beside a bend each segment has a nearest place. Within this distance of the joint [-] both are
+ * one place, which belongs to the first segment. Further away they are two, for example if the
+ * point is the centre of a circle along which the wire runs. */
 static const double AT_JOINT = 0.25;
 
-/* 1 if the place along segment e nearest to point q belongs to this segment: beside it, at its
- * first node if the segment before does not reach it, or beyond the wire's end. */
+/* 1 if the place along segment e nearest to point q belongs to this segment: inside it, at its
+ * first node if the previous segment does not reach that, or beyond the wire's end. */
 static int belongs(const sw_system *s, uint32_t body, uint32_t e, const double *y, sw_vec q,
                    double here) {
   if (here >= 1) return is_last(s, body, e);
@@ -137,9 +137,9 @@ static int belongs(const sw_system *s, uint32_t body, uint32_t e, const double *
   return before >= 1 || (here > 0 && before < 1 - AT_JOINT);
 }
 
-/* A place this near to a joint, of a node that goes by less than SLOW beside it in the step, stays
- * on the segment that it began on: passed from iterate to iterate between both, its depth would
- * jump to and fro. Shares of an edge [-]. */
+/* A place this near to a joint stays on the segment where it began if its node moves by less than
+ * SLOW along the wire in the step. If it changed from iterate to iterate, its depth would jump.
+ * Shares of an edge [-]. */
 static const double STAYS = 0.1, SLOW = 0.02;
 
 /* 1 if the place of node i, at `here` of segment e, stays on its segment. */
@@ -184,9 +184,9 @@ static sw_status touch_parallel(sw_pairs *p, const sw_system *s, const sw_pair *
   return SW_OK;
 }
 
-/* Keeps touches that pushed in the previous iterate where they were. Nearest places come and go
- * where wires lie along each other, or pass from one segment to the next. first: the first touch
- * found in this iterate. */
+/* Keeps the place of touches that pushed in the previous iterate: nearest places come and go where
+ * wires lie along each other, or pass to the next segment. first: the first touch found in this
+ * iterate. */
 static sw_status keep_pushing(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
                               size_t first) {
   for (size_t i = k->last; i < k->last_end; i++) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Touches between bodies that wait (system/wait.h). They are set aside as they were at the last
- * accepted state, like those with obstacles (contact/wait.h); their memory goes on unchanged. */
+/* Touches between bodies that wait (system/wait.h). They are put aside as they were at the last
+ * accepted state, like touches with obstacles (contact/wait.h); their memory stays unchanged. */
 #include "system/wait.h"
 
 #include <string.h>
@@ -42,7 +42,7 @@ void sw_mutual_keep_moving(const sw_mutual *m, sw_system *s) {
   }
 }
 
-/* Wakes the bodies whose touches are not known, or change. */
+/* Wakes the bodies with unknown or changing touches. */
 static void wake_unknown(const sw_mutual *m, sw_system *s) {
   for (size_t b = 0; b < s->body_count; b++)
     if (!m->still.accepted && !m->still.kept[b]) s->bodies[b].waits = 0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Describes a place where a body meets another one, and its derivatives along the body. The place
- * lies on a segment or a curve of a wire, on an edge between particles, or at a node. */
+/* A place where one body touches another, and its derivatives along the body. The place lies on a
+ * segment or a curve of a wire, on an edge between particles, or at a node. */
 #ifndef SW_TOUCH_BOW_H
 #define SW_TOUCH_BOW_H
 

@@ -6,44 +6,45 @@
 
 /* Depths up to this are rounding of a script's numbers [m]. */
 static const double PLACED = 2e-8;
-/* A gap below this lets an iteration end. It is far below the depth of a resting wire, in steps of
- * any size; otherwise the touches that a wire leaves would hold it back [m]. */
+/* Smaller gaps let an iteration end. This is far below the depth of a resting wire in steps of any
+ * size; otherwise the touches that a wire leaves would hold it back [m]. */
 static const double GAP_TOLERANCE = 1e-13;
-/* Errors of a friction spring's length below this let an iteration end. They are far below its
- * length at the onset of sliding, however stiff it is [m]. */
+/* Smaller errors of a friction spring's length let an iteration end. They are far below its length
+ * at the onset of sliding, at any stiffness [m]. */
 static const double SPRING_TOLERANCE = 1e-14;
 /* Turns of the sliding direction with a cosine above this let an iteration end [-]. */
 static const double TURN_TOLERANCE = 0.98;
-/* So do errors by the direction's linearisation, up to this share of the force [-]. */
+/* Errors by the direction's linearisation up to this share of the force let an iteration end
+ * [-]. */
 static const double DIRECTION_TOLERANCE = 0.02;
-/* So do changes of a sliding touch's normal force up to FORCE_TOLERANCE of it plus WEIGHT_TOLERANCE
- * of the scene's forces [-]. */
+/* Changes of a sliding touch's normal force let an iteration end up to FORCE_TOLERANCE of it plus
+ * WEIGHT_TOLERANCE of the scene's forces [-]. */
 static const double FORCE_TOLERANCE = 0.01;
 static const double WEIGHT_TOLERANCE = 1e-3;
 
-/* Friction that was this many times the scene's forces in an iterate's first solve leaves its
- * rounding in the solution [-]. */
+/* If friction was this many times the scene's forces in an iterate's first solve, its rounding
+ * remains in the solution [-]. */
 static const double DROWNED = 100.0;
 
-/* A spring stretched by this many times what friction can hold surely slides, even in a poor
+/* A spring stretched by this many times the limit of friction certainly slides, even in a poor
  * prediction [-]. */
 static const double SURELY_SLIDING = 20.0;
-/* Unless the slide of a touch with by_place has reversed this often: friction then pushes it back
- * by more than that stretch each time, so it sticks [-]. */
+/* But it sticks if the slide of a touch with by_place has reversed this often: friction then pushes
+ * it back by more than that stretch each time [-]. */
 enum { REVERSALS = 3 };
 
 static const double MOST_BOOST = 1e5;    /* largest stiffening, of a new touch's stiffness [-] */
 static const double LARGEST_STEP = 10.0; /* largest stiffening at once [-] */
 /* Shares of the allowed depth: */
 static const double DEEPER = 0.1; /* allowed increase of depth in short steps [-] */
-/* A squeezed touch is hardened above this share of the allowed depth. A slowly growing load leaves
+/* A squeezed touch is stiffened above this share of the allowed depth. A slowly growing load leaves
  * 0.36 of the allowed depth for each factor of ten in force; half or twice this value leaves half
  * or twice as much, with as few refused steps (spec/contact/taut_spec). */
-static const double EARLY = 0.4;    /* hardens above this share [-] */
+static const double EARLY = 0.4;    /* stiffened from this share on [-] */
 static const double AT_ONCE = 2.0;  /* the same at once, for a load that grows fast [-] */
-static const double NEEDLESS = 0.1; /* below this share, stiffness is needless [-] */
-static const double EASING = 0.8;   /* factor on needless stiffness per step [-] */
-static const double SHORT = 0.25;   /* largest share of the nominal step that is a short step [-] */
+static const double NEEDLESS = 0.1; /* below this share, stiffness is higher than needed [-] */
+static const double EASING = 0.8;   /* factor on such stiffness per step [-] */
+static const double SHORT = 0.25;   /* a step is short below this share of the nominal step [-] */
 
 void sw_press_activate(sw_press *p, const sw_press *last) {
   p->active = p->gap < 0 || (last && last->active && last->normal_force > 0);
@@ -58,8 +59,9 @@ void sw_press_activate(sw_press *p, const sw_press *last) {
   p->spare--;
 }
 
-/* After this many alternations friction's normal force is taken by a secant. Most alternations die
- * out by themselves, and among many touches the slope of one says little about the others [-]. */
+/* After this many alternations the normal force in friction is found by a secant. Most alternations
+ * die out by themselves, and among many touches the slope of one says little about the others
+ * [-]. */
 enum { ALTERNATIONS = 4 };
 
 static void take_lag(sw_press *p, const sw_press *last) {
@@ -121,7 +123,8 @@ static void stiffness_matrix(double kn, double kt, double ks, sw_vec n, sw_vec d
           (kn - kt) * v[i] * v[j] + (i == j ? kt : 0.0) - 0.5 * ks * (u[i] * q[j] + q[i] * u[j]);
 }
 
-/* Stiffness of a sliding touch times a shift along the surface: how its friction turns. */
+/* Stiffness of a sliding touch times a shift along the surface: the change of friction as it
+ * turns. */
 static sw_vec turned(const sw_press *p, sw_vec d, sw_vec along) {
   const double by = -0.5 * sw_dot(d, along), more = -0.5 * sw_dot(p->pulls, along);
   return sw_scale(sw_madd(sw_madd(along, p->pulls, by), d, more), p->turning);
@@ -150,7 +153,7 @@ sw_vec sw_press_eval(sw_press *p, double friction, int lagged, double K[6]) {
   return sw_madd(p->tangential, p->normal, p->normal_force);
 }
 
-/* 1 if the normal force that friction took as given is off by no more than the tolerance. */
+/* 1 if the normal force used in friction is within the tolerance. */
 static int lag_agrees(const sw_press *p, double force, double force_scale) {
   return fabs(force - p->lag) <= FORCE_TOLERANCE * force + WEIGHT_TOLERANCE * force_scale;
 }
@@ -223,12 +226,12 @@ static sw_vec rubbed(const sw_press *p, double friction) {
   return sw_sub(sw_scale(d, -friction * p->lag), turned(p, d, sw_sub(along, p->ahead)));
 }
 
-/* Friction by the linearised law at displacement u, reversed, over its limit. If each touch's
- * curvature comes from its place alone, an iteration on sums of many directions u/|u| is misled,
- * because along u there is no curvature: touches that should stick are thrown past their place and
- * back, hundreds at once. So the direction w, |w| <= 1, is an unknown beside the place, and the
- * equation |u| w = u is linearised; curvature then acts only where friction is at its limit (Chan,
- * Golub and Mulet 1999, for sums of norms in images). */
+/* Friction by the linearised law at displacement u, reversed, over its limit. If the curvature of
+ * each touch came from its place alone, an iteration on sums of many directions u/|u| would be
+ * misled, because there is no curvature along u: touches that should stick are thrown past their
+ * place and back, hundreds at once. So the direction w, |w| <= 1, is an unknown besides the place,
+ * and the equation |u| w = u is linearised. Curvature then acts only where friction is at its limit
+ * (Chan, Golub and Mulet 1999, for sums of norms in images). */
 static sw_vec pulled(const sw_press *p, sw_vec u, sw_vec along, double most) {
   double length;
   const sw_vec d = direction(p, &length);
@@ -255,9 +258,9 @@ static int update_friction(sw_press *p, double friction, sw_vec shift, double fo
   p->tangential = sw_scale(u, -(beyond && length > 0 ? most / length : grip));
   p->slip = sw_add(p->carried, sw_madd(u, p->tangential, 1.0 / grip));
   p->off = sw_norm(sw_sub(rubbed(p, friction), p->tangential));
-  /* friction that stretches its spring by rounding only has no direction and needs none */
+  /* friction from rounding of its spring has no direction and needs none */
   const int idle = fmax(most, friction * p->lag) <= small;
-  /* a slide that reversed in the iterate: its friction, which came from lag, must not matter */
+  /* the slide reversed in this iterate: its friction, from lag, must not matter */
   if (p->sliding && along < 0) return idle;
   if (p->sliding && beyond && !idle && along < TURN_TOLERANCE * length * sw_norm(from)) return 0;
   /* a change of state matters if the force does */
@@ -323,7 +326,7 @@ double sw_press_stiffer(const sw_press *p, double usual, double axial, double de
   const double over = p->gap_after / -deepest;
   if (over <= 1.0 || p->k >= fmax(MOST_BOOST * usual, axial)) return p->k;
   if (before < 0) return p->k * fmin(LARGEST_STEP, 2.0 * over);
-  /* a strike in a short step gets deep fast */
+  /* a strike in a short step quickly becomes deep */
   return forgiven - p->gap_after < before + DEEPER * deepest ? p->k : p->k * LARGEST_STEP;
 }
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The law of one touch, for all kinds of bodies: normal force and anchored friction. Normal: N = k
- * max(0, -gap). Friction: a spring with return mapping, f = -k u while k |u| <= mu N, else mu N
- * against u and the anchor follows. Within an iteration friction takes the normal force of the
- * previous iterate (lag), which keeps the matrix symmetric and the sub-problem convex. */
+/* The contact law of one touch, for all kinds of bodies: normal force and anchored friction.
+ * Normal: N = k max(0, -gap). Friction: a spring with return mapping, f = -k u while k |u| <= mu N,
+ * else mu N against u and the anchor follows. Within an iteration friction uses the normal force of
+ * the previous iterate (lag), which keeps the matrix symmetric and the sub-problem convex. */
 #ifndef SW_TOUCH_LAW_H
 #define SW_TOUCH_LAW_H
 
@@ -14,7 +14,7 @@ typedef struct sw_press {
   double k;         /* stiffness, normal and tangential [N/m] */
   double soft; /* friction's spring is softer than k by this factor (may be below 1); 0 = as stiff
                   [-] */
-  double lag;  /* normal force that friction takes as given [N] */
+  double lag;  /* normal force used in friction [N] */
   double lag_at_first; /* lag in the iterate's first solve [N] */
   double turning; /* while sliding: stiffness of friction against a turn of its direction [N/m] */
   double normal_force;             /* normal force after the last solve [N] */
@@ -54,51 +54,50 @@ typedef struct sw_kept {
   double normal_force; /* 0: near, but without force [N] */
   double depth;        /* depth at that force [m] */
   double k;            /* stiffness at the next step's start [N/m] */
-  double steady; /* mean normal force of the last steps; when just kept, that at the end [N] */
-  double grip;   /* stiffness of friction's spring [N/m] */
-  double left;   /* further depth, left from when it was made stiffer because it was squeezed [m] */
+  double steady;  /* mean normal force of the last steps; when just kept, that at the end [N] */
+  double grip;    /* stiffness of friction's spring [N/m] */
+  double left;    /* rest of the depth when it was stiffened because it was squeezed [m] */
   sw_vec elastic; /* displacement of friction's spring, with that stiffness [m] */
   int sliding;
 } sw_kept;
 
-/* Depth that a touch may have [m]. A deeper touch is made stiffer until it is not deeper. Lines in
- * motion, and taut lines in statics, are less deep in obstacles, SW_SHALLOW of the radius [-], and
- * so become lines that go on to press each other: with SW_DEEPEST a stiff wire drawn through a
- * narrow eyelet has a tension 10 % too low, with this 2 %; with half of it the laying S3 costs 15 %
- * more (spec/contact/eyelet_spec). Meshes and pads are softer than that. In other statics, and
- * within a step between wires, a fifth of SW_DEEPEST would cost iterations, and keep overlapping
- * wires from coming out smoothly. */
+/* Allowed depth of a touch [m]. A deeper touch is stiffened until it is not. Lines in motion, and
+ * taut lines in statics, have the smaller depth SW_SHALLOW in obstacles, a share of the radius [-],
+ * and so have lines that continue to press each other. With SW_DEEPEST the tension of a stiff wire
+ * drawn through a narrow eyelet is 10 % too low, with SW_SHALLOW 2 %; with half of it the laying S3
+ * costs 15 % more (spec/contact/eyelet_spec). Meshes and pads are softer than that. In other
+ * statics, and within a step between wires, a fifth of SW_DEEPEST would cost iterations, and
+ * overlapping wires would not come out smoothly. */
 #define SW_DEEPEST 50e-6
 #define SW_SHALLOW 0.004
 
-/* Allowed depths are those of wires at least this thick. Thinner ones are less deep, by the ratio
- * of their radius to this one: a wire of 0.05 mm radius would lie in the table by a tenth of it
- * [m]. */
+/* Allowed depths are for wires of at least this radius. For thinner ones they are multiplied by the
+ * ratio of their radius to this one; otherwise a wire of 0.05 mm radius would lie in the table by a
+ * tenth of its radius [m]. */
 #define SW_THIN 1e-3
 static inline double sw_depth_for(double depth, double radius) {
   return radius < SW_THIN ? depth * (radius / SW_THIN) : depth;
 }
 
 /* Makes the memory of a touch at a step's end. usual: stiffness of a new touch, stiffer: stiffness
- * from the next iterate on [N/m]. A touch keeps its stiffness, because a change would be a kick. A
- * needlessly high stiffness falls slowly. */
+ * from the next iterate on [N/m]. A touch keeps its stiffness, because a change would be a kick; a
+ * stiffness higher than needed decreases slowly. */
 sw_kept sw_press_keep(const sw_press *press, double usual, double stiffer, double deepest);
-/* Displacement of friction's spring at the force of the memory: that stays, whatever the stiffness
- * becomes, as a cable moves less than a spring would lose. Only on obstacles: a tight pair of
- * cables would gain energy. gives_way: the force changes with the stiffness of the touch [m]. */
+/* Displacement of friction's spring from the memory [m]. The force stays, at any new stiffness,
+ * because a cable moves less than a spring would lose. Only on obstacles: a tight pair of cables
+ * would gain energy. gives_way: 1 if the force changes with the stiffness of the touch. */
 sw_vec sw_press_stretch(const sw_press *press, const sw_kept *kept, int gives_way);
-/* 1 if it falls in this step. */
+/* 1 if the stiffness decreases in this step. */
 int sw_press_eases(const sw_press *press, double usual, double stiffer, double deepest);
-/* Hardens a squeezed touch. A squeezed wire cannot come out: letting it out would create energy,
- * and the step would be refused. So a touch that is too deep keeps its force and gets stiffer from
- * the next step on. The rest of its depth stays (left). axial: stiffness of the wire's edge, the
- * upper limit: between rigid things no force could be set [N/m]. */
+/* Stiffens a squeezed touch. A squeezed wire cannot come out: letting it out would make energy, and
+ * the step would be refused. So a touch that is too deep keeps its force, gets stiffer from the
+ * next step on, and keeps the rest of its depth (left). axial: stiffness of the wire's edge, the
+ * upper limit, because between rigid bodies no force could be set [N/m]. */
 void sw_kept_harden(sw_kept *kept, double axial, double deepest);
-/* Makes a touch at least as stiff as k [N/m]. Its force stays. */
+/* Raises the stiffness of a touch to at least k [N/m]. Its force stays. */
 void sw_kept_firm(sw_kept *kept, double k);
-/* Energy that a touch gains if its stiffness rises to k [J]. A mesh keeps its depth, and its spring
- * then stores more. A line is light: it comes out, at constant force, to the depth that belongs to
- * k. */
+/* Energy that a touch gains if its stiffness rises to k [J]. A mesh keeps its depth, so its spring
+ * stores more. A line is light: it comes out, at constant force, to the depth for k. */
 double sw_kept_hardened(const sw_kept *kept, double k, int mesh);
 /* Sets stiffness = force over depth, for a look at an accepted state. sw_press_felt returns a touch
  * made from such a memory. */
@@ -107,29 +106,30 @@ sw_press sw_press_felt(const sw_kept *kept);
 
 /* Decides whether a touch pushes in this iterate. A touch that pushed after the last solve stays
  * active even if turning normals opened its gap a little; otherwise the wires would fall into each
- * other. The next solve decides. A touch with spare ones stays active after a pull too. last: the
- * same touch in the previous iterate, or NULL. */
+ * other. The next solve decides. `spare` touches stay active after a pull too. last: the same touch
+ * in the previous iterate, or NULL. */
 void sw_press_activate(sw_press *press, const sw_press *last);
 
-/* Sets the normal force that friction takes as given, and whether the touch slides. Sources: last,
- * the previous iterate, or NULL, used for sliding if goes_on; kept, the last accepted step, NULL if
- * the touch did not press; else guess [N]. With the last iterate's force alone, the force may
- * alternate for ever, and grow where friction presses the touch; then a secant through the last two
- * is used. */
+/* Sets the normal force used in friction, and whether the touch slides. Sources: last, the previous
+ * iterate, or NULL, used for sliding if goes_on; kept, the last accepted step, NULL if the touch
+ * did not press; else guess [N]. With the force of the last iterate alone, the force may alternate
+ * without end, and grow where friction presses the touch; then a secant through the last two is
+ * used. */
 void sw_press_resume(sw_press *press, const sw_kept *kept, const sw_press *last, int goes_on,
                      double guess);
 
-/* Begins friction at an iterate, when k, lag and trial are set. known: 1 = `sliding` holds, 0 =
- * find it out. With a stiff spring every prediction looks like a slide, so a prediction says little
- * about sticking. A spring far beyond its limit does slide, if it is also far beyond it with the
- * stiffness felt [N/m]. */
+/* Begins friction at an iterate, when k, lag and trial are set. known: 1 = `sliding` is valid, 0 =
+ * find it. With a stiff spring every prediction looks like a slide, so a prediction says little
+ * about sticking. A spring far beyond its limit slides if it is also far beyond it with the
+ * stiffness `felt` [N/m]. */
 void sw_press_begin(sw_press *press, double friction, int known, double felt);
 
 /* Sets the friction spring of a stage that begins at x0 + first (x1 - x0), where x1 is the result
- * of the step's first stage. The anchor begins with the same share of that stage's slip. So
- * friction opposes the speed at the stage's end. If friction opposed the way since the step's
- * start, a slide that stops would alternate for ever. u: displacement from the anchor at the step's
- * start [m]. last: the touch in the previous iterate, or NULL; same: 1 if last is of this stage. */
+ * of the step's first stage. The anchor starts with the same share of that stage's slip, so that
+ * friction opposes the speed at the end of the stage. If friction opposed the motion since the
+ * step's start, a slide that stops would alternate without end. u: displacement from the anchor at
+ * the step's start [m]. last: the touch in the previous iterate, or NULL; same: 1 if last is of
+ * this stage. */
 void sw_press_aim(sw_press *press, sw_vec u, const sw_press *last, int same, double first);
 
 /* Returns the force at this iterate, and its stiffness (upper half). lagged: 0 = explicit methods,
@@ -139,9 +139,9 @@ sw_vec sw_press_eval(sw_press *press, double friction, int lagged, double K[6]);
 /* 1 if the touch pushes and slides in this iterate. */
 int sw_press_slides(const sw_press *press, double friction);
 
-/* 1 if, after an update by shift, the normal force differs from the force that friction used by
- * more than the tolerance of the iteration. Only for sliding touches, whose friction must follow
- * the normal force within an iterate's linearisation. force_scale: see below [N]. */
+/* 1 if, after an update by shift, the normal force differs from that used in friction by more than
+ * the tolerance of the iteration. Only for sliding touches, whose friction must follow the normal
+ * force within an iterate's linearisation. force_scale: see below [N]. */
 int sw_press_lags(const sw_press *press, double friction, sw_vec shift, double force_scale);
 /* Makes friction use the new normal force. Returns the change of the force on the wire [N]. */
 sw_vec sw_press_follow(sw_press *press, double friction, sw_vec shift);
@@ -168,30 +168,30 @@ int sw_press_opens(const sw_press *press, sw_vec shift, double force_scale);
 /* 1 if the gap is as small as a script can place it. */
 int sw_press_lies(const sw_press *press);
 
-/* 1 if wires must have been placed this deep. Nothing touched there before, and no touch gets this
- * deep by itself within a step. first: 1 if nothing touched anywhere. */
+/* 1 if wires must have been placed this deep: nothing touched there before, and no touch gets this
+ * deep within a step. first: 1 if nothing touched anywhere. */
 int sw_press_was_put(double depth, int first);
 
-/* Speeds at which wires are let out that are deeper inside than their force explains. SW_LET_OUT:
- * lines at rest, meshes, whose sections may stand off the line that they come from, and wires that
- * were placed in each other. It throws nothing. SW_PART: the highest, and that of wires whose touch
- * with each other is found within a run [m/s]. */
+/* Speeds of wires that come out because they are deeper than their force explains [m/s]. SW_LET_OUT
+ * throws nothing; it is for lines at rest, for meshes, whose sections may stand off their line, and
+ * for wires that were placed in each other. SW_PART, the highest, is for wires whose touch with
+ * each other is found within a run. */
 #define SW_LET_OUT 0.005
 #define SW_PART 0.2
 
-/* Splits a depth at the step's start. kept: memory of the touch, or NULL. way: what the touch may
- * come out by beyond the depth that its force explains [m]. Wires that were placed in each other,
- * or that leave a barrier, come out slowly: within one step the depth would turn into speed. */
+/* Splits a depth at the step's start. kept: memory of the touch, or NULL. way: largest correction
+ * of depth that the force does not explain [m]. Wires that were placed in each other, or that leave
+ * a barrier, come out slowly: within one step the depth would become speed. */
 typedef struct sw_left {
-  double forgiven; /* the step leaves this alone [m] */
+  double forgiven; /* depth that the step does not correct [m] */
   double let_out; /* unexplained depth that the step removes; 0 if it is only rounding, as of a wire
                      laid on a table [m] */
   double left;    /* part of forgiven that the touch keeps (sw_kept.left) [m] */
 } sw_left;
 sw_left sw_press_leave(double depth, const sw_kept *kept, double way);
 
-/* Sets the forces after an update that shifted the touch; 1 = they agree with the solve's
- * assumptions. force_scale: force scale of the scene; much smaller forces do not matter [N]. */
+/* Sets the forces after an update that shifted the touch. Returns 1 if they agree with the
+ * assumptions of the solve. force_scale: much smaller forces do not matter [N]. */
 int sw_press_update(sw_press *press, double friction, sw_vec shift, double force_scale);
 
 /* Friction of several touches after an update: its total error, and its total limit [N]. Many
@@ -209,23 +209,23 @@ enum { SW_PATIENCE = 6 };
  * force by no more than the tolerance of the iteration [N]. */
 sw_vec sw_press_borne(const sw_press *press, double friction);
 
-/* 1 if, after the last update, the gap is open where nothing pushed, and closed where a touch
+/* 1 if the gap after the last update is open where nothing pushed, or closed where a touch
  * pushed. */
 int sw_press_apart(const sw_press *press);
 
-/* 1 if a step is so short against the nominal one that inertia alone keeps a depth. 0 in statics:
- * short pseudo steps would leave the depth in the scene, and the first dynamic step would turn it
- * into speed. */
+/* 1 if a step is so short compared with the nominal one that inertia alone keeps a depth. 0 in
+ * statics: short pseudo steps would leave the depth in the scene, and the first step of motion
+ * would turn it into speed. */
 int sw_press_is_short(int statics, double h, double nominal);
 
-/* Depth above which a squeezed touch is made stiffer at once. deepest: depth that it may have, here
- * and below [m]. */
+/* Depth above which a squeezed touch is stiffened at once. deepest: allowed depth, here and below
+ * [m]. */
 double sw_press_squeezed(double forgiven, double before, double deepest);
 
 /* Stiffness from the next iterate on: higher for a touch that is too deep, else unchanged [N/m].
  * usual: stiffness of a new touch; axial: stiffness of the wire's edge, because a taut wire presses
- * with forces unrelated to its weight. before: up to this depth a touch is not made stiffer, as
- * wires in a short step and squeezed touches; else negative [m]. forgiven: see sw_left. */
+ * with forces unrelated to its weight. before: a touch is not stiffened up to this depth, for wires
+ * in a short step and squeezed touches; else negative [m]. forgiven: see sw_left. */
 double sw_press_stiffer(const sw_press *press, double usual, double axial, double deepest,
                         double forgiven, double before);
 

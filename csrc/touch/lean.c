@@ -6,7 +6,7 @@
 
 /* TAUT: effect of tension relative to an edge's bending. MOST_LEAN: largest lean of a touch [-]. */
 static const double TAUT = 0.27, MOST_LEAN = 0.1;
-/* Bending between nodes follows the force after this many of its periods [-]. */
+/* Bending between nodes follows the force with a time constant of this many of its periods [-]. */
 static const double SLOWLY = 4.0;
 
 double sw_lean_of(const sw_system *s, const sw_body *b, double place, double force) {

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lean of a touch along the wire. Under a push a wire bends deeper in the middle between two nodes;
- * its smooth curve does not show this bend. The missing bend would hold the wire there, so the
+/* Lean of a touch along the wire. Under a push a wire bends more in the middle between two nodes;
+ * its smooth curve does not contain this bend. Without it the wire would be held there, so the
  * touch leans a little along the wire. */
 #ifndef SW_TOUCH_LEAN_H
 #define SW_TOUCH_LEAN_H
 
 #include "system/system.h"
 
-/* Lean of a push along a body [-], this many edges from its first node, under this steady force
+/* Lean of a push along a body [-]. place: number of edges from its first node; force: steady force
  * [N]. */
 double sw_lean_of(const sw_system *s, const sw_body *b, double place, double force);
 

@@ -62,8 +62,8 @@ static void push(sw_system *s, const sw_spot *t, sw_vec f, double *more) {
   }
 }
 
-/* Changes the normal forces that friction uses to `forces`, or back to those of the iterate's first
- * solve (NULL), and the solution with them. */
+/* Changes the normal forces used in friction to `forces`, or (NULL) back to those of the iterate's
+ * first solve, and the solution with them. */
 static void assume(sw_spots *g, sw_system *s, const double *forces) {
   memset(g->more, 0, 3 * s->nodes * sizeof *g->more);
   for (size_t i = 0; i < g->count; i++) {

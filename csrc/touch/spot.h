@@ -19,7 +19,7 @@ typedef struct sw_spot {
   uint32_t node[SW_SPOT_NODES]; /* count nodes of the system */
   double weight[SW_SPOT_NODES]; /* share of the force; negative on the other wire [-] */
   int count;
-  int held[SW_SPOT_NODES]; /* 1: a hold bears the node's share */
+  int held[SW_SPOT_NODES]; /* 1: a hold carries the node's share */
 } sw_spot;
 
 typedef struct sw_spots {
@@ -34,12 +34,12 @@ typedef struct sw_spots {
 void sw_spots_free(sw_spots *spots);
 
 /* Appends a sliding touch, with press, friction and scale set in spot, at a place of one body and a
- * place of another one, or NULL. Without memory the touch is left out. */
+ * place of another one, or NULL. If memory runs out, the touch is left out. */
 void sw_spots_add(sw_spots *spots, const sw_system *system, sw_spot spot, const sw_mean *one,
                   size_t body_one, const sw_mean *two, size_t body_two);
 
-/* Lets friction of sliding touches follow the normal forces, within the linearisation of bodies
- * that are solved together, by more solves with the same factor. */
+/* Updates friction of sliding touches to the normal forces, within the linearisation of bodies that
+ * are solved together, by further solves with the same factor. */
 void sw_spots_follow(sw_spots *spots, sw_system *system);
 
 #endif

@@ -18,7 +18,7 @@ size_t sw_presses_count(sw_presses list);            /* number of touches with a
 int sw_presses_slide(sw_presses list, double least); /* 1: one slid by more than least [m] */
 double sw_presses_energy(sw_presses list);           /* energy stored in the springs [J] */
 double sw_presses_rubbed(sw_presses list);           /* energy lost by friction in the step [J] */
-/* Work of the forces in the step on depths that wires are let out of [J]. */
+/* Work in the step of the forces on wires that come out of what they are in [J]. */
 double sw_presses_emerged(sw_presses list);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Finds the least energy on the way from an iterate to its solution (way.h). */
+/* Finds the least energy on the path from an iterate to its solution (way.h). */
 #include "touch/way.h"
 
 #include <math.h>
@@ -24,7 +24,7 @@ void sw_press_go_on(sw_press *p, double friction, sw_vec s, int may) {
   p->next_sliding = sw_press_grip(p) * sw_norm(u) > friction * p->normal_force;
 }
 
-/* Halvings of the way in the search for the share [-]. */
+/* Halvings of the path in the search for the share [-]. */
 enum { HALVINGS = 20 };
 
 double sw_way_least(double (*slope)(const void *, double), const void *user) {
@@ -54,8 +54,8 @@ void sw_ways_add(sw_ways *w, sw_press *press, double friction, sw_vec shift) {
       (sw_way){press, friction, shift, begins, assumed(press, friction, shift, shift)};
 }
 
-/* Slope of the energy at this share of the way [J]. Everything except the touches' forces is
- * linear: with the assumed forces it is in balance at the way's end, and at its beginning the
+/* Slope of the energy at this share of the path [J]. Everything except the touches' forces is
+ * linear: with the assumed forces it is in balance at the end of the path; at its beginning the
  * energy falls by the work. */
 static double slope(const void *user, double share) {
   const sw_ways *w = user;
