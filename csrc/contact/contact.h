@@ -74,9 +74,8 @@ sw_status sw_contact_open(sw_contact *contact, double t, double h, sw_error *err
 sw_status sw_contact_wake(sw_contact *contact, sw_system *system, sw_error *err);
 sw_status sw_contact_begin_step(sw_contact *contact, sw_system *system, sw_contact_regime regime,
                                 double nominal, sw_error *err);
-/* Call before the first motion of a body: moves the body out of obstacles into which it was drawn a
- * little, if it is a mesh of elements without holds (contact/clear.c). is_new: 1 for a body that
- * was just remodelled. */
+/* Call before the first motion of a body: moves meshes of elements without holds out of obstacles
+ * into which they were drawn a little. is_new: 1 for a body that was just remodelled. */
 sw_status sw_contact_clear(sw_contact *contact, sw_system *system, double t,
                            int (*is_new)(void *, size_t), void *user, sw_error *err);
 /* Call after the step: bodies on their way out of an obstacle must not stop. */
