@@ -1,7 +1,9 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- The vertical range of charts over time: what a blow, rounding and a straight wire do to it.
 local sw = require "softworld"
+local files = require "spec.output.files"
 local range = require "softworld.output.range"
+local sink = require "softworld.output.sink"
 
 -- A wave of size 1 for 1 s, 1000 samples, with spikes of the given height in the samples from 500 on.
 local function wave(spikes, height)
@@ -14,12 +16,9 @@ local function wave(spikes, height)
 end
 
 local function svg_of(run)
-  local path = os.tmpname()
-  os.remove(path)
-  path = path .. ".svg"
-  run:chart{ path = path }
-  local text = assert(io.open(path)):read "a"
-  os.remove(path)
+  local folder = files.folder()
+  local text = sink.read_file(run:chart{ path = folder .. "/run.svg" })
+  files.remove(folder)
   return text
 end
 

@@ -27,7 +27,7 @@ describe("a rod on a table that becomes a mesh of elements", function()
     it(("presses with its weight: %s, E = %g Pa, normal %g %g %g"):format(case[1], case[2],
       table.unpack(case[3])), function()
       local scene, wire = lying(case[2], case[3])
-      wire:remodel{ model = case[1], body = "solid" }
+      wire:remodel{ model = case[1], section = "solid" }
       local start = scene.time
       local run = scene:run{ duration = 0.03, dt = 0.002 }
       assert.is_true(run.ok, run.reason)

@@ -2,6 +2,8 @@
 --- The vertical range of a chart over time: one blow of some steps must not make all the rest flat.
 -- The player has the same rule (page/scale.js).
 -- @module softworld.output.range
+local finite = require "softworld.output.gnuplot".finite
+
 local range = {}
 
 local share = 0.01     -- of the time may be beyond the range, above it and below it
@@ -9,14 +11,12 @@ local many = 3         -- times the range: peaks that reach less far are shown w
 local room = 0.25      -- of the range is added on a side that is cut
 local samples = 20000  -- of one curve are sorted at most; extremes are those of all
 
-local function finite(x) return x == x and x ~= math.huge and x ~= -math.huge end
-
 -- Returns the values of a curve, each with the time that it stands for, sorted by value; and their sum.
 local function weighted(time, values)
   local list, total, stride = {}, 0, math.max(1, #time // samples)
   for i = 1, #time, stride do
     local x = values[i]
-    if x and finite(x) then
+    if finite(x) then
       local weight = time[math.min(#time, i + stride)] - time[math.max(1, i - stride)]
       list[#list + 1] = { x, weight }
       total = total + weight
@@ -41,7 +41,7 @@ local function extremes(values, count)
   local low, high
   for i = 1, count do
     local x = values[i]
-    if x and finite(x) then
+    if finite(x) then
       if not low or x < values[low] then low = i end
       if not high or x > values[high] then high = i end
     end

@@ -9,7 +9,7 @@ import { robust } from "./scale.js";
 
 const MANY = 8;       // curves of a unit beyond which components of vectors wait to be asked for
 const ROUNDING = 1e-11; // moments up to this times the forces at 1 m are rounding
-const ROUND = 1e6;    // [m]; radii above it are rounding
+const LARGEST = 1e6;  // [m]; radii above it are rounding
 const STRAIGHT = 100; // times the smallest bend radius: what is drawn of radii
 
 /** Columns of all runs by unit; radii have a chart of their own. */
@@ -21,7 +21,7 @@ function groupsOf(data) {
       const radius = /bend_radius$/.test(column.name);
       const key = radius ? "radius" : column.unit;
       if (!groups.has(key)) groups.set(key, { unit: column.unit, radius, curves: [] });
-      if (!column.values.some((x) => (radius ? x < ROUND : !Number.isNaN(x)))) continue;
+      if (!column.values.some((x) => (radius ? x < LARGEST : !Number.isNaN(x)))) continue;
       groups.get(key).curves.push({ ...column, run, r,
         label: data.runs.length > 1 ? `${r + 1}: ${column.name}` : column.name });
     }
@@ -51,7 +51,7 @@ function rowsOf(group) {
   let top = Infinity;
   if (group.radius) {
     const least = Math.min(...group.curves.filter((c) => !c.limit).flatMap((c) => [Math.min(...c.values.filter((x) => !Number.isNaN(x)))]));
-    top = Math.min(STRAIGHT * least, ROUND);
+    top = Math.min(STRAIGHT * least, LARGEST);
   }
   const shown = (x) => (Number.isNaN(x) || !(x <= top) ? NaN : x);
   if (runs.length === 1) {

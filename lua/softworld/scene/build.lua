@@ -10,6 +10,7 @@ local keep = require "softworld.scene.keep"
 local meshfile = require "softworld.meshfile"
 local remarks = require "softworld.remarks"
 local solid = require "softworld.output.solid"
+local with_body = require "softworld.wire.body"
 
 local build = { call = blame.call, through = blame.through, placed = blame.placed, plain = blame.plain }
 local class = core.class
@@ -161,12 +162,6 @@ local function take_cable(args)
   return entry, use
 end
 
--- Turns section = "solid" or "springs" into body; other sections are shapes of a cubic mesh.
-local function take_body(args)
-  if args.section ~= "solid" and args.section ~= "springs" then return end
-  args.body, args.section = args.body or args.section, nil
-end
-
 local new_wire = class.scene.wire
 --- scene:wire{...}: see help "wire" for the parameters. `cable`, a name or entry of
 -- the catalogue, gives those of EA, EI, GJ, mass_per_length and radius that are not given;
@@ -176,7 +171,7 @@ function class.scene.wire(scene, args)
   build.check(scene, "scene:wire", 3)
   args = table_of(args, "scene:wire")
   local data = build.data(scene)
-  take_body(args)
+  args = with_body(args)
   local entry, use = build.call(3, take_cable, args)
   args.name = build.name(scene, args.name, "wire", #data.wires, 3)
   local auto = args.model == "auto" -- a rod, until a run needs another model
@@ -202,7 +197,7 @@ function build.remodels(wire) return remodels[wire] or 0 end
 
 --- wire:remodel{ model =, ... }: see help "remodel".
 function class.wire.remodel(wire, args)
-  local result = build.call(3, remodel, wire, args)
+  local result = build.call(3, remodel, wire, with_body(args))
   remodels[wire] = build.remodels(wire) + 1
   remarks.mesh(wire)
   return result

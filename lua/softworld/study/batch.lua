@@ -24,9 +24,7 @@ function batch.say(own, text, ...)
   io.stderr:write(("study '%s': %s\n"):format(own.name, text:format(...)))
 end
 
-batch.plural = counted
-
-local say, plural = batch.say, batch.plural
+local say, plural = batch.say, counted
 
 -- --- sending ----------------------------------------------------------------------------------------
 

@@ -20,7 +20,7 @@ local NAP, LONG_NAP = 0.1, 2 -- shortest and longest time between two looks for 
 
 local function fail(text, ...) error(text:format(...), 0) end
 
-local say, plural = batch.say, batch.plural
+local say, plural = batch.say, require "softworld.output.number".count
 
 local function count_of(set)
   local count = 0

@@ -13,7 +13,7 @@ local TRIES = 3   -- an evaluation is sent at most this often
 local SMALLER = 4 -- factor by which tasks get smaller when sent again
 local LOOK, LONG_LOOK = 1, 15 -- shortest and longest time between two questions to Slurm [s]
 
-local say, plural = batch.say, batch.plural
+local say, plural = batch.say, require "softworld.output.number".count
 
 --- Takes what tasks have found. Returns how many evaluations.
 function gather.collect(run)

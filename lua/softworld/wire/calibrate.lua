@@ -40,6 +40,7 @@
 local checks = require "softworld.checks"
 local core = require "softworld.core"
 local cable = require "softworld.cable"
+local with_body = require "softworld.wire.body"
 
 local calibrate = {}
 
@@ -104,15 +105,6 @@ local function with_cable(args)
   return all
 end
 
--- Turns section = "solid" or "springs" into body; other sections are shapes of a cubic mesh.
-local function with_body(args)
-  if args.section ~= "solid" and args.section ~= "springs" then return args end
-  local all = {}
-  for key, value in pairs(args) do all[key] = value end
-  all.body, all.section = all.body or args.section, nil
-  return all
-end
-
 --- Returns the springs of a mesh whose EA, EI and GJ, and squeeze stiffness if asked for, are
 -- those of a wire; with body = "solid" elements and springs. If the mesh has no such springs, the
 -- error tells what to change.
@@ -135,7 +127,7 @@ end
 -- Bending is equal in all planes if ring and cores look the same after a third of a turn or less;
 -- EI2 shows it
 local function run(args)
-  if type(args) == "table" then args = with_body(args) end
+  args = with_body(args)
   if type(args) == "table" and args.cable ~= nil then args = with_cable(args) end
   local c = core.calibrate(args)
   c.mesh = args.mesh
