@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Solves an iterate's equations again for other forces. */
+/* Solves an iterate's equations again, for other forces and with the same factors. */
 #include "solve/band3.h"
 #include "system/bridge.h"
 #include "system/system.h"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lays out the state's arrays in one block, and lengthens the block. */
 #include "system/arrays.h"
 
 #include <string.h>

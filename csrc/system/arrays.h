@@ -5,7 +5,7 @@
 
 #include "system/system.h"
 
-/* Sets the pointers to the state's arrays after s->state has changed. */
+/* Sets the pointers into s->state. Call after s->state has moved. */
 void sw_system_lay_out(sw_system *system);
 
 /* Appends zeros to the state; *added points to them. SW_ENOMEM. */

@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Sums the stiffness and forces of a field's edges and the mass into block rows and right-hand
+ * sides of nodes. */
 #include "system/assemble.h"
 
 #include <string.h>

@@ -16,36 +16,36 @@
 typedef struct sw_term {
   const sw_force_class *cls;
   double args[SW_FORCE_ARGS_MAX / sizeof(double)];
-  int id;          /* its number for the owner; -1: one of a recipe's own forces */
+  int id;          /* its number for the owner; -1: an inner force of the recipe */
   double *history; /* its part of the system's state, or NULL */
 } sw_term;
 
-/* A straight or plane wire that is pushed along itself, see watch/unbent.c. */
+/* A straight or plane wire that is pushed along its length, see watch/unbent.c. */
 typedef struct sw_unbent {
-  double growth;    /* logarithm of the growth of a real wire's bend so far; 0: not pushed [-] */
-  double seen;      /* time of the last look [s] */
-  double due, push; /* when a real wire had left its line; the largest since [N] */
+  double growth;    /* logarithm of the growth of a real wire's bend so far; 0: no push [-] */
+  double seen;      /* time of the last check [s] */
+  double due, push; /* time at which a real wire has left its line; largest push since [N] */
   double at;        /* place of the largest push, as arc length [m] */
   int plane;        /* 1: it was bent in a plane at times */
 } sw_unbent;
 
 typedef struct sw_body {
   sw_plan *plan;
-  size_t first_node, first_edge; /* place in the system's arrays */
-  double EA, EA_push;            /* axial stiffness pulled and pushed [N] */
-  int bears;                     /* 1: a force of it bears axial forces too (system/borne.h) */
-  double axial_time; /* axial dashpots: EA times this times the strain rate is their force [s] */
-  size_t first_clamp, kept_clamps; /* with dashpots: first one in the system's strains; number */
+  size_t first_node, first_edge; /* first place in the system's arrays */
+  double EA, EA_push;            /* axial stiffness in tension and in compression [N] */
+  int bears;                     /* 1: one of its forces has axial forces too (system/borne.h) */
+  double axial_time; /* axial dashpots: their force is EA times this times the strain rate [s] */
+  size_t first_clamp, kept_clamps; /* with dashpots: first place in the system's strains; number */
   double viscosity;                /* dashpots in bending: moment per rate of curvature [N m2 s] */
   sw_term *terms;
   size_t term_count;
   sw_field field;
   void *field_block;
   size_t first_span;    /* place of the plan's spans in the system's twist */
-  int has_twist;        /* the wire resists twist and is held against it somewhere */
+  int has_twist;        /* 1: the wire resists twist and a hold keeps it from turning */
   double *twist_now;    /* (spans) at this evaluation [rad] */
   double *twist_rank;   /* (nodes x 3) slope of the twist, held nodes included [rad/m]; this and
-                           twist_solved are work space while the twist is measured */
+                           twist_solved are work space of the twist's measurement */
   double *twist_solved; /* (nodes x 3) inverse of the matrix times twist_rank */
   double *twist_gain;   /* (spans) torque added by the last update [N m] */
   void *twist_block;
@@ -58,33 +58,33 @@ typedef struct sw_body {
   double spin_inertia; /* rotary inertia of an edge per length over hbar^2, for a wire that rolls or
                           whose spins do not converge [N] */
   size_t first_roll;   /* a wire that rolls: place of its edges' turns in the system's */
-  double *roll_turn; /* (edges) turn since the state, relative to the state's frame carried along a
-                        great circle [rad] */
+  double *roll_turn;   /* (edges) turn since the state, against the state's frame carried along a
+                          great circle [rad] */
   double *roll_from[3]; /* (edges) the state's tangents; NULL for other wires [-] */
   void *roll_block;
   int needs_velocity;       /* some force depends on it */
   int is_explicit;          /* some force has no stiffness */
   int is_kinked;            /* some force has a history: its stiffness may jump in this step */
   size_t held;              /* number of its first held node + 1, or 0; set for each stage */
-  struct sw_blocks *blocks; /* the matrix of a body whose plan has a web, or NULL */
-  size_t *web_slots;        /* where forces write into this matrix */
+  struct sw_blocks *blocks; /* matrix of a body whose plan has a web, or NULL */
+  size_t *web_slots;        /* places in this matrix for the forces' stiffness */
   unsigned char *web_fixed; /* (particles) 1: held */
-  uint32_t *web_pairs;      /* (web_pair_count x 2) pairs of the matrix besides the web's */
+  uint32_t *web_pairs;      /* (web_pair_count x 2) pairs in the matrix besides the web's */
   size_t web_pair_count;
   size_t web_couples; /* number of its pairs in the matrix of the bridges */
   int web_replanned;  /* 1: its pairs changed after web_couples were listed */
   double *web_room;   /* (particles x 15) work space of a large web's iterative solver, or NULL */
-  int web_factored;   /* 1: a factor of this step is there to precondition iterations */
-  int web_slow;       /* 1: in this step such iterations were too slow */
+  int web_factored;   /* 1: a factor of this step can precondition iterations */
+  int web_slow;       /* 1: such iterations were too slow in this step */
   int bridged;        /* its matrix is part of the bridges' matrix (system/bridge.h) */
   int coupled;        /* in this stage: SW_JOINED, SW_TOUCHING, both, or 0 (system/part.h) */
-  int waits;          /* 1: it rests, and is not solved in this step (system/wait.h) */
-  int stops;          /* 1: it came to rest in the step that was just accepted */
-  double watched; /* until then its friction is watched, as a drive stopped at once; 0: it is not
-                     (step/left.c) [s] */
-  int weighed;    /* 1: the next three are known, while it waits */
+  int waits;          /* 1: it rests and is not solved in this step (system/wait.h) */
+  int stops;          /* 1: it came to rest in the step accepted last */
+  double watched; /* until then its friction is watched as after a sudden stop of a drive; 0: not
+                     watched (step/left.c) [s] */
+  int weighed;    /* 1: the next three are known while it waits */
   double gravity, stored, loads; /* its energies, see sw_energies [J] */
-  double pushed;                 /* largest push for which buckling was checked [N] */
+  double pushed;                 /* largest push in the checks for buckling so far [N] */
   sw_unbent unbent;
 } sw_body;
 
@@ -100,7 +100,7 @@ static inline sw_status sw_term_eval(const sw_term *term, sw_field *field, sw_er
   return term->cls->eval(term->args, field, err);
 }
 
-/* Fills out with a term's news after a commit; 1 if there are any. */
+/* Writes a term's news after a commit to out; returns 1 if there are any. */
 static inline int sw_term_news(const sw_term *term, sw_force_news *out) {
   return term->cls->news && term->history && term->cls->news(term->args, term->history, out);
 }
@@ -108,26 +108,26 @@ static inline int sw_term_news(const sw_term *term, sw_force_news *out) {
 /* Begins an evaluation of the body's terms: clears the field and measures the edges. */
 void sw_body_begin(sw_body *body);
 
-/* out = (stiffness that the terms have added) d, held nodes treated like all others; both (nodes x
+/* out = (sum of the terms' stiffness) d; held nodes are treated like all others; both (nodes x
  * 3). */
 void sw_body_stiffness_times(sw_body *body, const double *d, double *out);
 
-/* Adds stiffness between nodes i and j (the body's own numbers, i != j) of a body with a web, row
- * by row with i's rows [N/m]. Only while the coupling evaluates. Pairs that the matrix lacks are
- * ignored. */
+/* Adds stiffness between nodes i and j (the body's own numbers, i != j) of a body with a web; K has
+ * i's rows, row by row [N/m]. Only while the coupling evaluates. Ignores pairs that are not in the
+ * matrix. */
 void sw_body_couple(sw_body *body, size_t i, size_t j, const double K[9]);
 
-/* Before a step: sets the pairs of the body's own particles (count x 2) that may get stiffness in
- * it besides the web's. The matrix depends only on these, not on earlier steps. SW_ENOMEM keeps the
+/* Before a step: sets the pairs of the body's own particles (count x 2) that may get stiffness
+ * besides the web's. The matrix depends on these only, not on earlier steps. SW_ENOMEM keeps the
  * old pairs. */
 sw_status sw_body_plan_pairs(sw_body *body, const uint32_t *pairs, size_t count);
 
 /* --- while the coupling refines a solution ----------------------------------- */
 
-/* In place: forces on the body's nodes (nodes x 3), zero where held, become the change of the
- * solution that they cause. */
+/* In place: turns forces on the body's nodes (nodes x 3), zero where held, into the change of the
+ * solution by these forces. */
 void sw_body_solve_again(const sw_body *body, double *more);
-/* Takes delta (nodes x 3) as the last solution. */
+/* Sets the last solution to delta (nodes x 3). */
 void sw_body_take_solution(sw_body *body, const double *delta);
 
 #endif

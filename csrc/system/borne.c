@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Sums axial forces of bending forces and those of springs, for read-outs. */
 #include "system/borne.h"
 
 #include <string.h>

@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Pattern of the bridges' sparse matrix: planned pairs, pairs added in a step, and numbers of
+ * nodes. */
 #include "system/bridge.h"
 
 #include <string.h>
@@ -84,7 +86,7 @@ static void enter(struct sw_bridges *l, uint32_t number) {
   l->table[h] = number + 1;
 }
 
-/* Makes a table for at least count pairs and enters the known ones. */
+/* Makes a hash table for at least count pairs and enters the known ones. */
 static sw_status make_table(struct sw_bridges *l, size_t count) {
   size_t size = 64;
   while (size < 2 * count) size *= 2;
@@ -95,7 +97,7 @@ static sw_status make_table(struct sw_bridges *l, size_t count) {
   return SW_OK;
 }
 
-/* Adds a bridge to the pattern unless it is there. */
+/* Adds a bridge to the pattern if it is new. */
 static sw_status add_known(struct sw_bridges *l, uint32_t i, uint32_t j) {
   if (sw_bridges_find(l, i, j) != NONE) return SW_OK;
   SW_TRY(sw_grow((void **)&l->known, &l->known_capacity, l->known_count + 1, sizeof *l->known));
@@ -105,8 +107,8 @@ static sw_status add_known(struct sw_bridges *l, uint32_t i, uint32_t j) {
   return SW_OK;
 }
 
-/* Returns to the planned pattern. Pairs that were added in a step are dropped with it; otherwise
- * the next step's rounding would depend on more than the scene's state. */
+/* Returns to the planned pattern. Drops the pairs added in a step: with them, the next step's
+ * rounding would depend on more than the scene's state. */
 static sw_status take_plan(struct sw_bridges *l) {
   const size_t n = l->planned_count;
   const int more = l->anew && l->known_count > l->from_plan;
@@ -129,7 +131,7 @@ static sw_status take_plan(struct sw_bridges *l) {
   return SW_OK;
 }
 
-/* Marks the bridged bodies and numbers their nodes consecutively. */
+/* Marks the bodies with bridges and numbers their nodes consecutively. */
 static sw_status number_nodes(sw_system *s) {
   struct sw_bridges *l = s->bridges;
   if (!l->number) l->number = sw_alloc(s->nodes, sizeof *l->number);
@@ -153,7 +155,7 @@ static sw_status number_nodes(sw_system *s) {
   return sw_grow((void **)&l->x, &l->x_capacity, l->block * l->nodes, sizeof *l->x);
 }
 
-/* Lists a web's pairs in the matrix' numbers. */
+/* Lists a web's pairs in the matrix's numbers. */
 static size_t list_couples(sw_body *b, size_t first, sw_couple *out) {
   const size_t count = sw_web_couples(b, out);
   for (size_t k = 0; k < count; k++) {
@@ -164,7 +166,8 @@ static size_t list_couples(sw_body *b, size_t first, sw_couple *out) {
   return count;
 }
 
-/* Lists all pairs of the matrix: two for each node of a chain, or a web's own; then the bridges. */
+/* Lists all pairs of the matrix: two for each node of a chain, or a web's own pairs; then the
+ * bridges. */
 static sw_status list_pairs(sw_system *s) {
   struct sw_bridges *l = s->bridges;
   size_t n = 0, room = 2 * l->nodes + l->known_count;

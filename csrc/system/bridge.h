@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Stiffness between nodes that no wire connects: of touching wires and of branches. Bodies with
- * bridges are solved together in one sparse matrix; the others keep their bands. */
+/* Stiffness between nodes that are not neighbours in a wire: of touching wires and of branches.
+ * Bodies with bridges are solved together in one sparse matrix; the others keep their bands. */
 #ifndef SW_SYSTEM_BRIDGE_H
 #define SW_SYSTEM_BRIDGE_H
 
@@ -19,13 +19,13 @@ struct sw_bridges {
   sw_bridge *list; /* of this evaluation */
   size_t count, capacity;
 
-  /* the pattern for which the sparse matrix was analysed */
+  /* pattern for which the sparse matrix was analysed */
   sw_sparse *matrix, *spare; /* spare: of an earlier plan, kept for its work space */
-  sw_couple *pairs; /* of the bodies' chains, then of the bridges; in the matrix' numbers */
+  sw_couple *pairs; /* of the bodies' chains, then of the bridges; in the matrix's numbers */
   size_t pair_capacity, chain_pairs, pair_count;
   sw_couple *known; /* bridges of the pattern: planned ones, then those added in the step */
   size_t known_count, known_capacity;
-  sw_couple *planned, *taken; /* for the present step; those that the pattern was made from */
+  sw_couple *planned, *taken; /* for the present step; those in the pattern */
   size_t planned_count, planned_capacity, taken_count, taken_capacity;
   size_t from_plan; /* number of planned ones in known */
   int anew;         /* 1: a plan was made after the pattern */
@@ -43,8 +43,7 @@ struct sw_bridges {
 
 /* Makes the matrix for this evaluation's bridges: the planned pattern plus any pairs added. */
 sw_status sw_bridges_prepare(sw_system *system);
-/* Returns the number of the bridge between nodes i < j in the pattern; UINT32_MAX if it is not
- * there. */
+/* Returns the number of the bridge between nodes i < j in the pattern; UINT32_MAX: none. */
 uint32_t sw_bridges_find(const struct sw_bridges *bridges, uint32_t i, uint32_t j);
 
 /* Begins an evaluation, with no bridges. */
@@ -53,15 +52,15 @@ void sw_bridges_begin(sw_system *system);
 /* 1 if this evaluation has bridges. */
 int sw_bridges_any(const sw_system *system);
 
-/* Solves for the bridged bodies, with twist, and marks them. Needs the assembled rows and
- * right-hand sides (in delta) of all bodies, with held nodes taken out. Adds to negative. */
+/* Solves for the bridged bodies, with twist, and marks them. Input: rows and right-hand sides (in
+ * delta) of all bodies, without held nodes. Adds to negative. */
 sw_status sw_bridges_solve(sw_system *system, size_t *negative);
 
-/* In place: forces on nodes (nodes x 3) and spins (nodes) become the change of the bridged bodies'
- * solution that they cause, by the present factors. */
+/* In place: turns forces on nodes (nodes x 3) and spins (nodes) into the change of the bridged
+ * bodies' solution by these forces, with the present factors. */
 void sw_bridges_solve_shift(sw_system *system, double *nodes, double *spins);
 
-/* Adds the bridges' forces due to the last update to the reactions of held nodes. */
+/* Adds the bridges' forces from the last update to the reactions of held nodes. */
 void sw_bridges_react(sw_system *system);
 
 void sw_bridges_free(sw_system *system);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Equations of bridged bodies: values of their matrix, twist, solution, reactions. */
+/* Equations of bridged bodies: values of the matrix, twist, solution, reactions. */
 #include <string.h>
 
 #include "base/alloc.h"
@@ -16,7 +16,7 @@ static const uint32_t NONE = UINT32_MAX;
 
 /* --- values --------------------------------------------------------------------- */
 
-/* Copies a 3 x 3 block into one of the matrix' size. */
+/* Copies a 3 x 3 block into a block of the matrix's size. */
 static void widen(const struct sw_bridges *l, const double *from, double *to) {
   for (size_t i = 0; i < 3; i++)
     for (size_t j = 0; j < 3; j++) to[l->block * i + j] = from[3 * i + j];
@@ -41,7 +41,7 @@ static void load_chain(struct sw_bridges *l, const sw_body *b, size_t first, siz
   }
 }
 
-/* The same for a body with frames, whose rows already include spins. */
+/* Does this for a body with frames, whose rows already include spins. */
 static void load_spinning(struct sw_bridges *l, const sw_body *b, size_t first, size_t *pair) {
   const size_t n = b->plan->nodes;
   for (size_t i = 0; i < n; i++) {
@@ -52,7 +52,7 @@ static void load_spinning(struct sw_bridges *l, const sw_body *b, size_t first, 
   }
 }
 
-/* Copies a web's blocks from its own matrix; held particles get a unit block and no couplings. */
+/* Copies a web's blocks from its own matrix; held particles get a unit block without couplings. */
 static void load_web(struct sw_bridges *l, const sw_body *b, size_t first, size_t *pair) {
   static const double one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   double block[9];
@@ -112,7 +112,7 @@ static void load_right(const sw_system *s, const double *nodes) {
   }
 }
 
-/* Copies the solution back. */
+/* Copies the solution from x back to nodes or spin_delta. */
 static void take_solution(sw_system *s, double *nodes) {
   const struct sw_bridges *l = s->bridges;
   for (size_t b = 0; b < s->body_count; b++) {
@@ -155,7 +155,7 @@ static double slope_dot(const struct sw_bridges *l, const sw_body *b, size_t fir
   return sum;
 }
 
-/* Solves for the right-hand sides l->x and for the spans' slopes. */
+/* Solves for the right-hand sides in l->x and for the spans' slopes. */
 static sw_status solve_slopes(sw_system *s, size_t count) {
   struct sw_bridges *l = s->bridges;
   const size_t n = l->block * l->nodes;
@@ -174,9 +174,9 @@ static sw_status solve_slopes(sw_system *s, size_t count) {
   return SW_OK;
 }
 
-/* Each span adds the stiffness g g' to the matrix K. With the compliances C^-1 and the solved
- * slopes K^-1 g, the formula of Sherman, Morrison and Woodbury treats all spans at once, because
- * bridges carry twist from wire to wire. Returns how many directions stop being negative. */
+/* Each span adds the stiffness g g' to the matrix K. Bridges carry twist from wire to wire, so all
+ * spans are treated at once: by the formula of Sherman, Morrison and Woodbury with the compliances
+ * C^-1 and the solved slopes K^-1 g. Returns by how many the negative directions become fewer. */
 static size_t correct_twist(sw_system *s, size_t m) {
   struct sw_bridges *l = s->bridges;
   const size_t n = l->block * l->nodes;
@@ -277,7 +277,7 @@ void sw_bridges_take_solution(sw_system *s) {
 /* --- reactions ------------------------------------------------------------------ */
 
 static sw_held_node *held_at(sw_system *s, uint32_t node) {
-  size_t low = 0, high = s->held_count; /* a hold's nodes ascend, but holds may not */
+  size_t low = 0, high = s->held_count; /* nodes ascend within a hold, but not from hold to hold */
   for (; low < high; low++)
     if (s->held[low].node == node) return &s->held[low];
   return NULL;

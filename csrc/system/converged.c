@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Decides whether a stage's iterate is good enough. */
+/* Convergence of a stage's iterate. */
 #include "system/converged.h"
 
 #include <math.h>
@@ -10,8 +10,7 @@
 #include "system/rail.h"
 #include "system/web.h"
 
-/* As fmax for numbers, without its call: these loops see each number of a wire in each iteration.
- */
+/* Like fmax, but inline: these loops run over all numbers of a wire in each iteration. */
 static inline double larger(double most, double x) { return x > most ? x : most; }
 
 static double largest_shift(const sw_system *s) {
@@ -24,25 +23,23 @@ static double largest_shift(const sw_system *s) {
   return largest;
 }
 
-/* Largest shift in an iteration, over the wire's length, at which a force without stiffness counts
- * as at its fixed point, and a force whose stiffness jumps counts as on the right side of its jumps
- * [-]. */
+/* A smaller shift in an iteration, over the wire's length, counts as the fixed point of forces
+ * without stiffness, and as the right side of a stiffness's jumps [-]. */
 static const double FIXED_POINT = 1e-9;
 
-/* Rounding in the solve: along stiff edges, a shift delta is known to eps (ka/kb) delta, where ka
- * and kb are an edge's stiffness along and across. The error of its axial force is ka times that.
- */
+/* Rounding of the solve: along stiff edges a shift delta has the error eps (ka/kb) delta, with an
+ * edge's stiffness ka along and kb across. The error of its axial force is ka times that. */
 static const double ROUNDING = 2.3e-16; /* [-] */
 /* Accepted error of an axial force, over the wire's weight or bending force [-]. */
 static const double FORCE_NOISE = 1e-3;
 
-/* Returns a body's weight or bending force, the larger [N]. */
+/* Returns the larger of a body's weight and its bending force [N]. */
 static double usual_force(const sw_system *s, const sw_body *b) {
   const double L = b->plan->length, EI = b->plan->beam.EI;
   return fmax(b->plan->beam.mass * L * sw_norm(sw_load(s->gravity)), EI / (L * L));
 }
 
-/* Returns the largest shift with which a body's axial forces can be trusted [m]. */
+/* Returns the largest shift for which a body's axial forces are accurate [m]. */
 static double trusted_shift(const sw_system *s, const sw_body *b, double hbar, int statics) {
   const sw_plan *p = b->plan;
   const double L = p->length, l = L / (double)p->edges;
@@ -56,7 +53,7 @@ static int drowned_in_rounding(const sw_system *s, const sw_stage *stage, int st
   double shift = -1;
   SW_PART_EACH(s, b) {
     const sw_body *body = &s->bodies[b];
-    if (body->plan->web) continue; /* its springs form no chain that adds up rounding */
+    if (body->plan->web) continue; /* its springs form no chain in which rounding adds up */
     const double trusted = trusted_shift(s, body, stage->hbar, statics);
     if (!(trusted < body->plan->length && trusted > 0)) continue;
     if (shift < 0) shift = largest_shift(s);
@@ -65,8 +62,8 @@ static int drowned_in_rounding(const sw_system *s, const sw_stage *stage, int st
   return 0;
 }
 
-/* Error of a bending moment that an update may leave, over the wire's length times the sum of its
- * weight and inertia force; updates smaller than the second are rounding [-]. */
+/* Accepted error of a bending moment, over the wire's length times the sum of its weight and
+ * inertia force; updates below the second number are rounding [-]. */
 static const double MOMENT_NOISE = 1e-4, LEAST_UPDATE = 1e-5;
 
 static double fastest(const sw_system *s, const sw_body *b, const sw_stage *stage, double rate2) {
@@ -80,7 +77,7 @@ static double fastest(const sw_system *s, const sw_body *b, const sw_stage *stag
 
 /* An update by the share u of an edge's length, along or across, leaves an error of about EI u^2 /
  * l in a hinge's moment, dashpots included: the moment is linear in the update, the edges are not.
- * For soft wires the rotation limit keeps this small. For stiff wires that turn fast the error was
+ * For soft wires the rotation limit keeps this small. In stiff wires that turned fast the error was
  * a thousand times the moment of the inertia forces. Returns 1 if it is too large. */
 static int bends_roughly(const sw_system *s, const sw_stage *stage, const sw_newton *newton,
                          double rate2) {
@@ -106,11 +103,11 @@ static int bends_roughly(const sw_system *s, const sw_stage *stage, const sw_new
 }
 
 /* After an update by the share u of an edge's length across it, the edge is longer by l u^2/2 than
- * the linear axial law says. The next step begins with that length, and so with T l u^2/2 more
- * energy. An update may leave this share of the kinetic energy and of the weight times the radius,
- * half of what the referee allows a step. A cable drawn over an edge by 500 N made 4e-5 of its
- * energy in a step: 56 of 670 steps were redone, now 2; with twice this share it is 47 at some step
- * sizes (spec/contact/taut_edge_spec) [-]. */
+ * in the linear axial law. The next step begins with that length, and so with T l u^2/2 more
+ * energy. An update may leave this share of the kinetic energy and of the weight times the radius.
+ * It is half of the referee's limit for a step. A cable drawn over an edge by 500 N gained 4e-5 of
+ * its energy in a step: 56 of 670 steps were redone, now 2; with twice this share it is 47 at some
+ * step sizes (spec/contact/taut_edge_spec) [-]. */
 static const double ENERGY_NOISE = 5e-4;
 
 static double kinetic_of(const sw_body *b, const sw_stage *stage) {
@@ -124,7 +121,7 @@ static double kinetic_of(const sw_body *b, const sw_stage *stage) {
   return 0.5 * sum * rate * rate;
 }
 
-/* Returns the energy by which the update's length is off, if each edge turned by u [J]. */
+/* Returns the energy of the update's error in length, if each edge turned by u [J]. */
 static double off_by_turn(const sw_system *s, const sw_body *b, double u) {
   const double *T = s->tension + b->first_edge, *rest = b->plan->rest;
   double sum = 0;
@@ -132,7 +129,7 @@ static double off_by_turn(const sw_system *s, const sw_body *b, double u) {
   return 0.5 * sum * u * u;
 }
 
-/* The same, of the update itself [J]. */
+/* Returns this energy for the update itself [J]. */
 static double off_by_update(const sw_system *s, const sw_body *b) {
   const double *T = s->tension + b->first_edge, *rest = b->plan->rest;
   const sw_field *f = &b->field;
@@ -162,13 +159,13 @@ static int pulls_roughly(const sw_system *s, const sw_stage *stage, const sw_new
   return 0;
 }
 
-/* The same length makes a straight wire between two holds too tight: by EA times the mean of u^2/2.
- * A cable that sinks onto a table in its first step was pushed by its whole weight. An update may
- * leave this share of the usual force, or of the tension. A wire with SLACKER times that length to
- * spare takes it up by its sag [-]. */
+/* The same error in length makes a straight wire between two holds too tight, by EA times the mean
+ * of u^2/2. It pushed a cable that sank onto a table in its first step with the cable's whole
+ * weight. An update may leave PULL_NOISE of the usual force or of the tension. A wire with SLACKER
+ * times this length to spare takes it up by its sag [-]. */
 static const double PULL_NOISE = 1e-2, SLACKER = 20.0;
 
-/* Returns the false part of the axial force between two held nodes of a body, 0 if sag takes it up
+/* Returns the error of the axial force between two held nodes of a body, 0 if sag takes it up
  * [N]. */
 static double false_pull(const sw_system *s, const sw_body *b, const double *y, size_t from,
                          size_t to) {
@@ -209,14 +206,14 @@ static int tightens_roughly(const sw_system *s, const sw_stage *stage, const sw_
   return 0;
 }
 
-/* Solid elements have no axial force of their own that follows the linear law: an update that
- * changes edges by the share u leaves an error of up to EA u^2/2 in the force of a section, and the
- * next step begins with it. A section let go by pads had 19 weights a step later. Each element has
- * its own error, and most cancel: of the bound, about a two-hundredth was seen. An update may leave
- * this bound, over the usual force and the inertia force [-]. */
+/* Solid elements have no axial force of their own with a linear law. An update that changes edges
+ * by the share u leaves an error of up to EA u^2/2 in the force of a section, and the next step
+ * begins with it. A section released by pads had 19 weights a step later. Each element has its own
+ * error, and most cancel: about a two-hundredth of the bound was seen. An update may leave this
+ * bound, over the usual force and the inertia force [-]. */
 static const double SOLID_NOISE = 1.0;
 
-/* 1 if the update changes solid elements so much that their forces are not those of the solve. */
+/* 1 if the update changes solid elements too much for the solve's linearised forces. */
 static int deforms_roughly(const sw_system *s, const sw_stage *stage, const sw_newton *newton,
                            double rate2) {
   if (newton->statics) return 0;
@@ -238,8 +235,8 @@ static double usual_force_at(const sw_system *s, size_t node) {
   return usual_force(s, &s->bodies[sw_system_body_of(s, node)]);
 }
 
-/* 1 if some tie's pull at the new places differs from the linearised pull that the solve used. This
- * happens if the tie was slack before the update, or turned far in it. */
+/* 1 if some tie's pull at the new places differs from the linearised pull of the solve: the tie was
+ * slack before the update, or turned far in it. */
 static int mistakes_ties(const sw_system *s, const double *y) {
   if (sw_part_is_single(s)) return 0;
   for (size_t k = 0; s->joins && k < s->joins->spring_count; k++) {
@@ -255,7 +252,7 @@ static int mistakes_ties(const sw_system *s, const double *y) {
 
 int sw_stage_converged(sw_system *s, const sw_stage *stage, const sw_newton *newton,
                        const sw_stage_report *report, double rate2) {
-  /* contact is told of rough updates too: the next iteration starts from what it finds */
+  /* contact sees rough updates too: the next iteration starts from its findings */
   s->rough = sw_factors_stale(s, report) || report->rotation > newton->accept_rotation ||
              bends_roughly(s, stage, newton, rate2) || pulls_roughly(s, stage, newton, report) ||
              deforms_roughly(s, stage, newton, rate2);

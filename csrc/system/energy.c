@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Energies of the state or of a trial, and powers of forces without a potential. */
 #include "system/energy.h"
 
 #include <string.h>
@@ -8,7 +9,7 @@
 #include "system/spin.h"
 #include "system/strain.h"
 
-/* Start of the part of the state that is followed from step to step: twist, turn and frames. */
+/* Start of the part of the state that sw_system_follow updates: twist, turn and frames. */
 static double *followed(const sw_system *s) { return s->tension + s->edges; }
 
 void sw_system_look_at(sw_system *s, sw_glance *g, const double *x, const double *v,
@@ -29,7 +30,7 @@ void sw_system_look_back(sw_system *s, const sw_glance *g) {
   memcpy(followed(s), s->aside, s->follow_size * sizeof *s->aside);
 }
 
-/* 1 for forces without an energy, of which the power is computed. */
+/* 1 for forces without an energy; their power is computed instead. */
 static int has_power(const sw_force_class *cls) {
   return (cls->flags & (SW_FORCE_DISSIPATIVE | SW_FORCE_EXPLICIT | SW_FORCE_DRIVEN)) != 0;
 }
@@ -53,7 +54,7 @@ static double *place_of(const sw_force_class *cls, sw_energies *out) {
   return strcmp(cls->name, "gravity") == 0 ? &out->gravity : &out->stored;
 }
 
-/* Replaces the term's history by what it will be after the commit. */
+/* Replaces the term's history by the history after the commit. */
 static void commit_aside(const sw_system *s, sw_body *b, sw_term *term, sw_committed *end) {
   sw_field *f = &b->field;
   double *room = s->trial_history;
@@ -81,7 +82,7 @@ static void weigh(sw_system *s, sw_body *b, int lumped, sw_committed *end, sw_en
   }
 }
 
-/* A body that waits is weighed in the first trial only. */
+/* A waiting body is weighed in the first trial only. */
 void sw_system_energies(sw_system *s, int lumped, sw_committed *end, sw_energies *out) {
   *out = (sw_energies){.kinetic = sw_system_kinetic(s, lumped)};
   if (end) end->lost = 0;
@@ -125,7 +126,8 @@ static double power_of(const sw_field *f) {
   return sum;
 }
 
-/* Forces with SW_FORCE_POWER know their power better than force times velocity (field.h). */
+/* Forces with SW_FORCE_POWER compute their power more exactly than force times velocity
+ * (field.h). */
 static sw_status power_of_term(const sw_term *term, sw_field *f, double *power, sw_error *err) {
   const int knows = (term->cls->flags & SW_FORCE_POWER) != 0;
   f->want = knows ? SW_WANT_POWER : SW_WANT_FORCE;
@@ -142,7 +144,7 @@ sw_status sw_system_powers(sw_system *s, double time, sw_powers *out, sw_error *
   memcpy(s->velocity, s->v, 3 * s->nodes * sizeof *s->velocity);
   sw_strain_show_held_rates(s, s->velocity);
   SW_ITEMS(sw_body, b, s->bodies, s->body_count) {
-    if (b->waits) continue; /* forces without potential have no power on it */
+    if (b->waits) continue; /* forces without potential do no work on it */
     b->field.v = s->velocity + 3 * b->first_node;
     SW_ITEMS(const sw_term, term, b->terms, b->term_count) {
       double power;

@@ -11,8 +11,8 @@
 #include "system/twist.h"
 #include "system/web.h"
 
-/* Where the stiffness jumps, Newton may alternate between both sides. After this many iterations,
- * every other one is cautious. */
+/* Where the stiffness jumps, Newton may alternate between both sides. After QUICK iterations every
+ * other one is cautious. */
 enum { QUICK = 4 };
 
 void sw_body_aim(const sw_system *s, sw_body *b, const double *x, const double *v) {
@@ -33,7 +33,7 @@ void sw_body_begin(sw_body *b) {
   if (b->plan->web && b->field.want & SW_WANT_STIFFNESS) sw_web_begin(b);
 }
 
-/* With many nodes each term takes its time, so the user's wish to stop is checked between terms. */
+/* With many nodes each term takes long, so the user's wish to stop is checked between terms. */
 static sw_status eval_terms(sw_body *b, sw_error *err) {
   for (size_t k = 0; k < b->term_count; k++) {
     if (sw_interrupted()) return SW_EINTR;

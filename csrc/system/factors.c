@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Decides if a solve takes old factors, and checks its error. */
 #include "system/factors.h"
 
 #include <math.h>
@@ -8,20 +9,20 @@
 #include "system/bridge.h"
 #include "system/web.h"
 
-/* Factors are reused while no edge has changed by more than this share of its length [-], and for
- * at most this many solves in a row in a stage. */
+/* Factors are used again while no edge has changed by more than this share of its length [-], and
+ * for at most MOST_SOLVES solves in a row in a stage. */
 static const double SERVES = 0.02;
 enum { MOST_SOLVES = 3 };
 
 /* A Newton step leaves an error of about half the square of the edges' change. Solves with old
- * factors may leave at most half of that, estimated from the decrease of the last two solves, or a
- * change too small to cause any force [-]. Their convergence is not known in advance: a turn of a
- * stiff part acts on a soft one, multiplied by the ratio of stiffnesses. */
+ * factors may leave half of that, estimated from the last two solves, or a change too small to
+ * cause any force [-]. Their convergence is not known in advance: a turn of a stiff part acts on a
+ * soft one, multiplied by the ratio of stiffnesses. */
 static const double GOOD = 0.25, NOTHING = 1e-8;
-static const double SLOW = 0.3; /* slower decrease of the change: old factors are given up [-] */
+static const double SLOW = 0.3; /* a slower decrease of the change ends their use [-] */
 
-/* 1 if the stiffness has no jumps: from elements, and from terms that take power from the motion.
- */
+/* 1 if the stiffness has no jumps: all of it is of elements and of terms that take power from the
+ * motion. */
 static int is_smooth(const sw_body *b) {
   const sw_web *w = b->plan->web;
   if (!w || !w->solids || w->links || w->folds || w->creases || w->slides || b->web_room) return 0;

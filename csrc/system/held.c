@@ -43,7 +43,7 @@ static void add_own(sw_vec *f, const double *u, const double *d) {
   f->z += u[2] * d[0] + u[4] * d[1] + u[5] * d[2];
 }
 
-/* Computes the reaction after the update delta, linearised as in the solve. */
+/* Computes the reaction after the update delta, with the solve's linearisation. */
 static void update_reaction(sw_held_node *h, const sw_body *b, const double *delta) {
   const size_t i = h->node - b->first_node, n = b->plan->nodes;
   const double *d = delta + 3 * h->node;

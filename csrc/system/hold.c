@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Holds: places their nodes and computes the loads they bear. */
+/* Holds: places their nodes and computes their loads. */
 #include <math.h>
 
 #include "base/each.h"
@@ -52,7 +52,7 @@ void sw_system_held_velocity(const sw_system *s, const sw_held_node *held, doubl
   place_node(&s->hold_states[held->hold], held->local, NULL, v, NULL);
 }
 
-/* 1 if the hold's wire waits: what it bears is that of an earlier step. */
+/* 1 if the hold's wire waits: its load is that of an earlier step. */
 static int bears_still(const sw_system *s, int hold) {
   return s->waiting && s->standing[hold].stands && s->bodies[s->standing[hold].body].waits;
 }
@@ -61,7 +61,7 @@ static void move_moment(sw_hold_load *load, sw_vec from, sw_vec to) {
   load->moment = sw_add(load->moment, sw_cross(sw_sub(from, to), load->force));
 }
 
-/* Adds the moments of clamps on directions: of hold `hold` to *out, or for -1 of every hold to
+/* Adds the moments of clamps on directions: of hold `hold` to *out; for -1 of every hold to
  * out[hold]. */
 static void add_clamp_moments(const sw_system *s, int hold, sw_hold_load *out) {
   for (size_t b = 0; b < s->body_count; b++) {

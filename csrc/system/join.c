@@ -206,7 +206,7 @@ sw_vec sw_join_hub_moment(const sw_join_hub *h, size_t number, const double *x) 
   return sw_scale(sw_cross(arms[number].p, arms[number].r), h->arms[number].k);
 }
 
-/* Stiffness about a free axis that keeps the matrix regular, over the sum of all arms' stiffness
+/* Stiffness about a free axis, so that the matrix is regular; over the sum of all arms' stiffness
  * [-]. */
 static const double FREE_AXIS = 1e-9;
 
@@ -221,7 +221,7 @@ static void turn_compliance(const sw_join_hub *h, const arm *arms, double out[9]
     sw_add_outer(H, arms[a].r, arms[a].p, -0.5 * k);
     sum += k;
   }
-  /* parallel arms do not feel that axis: any stiffness there gives the same result */
+  /* parallel arms do not turn with that axis: any stiffness there gives the same result */
   add_unit(H, FREE_AXIS * sum);
   invert(H, out);
 }
@@ -249,7 +249,7 @@ static sw_status add_arms(sw_system *s, const struct sw_join_arm *a, const struc
   for (size_t m = 0; m < 2; m++)
     for (size_t n = 0; n < 2; n++) {
       const double *k = m == n ? K : minus;
-      /* a node of both arms gets the block and its transpose */
+      /* a node in both arms gets the block and its transpose */
       for (int c = 0; c < 9; c++) both[c] = k[c] + k[3 * (c % 3) + c / 3];
       SW_TRY(add_block(s, i[m], j[n], i[m] == j[n] ? both : k));
     }
@@ -307,7 +307,7 @@ void sw_joins_mark(sw_system *s) {
     for (size_t a = 0; a < l->hubs[k].count; a++) mark(s, l->hubs[k].arms[a].from);
 }
 
-/* 1 if the bodies of a join wait: all of them do, or none. */
+/* 1 if the node's body waits. Joined bodies all wait, or none does. */
 static int waits(const sw_system *s, uint32_t node) {
   return s->waiting && s->bodies[sw_system_body_of(s, node)].waits;
 }
@@ -359,8 +359,8 @@ static double along(const sw_system *s, uint32_t edge, uint32_t node) {
   return to < at[0] ? at[0] - to : to > at[1] ? to - at[1] : 0.0;
 }
 
-/* Distance from a join along both wires, over the sum of their radii, within which they do not
- * touch each other [-]. */
+/* Along both wires within this distance from a join, over the sum of their radii, contact between
+ * them is ignored [-]. */
 static const double AT_A_JOIN = 4.0;
 
 static double radius_at(const sw_system *s, uint32_t node) {

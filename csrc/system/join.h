@@ -8,7 +8,7 @@
 #include "system/system.h"
 
 /* Keeps x_i - x_j at offset. Or a tie, with energy 1/2 k (|x_i - x_j| - slack)^2: pulls x_i and x_j
- * together if they are further apart than slack. */
+ * together if their distance exceeds slack. */
 typedef struct sw_join_spring {
   uint32_t i, j; /* nodes */
   double k;      /* [N/m] */
@@ -19,8 +19,8 @@ typedef struct sw_join_spring {
 
 enum { SW_HUB_ARMS = 8 };
 
-/* A rigid piece in which wires are fixed. Its arms have directions p and rest directions d; with
- * the best fitting rotation R, its energy is sum k (1 - p . R d). */
+/* A rigid piece with wires fixed in it. Its arms have directions p and rest directions d; with the
+ * best fitting rotation R its energy is sum k (1 - p . R d). */
 typedef struct sw_join_hub {
   size_t count;
   struct sw_join_arm {
@@ -44,10 +44,10 @@ sw_status sw_system_add_hub(sw_system *system, const sw_join_hub *hub);
 /* Plans the bridges of all joins again. SW_ENOMEM. */
 sw_status sw_joins_plan(sw_system *system);
 
-/* Marks the bodies of all joins as coupled (system/part.h), except those that wait. */
+/* Marks the bodies of all joins as coupled (system/part.h), except waiting ones. */
 void sw_joins_mark(sw_system *system);
-/* Wakes the bodies that are joined to others that do not wait (system/wait.h). Returns 1 if there
- * were any. */
+/* Wakes waiting bodies that are joined to awake ones (system/wait.h). Returns 1 if there were
+ * any. */
 int sw_joins_wake(sw_system *system);
 
 /* Adds forces and stiffness at y to the bodies' fields and to the bridges. SW_ENOMEM. */
@@ -65,8 +65,8 @@ sw_vec sw_join_hub_moment(const sw_join_hub *hub, size_t arm, const double *x);
 
 double sw_joins_energy(const sw_system *system); /* at the state [J] */
 
-/* 1 if the edges that start at nodes one and two are, each along its wire, so near a join of their
- * wires that contact between them is ignored. */
+/* 1 if the edges from nodes one and two are, each along its wire, too near a join of their wires
+ * for contact between them. */
 int sw_joins_near(const sw_system *system, uint32_t one, uint32_t two);
 
 void sw_joins_free(sw_system *system);

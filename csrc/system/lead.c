@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Statics: the held nodes' remaining distance in the equations, and repeated solves of touching
+ * wires. */
 #include "system/lead.h"
 
 #include "base/each.h"
 
-/* Most solves in a row at one place while touches come and go. */
+/* Largest number of repeated solves at one place while touches come and go. */
 enum { MOST_WAITS = 40 };
-/* Most shortened updates; solves that converge need up to 7. */
+/* Largest number of shortened updates; solves that converge need up to 7. */
 enum { MOST_SHORTENED = 16 };
 
 static int is_led(const sw_system *s, const sw_held_node *h) {

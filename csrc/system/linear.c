@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Small motions of a body about the state: stiffness K, consistent mass M, and factors of K - shift
- * M. Held nodes do not move. The product with K goes edge by edge. Rows of the matrix would add
- * blocks that exceed the force of a smooth motion by up to the fourth power of the number of
+ * M. Held nodes do not move. The product with K goes edge by edge. With the matrix's rows it would
+ * add blocks that exceed the force of a smooth motion by up to the fourth power of the number of
  * segments, and their rounding would drown that force. */
 #include "system/linear.h"
 
@@ -59,9 +59,9 @@ size_t sw_system_free_unknowns(const sw_system *s, size_t body) {
   return 3 * (b->plan->nodes - held) + (b->spin_block ? sw_spin_free_turns(s, b) : 0);
 }
 
-/* A factor consists of the band's factor; with twist also of its inverse times the spans' slopes
- * (nodes x 3), and each span's term of Sherman and Morrison. With frames: the band of four, and
- * work space for a band of three. */
+/* A factor is the band's factor; with twist also the band's inverse times the spans' slopes (nodes
+ * x 3), and each span's term of Sherman and Morrison. With frames it is the band of four, and work
+ * space for a band of three. */
 size_t sw_system_factor_size(const sw_system *s, size_t body) {
   const sw_body *b = &s->bodies[body];
   if (b->spin_block) return (SW_ROW4_SIZE + SW_ROW_SIZE) * b->plan->nodes;
@@ -121,7 +121,7 @@ static void shifted_rows(const sw_system *s, size_t body, double shift, double *
     if (s->held[i].body == body) sw_drop_row(rows, s->held[i].node - b->first_node);
 }
 
-/* A held node separates the spans in the matrix, so each is corrected by itself. */
+/* A held node separates the spans in the matrix, so each has its own correction. */
 static size_t factor_twist(const sw_system *s, size_t body, double *factor) {
   const sw_body *b = &s->bodies[body];
   double *solved = factor + SW_ROW_SIZE * b->plan->nodes, *self = solved + 3 * b->plan->nodes;

@@ -7,19 +7,19 @@
 
 /* Computes forces and stiffness at the state, with zero velocities and the stored axial forces. The
  * functions below are valid until the next evaluation of any kind. Motions have (unknowns) values;
- * motions passed in must be zero at held nodes. */
+ * those of held nodes must be zero on input. */
 sw_status sw_system_linearise(sw_system *system, double time, sw_error *err);
 
-/* Computes the forces that the particles of a mesh body exert on each other at the state, on each
- * (particles x 3) [N]. */
+/* Computes the forces between the particles of a mesh body at the state, summed for each (particles
+ * x 3) [N]. */
 sw_status sw_system_inner_forces(sw_system *system, size_t body, double *out, sw_error *err);
 
 /* Factorises a mesh of a linearised system with these particles fixed (flag 1, particles). Call
  * once per linearisation; fails as sw_blocks_factor. */
 sw_status sw_system_fix_particles(sw_system *system, size_t body, const unsigned char *fixed);
 /* After that, any number of times. in: motion (particles x 3) of the fixed particles, 0 for the
- * others. out: motion of all, where the others follow without load; push: the loads on the fixed
- * ones [m], [N]. */
+ * others. out: motion of all, with the others free of load; push: the loads on the fixed ones [m],
+ * [N]. */
 void sw_system_carry(const sw_system *system, size_t body, const unsigned char *fixed,
                      double *motion, double *push);
 
@@ -31,14 +31,14 @@ size_t sw_system_factor_size(const sw_system *system, size_t body); /* in double
 void sw_system_residual(const sw_system *system, size_t body, double *out);
 /* Nodes' displacements in a motion: (nodes x 3) [m]. */
 void sw_system_shifts(const sw_system *system, size_t body, const double *motion, double *out);
-/* Returns the change of the stored axial forces by the motion, relative to the largest of these
- * forces, the wire's weight and its buckling force [-]. */
+/* Returns the change of the stored axial forces by the motion, over the largest of: these forces,
+ * the wire's weight, its buckling force [-]. */
 double sw_system_axial_error(const sw_system *system, size_t body, const double *motion);
-/* Zeroes a motion's held unknowns. */
+/* Sets a motion's held unknowns to zero. */
 void sw_system_fix_held(const sw_system *system, size_t body, double *motion);
 
-/* Factorises K - shift M; below receives the number of eigenvalues of K x = lambda M x that are
- * below the shift. Fails as sw_band3_factor. shift [rad2/s2] */
+/* Factorises K - shift M. below: number of eigenvalues of K x = lambda M x below the shift. Fails
+ * as sw_band3_factor. shift [rad2/s2] */
 sw_status sw_system_factor(const sw_system *system, size_t body, double shift, double *factor,
                            size_t *below);
 void sw_system_factor_solve(const sw_system *system, size_t body, const double *factor, double *x);

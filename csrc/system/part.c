@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Decides if bodies are solved one by one, and lists each body's held nodes. */
 #include "system/part.h"
 
 #include "system/join.h"
@@ -9,7 +10,7 @@ int sw_parts_any(const sw_system *s, const sw_newton *newton) {
   if (s->body_count < 2 || newton->statics) return 0;
   if ((c->eval || c->settled) && !c->part) return 0;
   for (size_t b = 0; b < s->body_count; b++) {
-    if (s->bodies[b].plan->web) return 0; /* their factors are kept from stage to stage */
+    if (s->bodies[b].plan->web) return 0; /* webs keep their factors from stage to stage */
     any |= !s->bodies[b].coupled;
   }
   return any;

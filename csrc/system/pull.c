@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Axial forces and holds' loads of read-outs: between both stages, and extrapolated to the step's
+ * end. */
 #include <math.h>
 #include <string.h>
 
@@ -8,8 +10,8 @@
 #include "system/borne.h"
 #include "system/rail.h"
 
-/* Larger relative changes in a step are blows, which do not last: read-outs are extrapolated by at
- * most this share [-]. */
+/* Larger relative changes in a step are blows, which do not last. The extrapolation of read-outs
+ * adds this share at most [-]. */
 static const double SMOOTH = 0.1;
 
 sw_status sw_system_add_even(sw_system *s) {
@@ -43,7 +45,7 @@ void sw_system_add_pull(const sw_system *s, const double *tension, const double 
   }
 }
 
-/* An axial force: the mix of both stages, `behind` ago, and its extrapolation to the step's end. */
+/* An axial force: mix of both stages, `behind` ago, and its extrapolation to the step's end. */
 typedef struct evened {
   double between, now;
 } evened;
@@ -81,7 +83,7 @@ void sw_system_forget_turning(sw_system *s) {
 }
 
 /* 1 if the body's axial forces are read between both stages. Solid elements are read at the step's
- * end: springs beside them must be read there too, for both are large and nearly cancel. */
+ * end, and so are springs beside them: both are large and nearly cancel. */
 static int is_even(const sw_system *s, const sw_body *body) {
   const sw_web *web = body->plan->web;
   return s->turning[SW_TURN_EVEN] > 0 && !(web && web->solids);
@@ -121,7 +123,7 @@ static int hold_of(const sw_system *s, const sw_body *b, size_t node) {
   return -1;
 }
 
-/* Adds the part of a mesh's spring forces on held particles that exceeds the forces read out. */
+/* Adds the spring forces of a mesh on held particles, minus those of read-outs. */
 static void add_excess_of_web(const sw_system *s, const sw_body *b, const double *x, int hold,
                               sw_vec point, sw_hold_load *out) {
   const sw_plan *p = b->plan;
@@ -136,7 +138,7 @@ static void add_excess_of_web(const sw_system *s, const sw_body *b, const double
   }
 }
 
-/* Removes the force along a rail on which the node moves: it bears nothing along it. */
+/* Removes the force along a rail on which the node moves: the rail bears nothing along itself. */
 static sw_vec across_rail(const sw_system *s, const sw_held_node *h, sw_vec force) {
   const sw_rail *rail = h->rail ? &s->rails[h->rail - 1] : NULL;
   if (!rail || rail->state != SW_RAIL_GOES) return force;

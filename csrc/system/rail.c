@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Nodes on curves: places, stops at the ends, and motion from stage to stage. */
 #include "system/rail.h"
 
 #include <math.h>
@@ -7,9 +8,9 @@
 #include "base/alloc.h"
 #include "system/rail_inner.h"
 
-/* An update is the last one if the curve leaves its tangent by less than this share of an edge,
- * which is the error of its strain. With a hundred times that, a stiff wire's tension was off by
- * 1e-3 [-]. */
+/* An update is the last one if the curve leaves its tangent by less than this share of an edge;
+ * this is the error of the edge's strain. With a hundred times this share, a stiff wire's tension
+ * was off by 1e-3 [-]. */
 static const double STRAIGHT = 1e-10;
 
 size_t sw_rail_freedom(const sw_system *s, size_t k) { return 3 * s->nodes + s->rolls + k; }
@@ -27,10 +28,10 @@ sw_status sw_system_set_rails(sw_system *s, const sw_rail *rails, size_t count) 
   return SW_OK;
 }
 
-/* --- where nodes are ---------------------------------------------------------------- */
+/* --- places of nodes --------------------------------------------------------------- */
 
-/* Computes place, velocity and acceleration (each may be NULL) of a rail's node for its place, rate
- * and acceleration p. */
+/* Computes place, velocity and acceleration (each may be NULL) of a rail's node from its arc
+ * length, rate and acceleration p. */
 static void place(const sw_system *s, const sw_rail *r, const double p[3], double *x, double *v,
                   double *a) {
   const sw_hold_state *h = &s->hold_states[sw_rail_node(s, r)->hold];
@@ -79,7 +80,7 @@ static double rate_of(const sw_stage *stage, int statics) {
   return statics || !isfinite(stage->hbar) ? 0.0 : 1.0 / stage->hbar;
 }
 
-/* p = place, speed and acceleration of the iterate. */
+/* p = arc length, speed and acceleration of the iterate. */
 static void iterate_of(const sw_system *s, const sw_stage *stage, int statics, size_t k,
                        double p[3]) {
   const size_t at = sw_rail_freedom(s, k);
@@ -114,7 +115,7 @@ void sw_rails_follow(sw_system *s, const sw_stage *stage, int statics) {
     if (sw_rail_is_part(s, &s->rails[k])) follow(s, stage, statics, k);
 }
 
-/* The ends also limit a free flight that goes beyond them. */
+/* A free flight beyond an end stops there too. */
 static void keep_between(const sw_rail *r, double *p) { *p = fmin(fmax(*p, r->from), r->to); }
 
 void sw_rails_begin(sw_system *s, const sw_stage *stage, int statics) {
@@ -155,7 +156,7 @@ void sw_rails_finish(sw_system *s, const sw_stage *stage) {
   }
 }
 
-/* 1 if the curve leaves its tangent in the step by more than the error allowed to the edges beside
+/* 1 if the curve leaves its tangent in the step by more than the accepted error of the edges beside
  * it. */
 static int is_long(const sw_system *s, const sw_rail *r) {
   const sw_held_node *h = sw_rail_node(s, r);

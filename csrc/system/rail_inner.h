@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Helpers shared by the rail files. Private to them. */
+/* Helpers of rail.c and rail_solve.c. Private to them. */
 #ifndef SW_SYSTEM_RAIL_INNER_H
 #define SW_SYSTEM_RAIL_INNER_H
 
@@ -10,7 +10,7 @@ static inline const sw_held_node *sw_rail_node(const sw_system *s, const sw_rail
   return &s->held[r->held];
 }
 
-/* 1 if it belongs to the bodies that are solved now. */
+/* 1 if it belongs to the bodies of the present part. */
 static inline int sw_rail_is_part(const sw_system *s, const sw_rail *r) {
   const size_t body = sw_rail_node(s, r)->body;
   return body < s->part_end && body >= s->part && sw_part_next(s, body) == body;

@@ -17,7 +17,7 @@ static const double LARGEST_TURN = 0.5;
 /* Relative accuracy of the friction's balance with the force across [-]. */
 static const double KNOWN = 1e-7;
 
-/* --- what a shift does to the others -------------------------------------------------- */
+/* --- effect of a shift on the others ------------------------------------------------ */
 
 static sw_vec transposed_times(const double K[9], sw_vec d) {
   return sw_v(K[0] * d.x + K[3] * d.y + K[6] * d.z, K[1] * d.x + K[4] * d.y + K[7] * d.z,
@@ -29,7 +29,7 @@ void sw_rail_take(sw_rail *r, const sw_body *b, size_t i) {
   for (int k = 0; k < 9; k++) r->own[k] = b->field.rows[SW_ROW_SIZE * i + (size_t)whole[k]];
 }
 
-/* Offsets of the four neighbours whose blocks a held node has saved. */
+/* Offsets of the four neighbours in a held node's saved blocks. */
 static const long BESIDE[4] = {-2, -1, 1, 2};
 
 static int is_free(const sw_body *b, size_t i, long beside) {
@@ -103,8 +103,8 @@ static void solve_shift(sw_system *s, const sw_body *b, double *nodes, double *s
   }
 }
 
-/* Returns the change of the reaction of a rail's node by updates of nodes and spins and by its own
- * shift d. spins: every stride-th value from the body's first edge. */
+/* Returns the change of the reaction of a rail's node from updates of nodes and spins and from its
+ * own shift d. spins: every stride-th value from the body's first edge. */
 static sw_vec reaction_of(const sw_system *s, const sw_rail *r, const double *nodes,
                           const double *spins, size_t stride, sw_vec d) {
   const sw_held_node *h = sw_rail_node(s, r);
@@ -143,7 +143,7 @@ static sw_vec reaction_of(const sw_system *s, const sw_rail *r, const double *no
   return f;
 }
 
-/* Returns the reaction after the system's update and its own shift d. */
+/* Returns the reaction after the system's update and the node's own shift d. */
 static sw_vec reaction_now(const sw_system *s, const sw_rail *r, sw_vec d) {
   const sw_held_node *h = sw_rail_node(s, r);
   const sw_body *b = &s->bodies[h->body];
@@ -153,15 +153,14 @@ static sw_vec reaction_now(const sw_system *s, const sw_rail *r, sw_vec d) {
 
 /* --- the rails' own equations ----------------------------------------------------------- */
 
-/* Returns the direction in which the reaction must vanish. It includes the friction of a moving
- * node: the force across, taken in its present direction. */
+/* Returns the direction in which the reaction must vanish. For a moving node it includes friction:
+ * the force across, in its present direction. */
 static sw_vec test_of(const sw_rail *r) {
   const sw_vec n = sw_unit_or(sw_rail_across(r, r->before), sw_v(0, 0, 0));
   return sw_madd(r->along, n, r->way * r->friction);
 }
 
-/* Sets the step to where the place must go for other reasons than forces (sticking, or at an end).
- * Returns 1 if it must go there. */
+/* Sets the step of a node that sticks or is at an end. Returns 1 for such a node. */
 static int is_given(const sw_rail *r, const sw_stage *stage, size_t at, double *step) {
   const double to = r->state == SW_RAIL_STICKS    ? stage->xhat[at]
                     : r->state == SW_RAIL_AT_FROM ? r->from
@@ -172,7 +171,7 @@ static int is_given(const sw_rail *r, const sw_stage *stage, size_t at, double *
 
 static double *shift_of(const sw_system *s, size_t k) { return s->rail_room + 4 * s->nodes * k; }
 
-/* Sets up the rails' equations in A and b. Rails of other parts stay. */
+/* Sets up the rails' equations in A and b. Rails of other parts do not move. */
 static void set_up(sw_system *s, const sw_stage *stage, double *A, double *b) {
   const size_t m = s->rail_count;
   memset(A, 0, (m * m + m) * sizeof *A);
@@ -219,7 +218,7 @@ static void carry(sw_system *s, size_t k) {
   sw_store(s->delta + 3 * node, sw_scale(r->along, r->step));
 }
 
-/* Computes the torques that the update adds to spans, with the part of the rails' nodes. */
+/* Computes the torques of spans from the update, including the rails' nodes. */
 static void take_gains(sw_system *s) {
   if (sw_bridges_any(s)) sw_bridges_take_solution(s);
   SW_PART_EACH(s, b) {
@@ -238,14 +237,14 @@ static void take_gains(sw_system *s) {
   }
 }
 
-/* The node starts to slide, because the force along the curve exceeds the friction limit. */
+/* The force along the curve exceeds the friction limit: the node starts to slide. */
 static void let_go(sw_rail *r, double along) {
   r->state = SW_RAIL_GOES;
   r->way = along > 0 ? -1.0 : 1.0;
   r->open = 1;
 }
 
-/* Checks after the update whether the node still stands, or still moves the same way. */
+/* After the update: checks if the node still stands, or still moves the same way. */
 static void review(const sw_system *s, const sw_stage *stage, size_t k) {
   sw_rail *r = &s->rails[k];
   const size_t at = sw_rail_freedom(s, k);

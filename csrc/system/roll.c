@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* An edge's turn within a step is counted from its frame at the step's start, carried along a great
  * circle to its present tangent. The frames themselves are carried from iterate to iterate, so they
- * turn by the area between both paths. */
+ * also turn by the area between both paths. */
 #include "system/roll.h"
 
 #include <math.h>
@@ -50,8 +50,8 @@ void sw_roll_predict(const sw_system *s, sw_body *b, double rate2) {
   sw_spin_turn_by(b, b->field.scratch[0], 1, 1.0);
 }
 
-/* Edges may turn by more than half a turn at once. Only the fraction of a turn of a hinge's twist
- * can be measured, so the hinges' twist is advanced here as well. */
+/* Edges may turn by more than half a turn at once. A hinge's twist can only be measured up to whole
+ * turns, so it is advanced here as well. */
 void sw_roll_add(sw_body *b, const double *angle, size_t stride, double share) {
   const sw_plan *p = b->plan;
   if (!b->roll_block) return;
@@ -68,7 +68,7 @@ void sw_roll_add(sw_body *b, const double *angle, size_t stride, double share) {
 }
 
 /* Adds the areas of the triangles (from, before, now) to the turns where they are small. Returns
- * the number of the others. */
+ * the number of large ones. */
 SW_HOT
 static long add_areas(size_t m, const double *restrict fx, const double *restrict fy,
                       const double *restrict fz, const double *restrict bx,
@@ -91,7 +91,7 @@ static long add_areas(size_t m, const double *restrict fx, const double *restric
   return others;
 }
 
-/* Returns the area where it is not small, else 0. */
+/* Returns the area if it is large, else 0. */
 static double large_area(double *const from[3], double *const before[3], double *const now[3],
                          size_t e) {
   const sw_vec a = sw_vec_across(from, e), b = sw_vec_across(before, e), c = sw_vec_across(now, e);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Frames are stored as one vector per edge, not as angles. An update carries this vector with the
- * tangent and turns it about the tangent, so many turns cause no branch and no drift. Only the
+/* Each edge's frame is stored as one vector, not as an angle. An update carries this vector with
+ * the tangent and turns it about the tangent, so many turns cause no branch and no drift. Only the
  * twist of hinges needs its last value, to choose among equal angles; this is valid while an
- * iteration turns no hinge by more than pi. Spins have no inertia, because torsional waves are far
- * faster than handling, unless the wire rolls (roll.h). */
+ * iteration turns no hinge by more than pi. Spins have no inertia, unless the wire rolls (roll.h):
+ * torsional waves are far faster than handling. */
 #include "system/spin.h"
 
 #include <math.h>
@@ -93,7 +93,7 @@ static sw_edge_frame edge_frame(const sw_body *b, size_t e) {
   return (sw_edge_frame){sw_vec_across(b->spin_tangent, e), sw_vec_across(b->spin_normal, e)};
 }
 
-/* sw_hinge_twist between all edges, for its usual case only. Returns the number of other cases. */
+/* sw_hinge_twist between all edges, usual case only. Returns the number of other cases. */
 SW_HOT
 static long small_twists(size_t n, const double *restrict tx, const double *restrict ty,
                          const double *restrict tz, const double *restrict nx,
@@ -147,7 +147,7 @@ static sw_vec square_up(sw_vec n, sw_vec t) {
   return sw_unit_or(sw_madd(n, t, -sw_dot(n, t)), sw_perpendicular(t));
 }
 
-/* Turns edges between two nodes of one hold with it. */
+/* Turns edges between two nodes of one hold with that hold. */
 static void turn_held_edges(const sw_system *s, sw_body *b) {
   for (size_t i = 0; i + 1 < s->held_count; i++) {
     const long held = sw_spin_held_edge(s, b, i);
@@ -165,7 +165,7 @@ static void turn_held_edges(const sw_system *s, sw_body *b) {
   }
 }
 
-/* sw_carry_unit for all edges, for its usual case only. Returns the number of other cases. */
+/* sw_carry_unit for all edges, usual case only. Returns the number of other cases. */
 SW_HOT
 static long carry_all(size_t m, const double *restrict tx, const double *restrict ty,
                       const double *restrict tz, const double *restrict bx,
@@ -197,7 +197,7 @@ static void carry_on(sw_body *b, double *const t[3]) {
   for (size_t k = 0; k < 3; k++) memcpy(o[k], t[k], m * sizeof(double));
 }
 
-/* The same to the body's positions x. */
+/* Carries all frames to the body's positions x. */
 static void carry_to(sw_body *b, const double *x) {
   double *const *t = b->field.scratch;
   sw_edge_directions(0, b->plan->edges - 1, x, t[0], t[1], t[2]);

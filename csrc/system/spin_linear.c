@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Small motions of bodies with frames. Turns have inertia where the wire rolls; elsewhere they have
+/* Small motions of bodies with frames. Turns have inertia in wires that roll; in others they have
  * no mass and follow the nodes. */
 #include "solve/band4.h"
 #include "system/spin.h"
 
-/* Called for each edge inside a hold, which does not turn by itself. */
+/* Called for each edge inside a hold; such an edge does not turn by itself. */
 typedef void (*visit)(double *turns, size_t edge);
 
 static void each_held(const sw_system *s, const sw_body *b, visit what, double *turns) {
@@ -41,7 +41,7 @@ static double product(double *const *c, size_t at, const double *v) {
   return c[0][at] * v[0] + c[1][at] * v[1] + c[2][at] * v[2];
 }
 
-/* The part of edge e: its own spin and those of its neighbours. */
+/* The part of edge e: its own spin and its neighbours' spins. */
 static void edge_part(const sw_body *b, size_t e, const double *d, double *out) {
   double *const *c = b->field.spin_edge;
   const double *at = d + 4 * e;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The equations of a body with frames: each node has four unknowns, its place and the turn of the
- * edge that starts there. */
+ * edge from there. */
 #include <math.h>
 
 #include "base/simd.h"
@@ -9,8 +9,8 @@
 #include "system/roll.h"
 #include "system/spin.h"
 
-/* Stiffness against spin where nothing else holds the edge, over the edge's own torsional stiffness
- * [-]. It is only in the matrix, so equilibria stay exact. */
+/* Stiffness against spin of an edge that turns freely, over the edge's own torsional stiffness [-].
+ * It is only in the matrix, so equilibria stay exact. */
 static const double LEAST_STIFFNESS = 1e-9;
 
 /* Widens a row of three to one of four. */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Solves one implicit stage by the mixed Newton: the axial force of each edge is an independent
- * unknown. The geometric stiffness uses the stored force, the residual the force that belongs to
- * the displacements, and after each solve the stored force is advanced by the linearised axial law.
- * So a large axial stiffness costs no iterations. */
+ * unknown. The geometric stiffness has the stored force, the residual the force at the present
+ * displacements. After each solve the linearised axial law advances the stored force. So a large
+ * axial stiffness costs no iterations. */
 #include <math.h>
 #include <string.h>
 
@@ -28,8 +28,8 @@
 #include "system/wait.h"
 #include "system/web.h"
 
-/* Computes axial forces after delta by the linearised law. Returns the square of the largest
- * rotation of an edge. */
+/* Computes axial forces after delta by the linearised law. Returns the square of an edge's largest
+ * rotation. */
 SW_HOT
 static double advance_tension(size_t m, const double *restrict delta, const double *restrict rest,
                               const double *restrict l, const double *restrict rl,
@@ -73,7 +73,7 @@ static void stage_velocity(const sw_system *s, const sw_stage *stage, int static
   if (!statics) sw_rails_velocity(s, stage, s->velocity);
 }
 
-/* Solves for the update of a body that no bridge connects to others. */
+/* Solves for the update of a body without bridges. */
 static sw_status solve_body(const sw_system *s, sw_body *body, size_t *negative) {
   double *delta = s->delta + 3 * body->first_node;
   if (s->goes_on) {
@@ -155,9 +155,9 @@ static double advance_axial(sw_system *s, const sw_body *b) {
 /* Largest shift that a static solve may give an unheld mesh, over its radius [-]. */
 static const double LOOSE = 0.1;
 
-/* An unheld mesh has directions without stiffness. Rounding alone could throw it far away in these,
- * to where nothing pulls at it any more. Returns 1 if the update is so large that this may have
- * happened. With inertia, which pseudo-transient steps have, the motion is determined. */
+/* An unheld mesh has directions without stiffness. In these, rounding alone could throw it to where
+ * nothing pulls at it any more. Returns 1 if the update is that large. Inertia, also that of
+ * pseudo-transient steps, determines the motion. */
 static int flies_off(const sw_body *b, const double *delta) {
   const double most = LOOSE * b->plan->beam.radius;
   double largest = 0;
@@ -168,9 +168,8 @@ static int flies_off(const sw_body *b, const double *delta) {
   return largest > most;
 }
 
-/* Returns the share of the update to make: less than 1 if the coupling or a solid element limits it
- * or an edge would turn too far, 0 if an unheld mesh would fly off, -1 if the update is not finite.
- */
+/* Returns the share of the update to make: less than 1 if the coupling, a solid element or an
+ * edge's rotation limits it, 0 if an unheld mesh would fly off, -1 if the update is not finite. */
 static double share_of(sw_system *s, const sw_newton *newton, sw_stage_report *report) {
   double largest = 0, share = report->share;
   int flying = 0;
@@ -268,28 +267,29 @@ static void finish(sw_system *s, const sw_stage *stage, int statics) {
   sw_strain_finish(s, stage->y);
 }
 
-/* Spins without inertia may have no equilibrium nearby, as when a flat wire on its edge is let go.
- * From this iteration on they have inertia. */
+/* Spins without inertia may have no equilibrium nearby, e.g. after the release of a flat wire on
+ * its edge. From iteration STEADY on they have inertia. */
 enum { STEADY = 7 };
 
-/* Returns the most iterations: twice as many for wires in a bundle, because their many touches need
- * more to agree and this costs less than two half steps; also for single wires that are solved one
- * by one [-]. */
+/* Returns the largest number of iterations: twice as many for wires in a bundle, because their many
+ * touches need more to agree and this costs less than two half steps; also for single wires that
+ * are solved one by one [-]. */
 static int most_iterations(const sw_system *s, const sw_newton *newton) {
   const int bundle = sw_bridges_any(s) && !newton->statics;
   return newton->max_iterations * (bundle || sw_part_is_single(s) ? 2 : 1);
 }
 
-/* If wires of a bundle would be thrown so far that an update must be shortened, touches have little
- * to go by. After this many shortened updates they hardly ever converged [-]. */
+/* If an update throws wires of a bundle too far, touches learn little from it. After this many
+ * shortened updates stages hardly ever converged [-]. */
 enum { MOST_THROWN = 3 };
 
 static int is_thrown(const sw_system *s, const sw_newton *newton, int shortened) {
   return shortened >= MOST_THROWN && !newton->statics && sw_bridges_any(s);
 }
 
-/* Touches of a bundle that do not agree shorten update after update. Of stages that lost more whole
- * updates than this, about one in twenty converged; the others took all iterations in vain [-]. */
+/* Touches of a bundle that do not agree shorten update after update. About one in twenty stages
+ * converged after losing more whole updates than this; the others took all iterations in vain
+ * [-]. */
 static const double MOST_LOST = 6.0;
 
 static int disagrees(const sw_system *s, const sw_newton *newton, double lost) {
@@ -299,7 +299,7 @@ static int disagrees(const sw_system *s, const sw_newton *newton, double lost) {
 static sw_status iterate(sw_system *s, const sw_stage *stage, const sw_newton *newton,
                          sw_stage_report *report, sw_error *err) {
   int waits = 0, far = 0, shortened = 0;
-  double lost = 0; /* sum of what touches shortened updates by, as shares of these [-] */
+  double lost = 0; /* sum of the shares by which touches shortened updates [-] */
   for (int i = 1; i <= most_iterations(s, newton); i++) {
     report->iterations = i;
     if (sw_interrupted()) return SW_EINTR;
@@ -326,7 +326,7 @@ static sw_status iterate(sw_system *s, const sw_stage *stage, const sw_newton *n
                  report->iterations == 1 ? "" : "s");
 }
 
-/* Solves one part. The report shows the part that took most iterations. */
+/* Solves one part. The report is of the part with most iterations. */
 static sw_status iterate_part(sw_system *s, const sw_stage *stage, const sw_newton *newton,
                               sw_stage_report *report, sw_error *err) {
   sw_stage_report own = {0};
@@ -339,7 +339,7 @@ static sw_status iterate_part(sw_system *s, const sw_stage *stage, const sw_newt
 }
 
 /* Solves the bodies without coupling one after another, then the coupled ones together, so that
- * their bridges are still there when the stage is finished. One evaluation covers all bodies. */
+ * their bridges are still there at the stage's end. One evaluation covers all bodies. */
 static sw_status iterate_parts(sw_system *s, const sw_stage *stage, const sw_newton *newton,
                                sw_stage_report *report, sw_error *err) {
   sw_status status = SW_OK;
@@ -361,7 +361,7 @@ static sw_status iterate_parts(sw_system *s, const sw_stage *stage, const sw_new
   return status;
 }
 
-/* 1 if there is only one body, and it waits. */
+/* 1 if there is one body only, and it waits. */
 static int all_waits(const sw_system *s) { return s->body_count == 1 && s->bodies[0].waits; }
 
 static sw_status solve(sw_system *s, const sw_stage *stage, const sw_newton *newton,

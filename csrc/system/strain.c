@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Strains of edges, directions at clamps and places of held nodes, with rates by the method's
+ * formula. */
 #include "system/strain.h"
 
 #include <math.h>
@@ -137,8 +139,8 @@ sw_status sw_system_held_anew(sw_system *s, double t, sw_error *err) {
   return SW_OK;
 }
 
-/* Rotates vectors from the holds' coordinates to the world. Returns the body's part of clamps_now.
- */
+/* Rotates vectors from the holds' coordinates to the world. Returns the body's part of
+ * clamps_now. */
 static double *show(const sw_system *s, const sw_body *b, const double *vectors) {
   double *now = s->clamps_now + (b->first_clamp - s->edges);
   for (size_t c = 0; c < b->kept_clamps; c++)
@@ -163,8 +165,8 @@ void sw_strain_show_rates(sw_system *s, sw_body *b) {
   b->field.clamp_rate = s->strain_rate && b->kept_clamps ? show(s, b, s->strain_rate) : NULL;
 }
 
-/* Sets the edges at clamps as the last update leaves them: a clamp's moment is computed from these
- * edges. In a stiff hinge even the small last update changes this moment by more than its value. */
+/* Sets the edges at clamps to those after the last update: a clamp's moment is computed from them.
+ * In a stiff hinge even the small last update changes this moment by more than its value. */
 static void turn_clamped_edges(sw_system *s, const double *y) {
   SW_ITEMS(sw_body, b, s->bodies, s->body_count) {
     for (size_t c = 0; c < b->plan->clamp_count; c++) {

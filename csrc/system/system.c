@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Makes and frees a system, its histories, read-outs of the state, and the stable step of
+ * leapfrog. */
 #include "system/system.h"
 
 #include <math.h>
@@ -189,7 +191,7 @@ static void aim(sw_system *s, sw_body *b) {
   sw_strain_show_rates(s, b);
 }
 
-/* 1 if its geometry is still that of the trial that became the state. */
+/* 1 if its field still has the geometry of the trial that became the state. */
 static int is_measured(const sw_system *s, const sw_body *b) {
   if (b->waits && b->field.is_judged) return 1;
   if (!b->field.is_judged || !s->judged) return 0;
@@ -197,7 +199,7 @@ static int is_measured(const sw_system *s, const sw_body *b) {
   return memcmp(x, b->field.x, 3 * b->plan->nodes * sizeof *x) == 0;
 }
 
-/* A body that waits needs no new measuring until it is solved again. */
+/* A waiting body needs no new measurement until its next solve. */
 static void measure(sw_body *b) {
   sw_field_geometry(&b->field);
   b->field.is_judged = b->waits;
@@ -323,8 +325,8 @@ double sw_system_term_energy(sw_system *s, size_t body, size_t term, double *ben
   return f->energy;
 }
 
-/* Retardation times of a body's dashpots: their force per rate over the stiffness beside them [s].
- */
+/* Retardation times of a body's dashpots: their force per rate over the stiffness beside them
+ * [s]. */
 typedef struct lags {
   double axial, bending;
 } lags;
@@ -339,8 +341,8 @@ static lags lags_of(const sw_body *b) {
   return lag;
 }
 
-/* Returns the largest stable step of leapfrog with dashpots, whose force is that of the velocity
- * before: 2/omega (sqrt(1 + zeta^2) - zeta) with zeta = lag omega/2. undamped: 2/omega [s]. */
+/* Returns the largest stable step of leapfrog with dashpots, whose force has the velocity of the
+ * step before: 2/omega (sqrt(1 + zeta^2) - zeta) with zeta = lag omega/2. undamped: 2/omega [s]. */
 static double damped(double undamped, double lag) {
   const double zeta = lag / undamped;
   return undamped / (hypot(1.0, zeta) + zeta);

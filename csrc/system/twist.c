@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Follows the twist of spans from step to step. From tangents (a0, b0) to (a, b) the twist of a
+/* Advances the twist of spans from step to step. From tangents (a0, b0) to (a, b) the twist of a
  * hinge changes by minus the area of the spherical triangles (a0, a, b) and (a0, b, b0). This is
  * exact for any step, and has no branch cuts while a step turns nothing by pi. Summed over a span
  * it is Fuller's writhe formula, so many turns add up without error. */
@@ -41,8 +41,7 @@ static double hinge_change(sw_vec a0, sw_vec b0, sw_vec a, sw_vec b) {
   return -(triangle(a0, a, b) + triangle(a0, b, b0));
 }
 
-/* Returns the angle by which a hold turned about its director, beyond carrying the director along.
- */
+/* Returns the angle of a hold's turn about its director, beyond carrying the director along. */
 static double own_turn(sw_quat before, sw_quat now, sw_vec local) {
   const sw_vec d0 = sw_rotate(before, local), d = sw_rotate(now, local);
   const sw_vec local_side = sw_perpendicular(sw_unit_or(local, sw_v(1, 0, 0)));
@@ -88,7 +87,7 @@ void sw_edge_directions(size_t first, size_t last, const double *restrict x, dou
 
 /* Computes the areas of (a0, a, b) and (a0, b, b0) at hinges first + 1 .. last: tan of half of
  * each, then 2 atan by its series, whose error is below 1e-16 for |tan| < SMALL. Returns the number
- * of hinges that turned too much for the series. */
+ * of hinges with larger turns. */
 static const double SMALL = 0.03;
 
 SW_HOT
@@ -118,8 +117,8 @@ static long small_areas(size_t first, size_t last, const double *restrict ox,
   return large;
 }
 
-/* Returns the change of a span's twist from the state to positions x (of the body). Uses twist_rank
- * and twist_solved as work space; sw_twist_gather fills them anew. */
+/* Returns the change of a span's twist from the state to positions x (of the body). Work space:
+ * twist_rank and twist_solved; sw_twist_gather fills them anew. */
 static double span_change(const sw_system *s, const sw_body *b, const sw_span *span,
                           const double *x) {
   const size_t n = b->plan->nodes, first = span->first, last = span->last;
@@ -173,8 +172,8 @@ double sw_twist_dot(const sw_body *b, const sw_span *span, const double *x) {
   return sum;
 }
 
-/* Spans are separate in the matrix, because a clamp holds the node between them. So one solve
- * serves all, and Sherman and Morrison's formula is applied to each. */
+/* A clamp holds the node between two spans, so spans are separate in the matrix. One solve serves
+ * all, and each has its correction by Sherman and Morrison's formula. */
 size_t sw_twist_correct(sw_body *b, double *delta) {
   sw_twist_gather(b);
   sw_band3_solve(b->field.rows, b->plan->nodes, b->twist_solved);
@@ -218,7 +217,7 @@ void sw_twist_react(sw_held_node *h, const sw_body *b) {
   }
 }
 
-/* Stores the holds' orientations, as last placed, that belong to the state's twist. */
+/* Stores the holds' orientations, as last placed, for the state's twist. */
 static void take_turns(sw_system *s) {
   for (size_t k = 0; k < s->hold_count; k++) {
     const sw_quat q = s->hold_states[k].pose.q;

@@ -5,7 +5,7 @@
 
 #include "system/system.h"
 
-/* Computes the unit vectors of edges first to last, whose nodes are at x. */
+/* Computes the unit vectors of edges first to last, with nodes at x. */
 void sw_edge_directions(size_t first, size_t last, const double *x, double *tx, double *ty,
                         double *tz);
 
@@ -13,15 +13,15 @@ void sw_edge_directions(size_t first, size_t last, const double *x, double *tx, 
 void sw_twist_measure(sw_system *system, sw_body *body);
 
 /* Adds the effect of the twist's rank-one stiffness to a solved update (nodes x 3). Returns by how
- * much the number of negative directions falls. */
+ * many the negative directions become fewer. */
 size_t sw_twist_correct(sw_body *body, double *delta);
-/* The same for another solution with the same factor. */
+/* Does this for another solution with the same factor. */
 size_t sw_twist_correct_again(const sw_body *body, double *more);
-/* Computes the torques that the solution delta adds (twist_gain). */
+/* Computes the torques added by the solution delta (twist_gain). */
 void sw_twist_gain(sw_body *body, const double *delta);
 
-/* Computes the slope of the twist by node from its slope by edge: into twist_rank, and without held
- * nodes into twist_solved. */
+/* Computes the slope of the twist at nodes from its slope at edges: into twist_rank, and without
+ * held nodes into twist_solved. */
 void sw_twist_gather(sw_body *body);
 
 /* Returns the slope of one span times x (nodes x 3), without held nodes. */

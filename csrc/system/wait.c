@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Finds wires at rest and keeps them out of the solve. */
 #include "system/wait.h"
 
 #include <math.h>
@@ -6,12 +7,12 @@
 
 #include "base/each.h"
 
-/* A wire came to rest if no node is faster than SLOW [m/s], nor accelerated by more than BALANCED,
- * a billionth of gravity [m/s2]. Wires on a table get there by themselves, down to rounding: 1e-13
- * m/s in steps of 10 ms. */
+/* A wire is at rest if no node is faster than SLOW [m/s], nor accelerated by more than BALANCED, a
+ * billionth of gravity [m/s2]. Wires on a table come to rest down to rounding: 1e-13 m/s in steps
+ * of 10 ms. */
 static const double SLOW = 1e-10, BALANCED = 1e-8;
 
-/* 1 if nothing but the wire's motion and touches can change a term's force. */
+/* 1 if only the wire's motion and touches change the term's force. */
 static int is_steady(const sw_term *t) {
   return !t->history && !(t->cls->flags & (SW_FORCE_EXPLICIT | SW_FORCE_DRIVEN));
 }
@@ -20,8 +21,8 @@ static const sw_held_node *held_at(const sw_system *s, size_t number) {
   return number ? &s->held[number - 1] : NULL;
 }
 
-/* 1 if the body may wait: a line with steady forces, whose holds stand. The others have unknowns
- * besides their nodes. */
+/* 1 if the body may wait: a line with steady forces, whose holds stand. Webs and wires with spins
+ * have more unknowns than their nodes. */
 static int may_wait(const sw_system *s, const sw_body *b) {
   if (b->plan->web || b->roll_block || b->spin_block) return 0;
   for (const sw_held_node *h = held_at(s, b->held); h; h = held_at(s, h->next))
@@ -31,8 +32,8 @@ static int may_wait(const sw_system *s, const sw_body *b) {
   return 1;
 }
 
-/* Copies what belongs to a body in arrays of strains: of its edges, at its clamps, of held nodes.
- * from NULL: zeros. */
+/* Copies a body's part of arrays of strains: of its edges, at its clamps, of held nodes. from NULL:
+ * zeros. */
 static void copy_strains(const sw_system *s, const sw_body *b, const double *from, double *to) {
   const size_t at[2] = {b->first_edge, b->first_clamp};
   const size_t count[2] = {sw_plan_axial(b->plan), 3 * b->kept_clamps};
@@ -46,7 +47,7 @@ static double largest(const double *values, size_t n) {
   double most = 0;
   for (size_t i = 0; i < n; i++) {
     const double size = fabs(values[i]);
-    most = size <= most ? most : size; /* a value that is not a number is the largest */
+    most = size <= most ? most : size; /* NaN counts as the largest */
   }
   return most;
 }

@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Webs of particles: choice and assembly of the matrix, its solution, and the springs' axial
+ * forces. */
 #include "system/web.h"
 
 #include <math.h>
@@ -17,8 +19,7 @@ static size_t between(const sw_blocks *m, size_t a, size_t b) {
   return a > b ? sw_blocks_slot(m, a, b) : sw_blocks_slot(m, b, a);
 }
 
-/* Where joined pairs of particles are written: to a list, or their slots of a matrix, or nowhere.
- */
+/* Target of joined pairs of particles: a list, or their slots of a matrix, or nothing. */
 typedef struct sink {
   size_t count;
   sw_couple *list; /* or NULL */
@@ -69,13 +70,13 @@ static sw_status new_sparse(const sw_web *w, const uint32_t *others, size_t more
   return sw_blocks_new_sparse(w->particles, pairs, count, NULL, NULL, out);
 }
 
-/* Rings are full blocks, although a particle of a large ring is joined to few others. From this
- * number of particles in a ring on, a sparse matrix may save more than its analysis costs. */
+/* Rings are full blocks, although a particle of a large ring is joined to few others. From WIDE
+ * particles in a ring on, a sparse matrix may save more than its analysis costs. */
 enum { WIDE = 24 };
-/* Work of a sparse matrix over that of rings below which it is taken. With equal work a sparse one
- * is slower, because its dense pieces are smaller: a factor and a solution took 0.8 to 1.2 times as
- * long where it has 0.6 of the work, 0.04 times where it has 0.03 (3 to 100 rings of 25 to 289
- * particles) [-] */
+/* Largest work of a sparse matrix over that of rings for which it is chosen. With equal work a
+ * sparse one is slower, because its dense pieces are smaller: a factor and a solution took 0.8 to
+ * 1.2 times as long where it has 0.6 of the work, 0.04 times where it has 0.03 (3 to 100 rings of
+ * 25 to 289 particles) [-] */
 static const double CHEAPER = 0.6;
 
 /* Makes the web's matrix with further pairs (more x 2). */
@@ -101,14 +102,14 @@ static void fill_slots(sw_body *b) {
   b->field.slide_slot = solid + SW_FIELD_SOLID_PAIRS * w->solids;
 }
 
-/* Matrices differ little within a step. From this number of particles on, the first one's factor
+/* Matrices differ little within a step. From LARGE particles on, the first one's factor
  * preconditions conjugate gradients for the following ones while these converge fast; a factor
- * costs some dozens of iterations. Each step starts with a factor of its own, so that it depends
- * only on its starting state. */
+ * costs some dozens of iterations. Each step starts with a new factor, so that it depends only on
+ * its starting state. */
 enum { LARGE = 30000, MOST_ITERATIONS = 20, EARLY = 5 };
-static const double EXACT = 1e-7; /* error left, of the solution's energy norm [-] */
+static const double EXACT = 1e-7; /* remaining error, in the solution's energy norm [-] */
 static const double PROMISE =
-    0.03; /* error after the early iterations above which it takes too long [-] */
+    0.03; /* error after the early iterations above which iteration is too slow [-] */
 
 static void use_blocks(sw_body *b) {
   fill_slots(b);
@@ -174,8 +175,8 @@ size_t sw_web_couples(const sw_body *b, sw_couple *out) {
   return kept;
 }
 
-/* Blocks are stored with the rows of the larger number; only the lower half of a particle's own
- * block counts. */
+/* Blocks are stored in the rows of the larger number; only the lower half of a particle's own block
+ * counts. */
 void sw_web_block(const sw_body *b, size_t i, size_t j, double out[9]) {
   const size_t slot = sw_blocks_slot(b->blocks, j, i), stride = b->field.block_stride;
   for (size_t r = 0; r < 3; r++)
@@ -222,8 +223,8 @@ static double dot(size_t n, const double *a, const double *b) {
   return sum;
 }
 
-/* Solves for delta, which holds the right-hand side. Returns 0, with delta unchanged, if this would
- * take too long. */
+/* Solves for delta, which holds the right-hand side. Returns 0, with delta unchanged, if this is
+ * too slow. */
 static int iterate(const sw_body *b, double *delta) {
   const size_t particles = b->plan->nodes, n = 3 * particles;
   double *x = b->web_room, *r = x + n, *z = x + 2 * n, *p = x + 3 * n, *Ap = x + 4 * n;

@@ -12,8 +12,8 @@
 sw_status sw_web_prepare(sw_body *body);
 void sw_web_discard(sw_body *body);
 
-/* For a matrix that connects webs to other bodies: writes the pairs of particles that have a block,
- * each once, i < j, into out (room for sw_web_couples_room). Returns their number. */
+/* For a matrix with webs and other bodies: writes the pairs of particles with a block, each once, i
+ * < j, into out (room for sw_web_couples_room). Returns their number. */
 size_t sw_web_couples_room(const sw_body *body);
 size_t sw_web_couples(const sw_body *body, sw_couple *out);
 /* Copies the 3 x 3 block with rows of i and columns of j, i <= j. */
@@ -47,8 +47,8 @@ double sw_web_change(const sw_body *body, const double *x, const double *from, c
 /* Computes axial forces from the springs' lengths. */
 void sw_web_axial(const sw_body *body, const double *x, double *axial);
 
-/* Returns the number of springs that keep less than a share of their length along themselves from x
- * to y. */
+/* Returns the number of springs whose projection on their old direction is below a share of their
+ * length, from x to y. */
 long sw_web_turned(const sw_body *body, const double *x, const double *y, double share);
 
 #endif

@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Webs about the state: forces between particles, and the motion of all for given motions of
+ * some. */
 #include <string.h>
 
 #include "base/vec.h"
@@ -12,7 +14,7 @@ sw_status sw_system_inner_forces(sw_system *s, size_t body, double *out, sw_erro
   sw_body *b = &s->bodies[body];
   sw_field *f = &b->field;
   f->want = SW_WANT_FORCE;
-  f->gravity = none; /* which is among the terms */
+  f->gravity = none; /* gravity is among the terms */
   f->x = s->x + 3 * b->first_node, f->v = s->v + 3 * b->first_node;
   f->strain_past = f->strain = f->strain_rate = NULL;
   sw_body_begin(b);
