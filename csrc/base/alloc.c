@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Allocator. Each block has its size in the 64 bytes before it; large blocks come zeroed from the
+ * system. */
 #include "base/alloc.h"
 
 #include <stdint.h>

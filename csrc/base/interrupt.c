@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The flag of Ctrl-C. */
 #include "base/interrupt.h"
 
 #include <signal.h>

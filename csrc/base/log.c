@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A log's rows and their copies on a tape. */
 #include "base/log.h"
 
 #include "base/alloc.h"

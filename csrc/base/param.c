@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Defaults and checks of parameters, and the nearest known name of a misspelt one (edit
+ * distance). */
 #include "base/param.h"
 
 #include <ctype.h>

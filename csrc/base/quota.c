@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Counts the steps of all scenes against their limit. */
 #include "base/quota.h"
 
 static long most, taken; /* steps allowed (0 = any number), steps tried [-] */

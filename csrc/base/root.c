@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* False position with the Illinois rule (see the header). */
 #include "base/root.h"
 
 #include <math.h>

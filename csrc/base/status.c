@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Texts of status codes, and formatted error texts. */
 #include "base/status.h"
 
 #include <stdarg.h>

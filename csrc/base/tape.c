@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fields, arrays, lists and shared objects on a tape, with checks on reading. */
 #include "base/tape.h"
 
 #include <stdarg.h>

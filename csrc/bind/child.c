@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Arguments, checks and result tables of objects that belong to a scene. */
 #include "bind/child.h"
 
 #include <limits.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Metatables of all classes, checks of their arguments, and conversion of errors to Lua errors. */
 #include "bind/class.h"
 
 #include <math.h>

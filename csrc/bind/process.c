@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fork, signals and limits of child processes (POSIX; memory in use from /proc). */
 #include "bind/process.h"
 
 #include <errno.h>

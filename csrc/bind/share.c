@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Common methods: name, kind, pose, velocity, following another object, log. */
 #include "bind/share.h"
 
 #include <stdio.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A calibration's result and lattice on a tape. */
 #include "calibrate/calibrate.h"
 
 #define DOUBLE(field) sw_tape_double(t, &x->field)

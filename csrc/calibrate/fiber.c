@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Switches stacks with swapcontext (POSIX.1-2001). */
 #include "calibrate/fiber.h"
 
 #include <ucontext.h>

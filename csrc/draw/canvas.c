@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A picture's pixels, and its file as PNG (ISO/IEC 15948). */
 #include <string.h>
 
 #include "base/alloc.h"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Adds meshes, tubes, balls, lines and a floor to a drawing, as triangles, balls and edges. */
 #include "draw/drawing.h"
 
 #include <string.h>

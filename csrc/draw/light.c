@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The lamp's shadow map, smoothed over 3 x 3 cells, and the light on a point. sRGB as IEC
+ * 61966-2-1. */
 #include "draw/light.h"
 
 #include "base/simd.h"

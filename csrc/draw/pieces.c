@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Cuts a line where it passes behind surfaces. */
 #include "draw/pieces.h"
 
 #include "base/alloc.h"

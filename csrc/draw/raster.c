@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fills triangles and balls into a layer of the nearest ones, for a camera or a lamp. */
 #include "draw/raster.h"
 
 #include "base/alloc.h"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Collects a scene's tracks, rounds them to codes and packs the codes. */
 #include "film/film.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Compression (zlib), CRC-32 and base64. */
 #include <stdint.h>
 #include <string.h>
 #include <zlib.h>

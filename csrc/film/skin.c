@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Triangles of wires' surfaces, frame by frame. */
 #include "film/skin.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Axial spring T = EA (l/l0 - 1), with energy T^2 l0/(2 EA), for tension, compression or both. */
 #include "force/axial.h"
 
 #include <math.h>

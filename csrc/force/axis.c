@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Points of a wire's centre line: places, velocities and forces on them. */
 #include "force/axis.h"
 
 #include <math.h>

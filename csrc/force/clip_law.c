@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The clip's potential and its derivatives as products of curves of u and v. */
 #include "force/clip_law.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Integrates the clip's potential along an edge: quadrature, forces, stiffness. */
 #include "force/clip_sum.h"
 
 #include <math.h>

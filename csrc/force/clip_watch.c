@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Follows a wire's place in the clip and reports its events. */
 #include "force/clip_watch.h"
 
 #include <math.h>

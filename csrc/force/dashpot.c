@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Moment eta (w2 - w1)/l of a hinge between edges with angular velocities w1 and w2; l: its
+ * length. */
 #include "force/dashpot.h"
 
 #include "base/simd.h"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* List of all forces. */
 #include "force/force.h"
 
 #include <string.h>

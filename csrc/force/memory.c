@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Evaluates and commits a wire's slipping hinges, and carries their slip to another plan. */
 #include "force/memory.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Sums a tool's touches for each wire: force, margin to slip, slip and turn between the pads. */
 #include "grip/held.h"
 
 #include <math.h>

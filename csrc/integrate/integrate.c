@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Runs an implicit method's table of stages: trial, error estimate, next step size. */
 #include "integrate/integrate.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Block Krylov basis, and its Ritz values by a small dense eigenproblem. */
 #include "modal/krylov.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Rainflow count in bounded room (ASTM E1049-85, 5.4.4). */
 #include "record/cycles.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Recorded wear on a tape. */
 #include "record/wear.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Running integrals, and means over the last window. */
 #include "record/window.h"
 
 #include <math.h>

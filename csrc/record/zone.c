@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The history of zones on a tape. */
 #include "record/zone.h"
 
 #include "base/alloc.h"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Sets and reads poses and motions of holds, obstacles and grippers. */
 #include "scene/driven.h"
 
 #include "contact/contact.h"

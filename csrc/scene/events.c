@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The list of events: adds, merges repeats, counts dropped ones. */
 #include "scene/events.h"
 
 #include <math.h>

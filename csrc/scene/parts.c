@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Accessors of a scene's parts. */
 #include "scene/parts.h"
 
 #include "base/alloc.h"

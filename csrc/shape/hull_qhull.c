@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Convex hull by qhull (Barber, Dobkin and Huhdanpaa, ACM TOMS 22, 1996). */
 #include "shape/hull_qhull.h"
 
 #include <libqhull_r/libqhull_r.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Functions of shapes whose surface is a triangle mesh. */
 #include "shape/meshed.h"
 
 int sw_meshed_distance(const sw_shape *shape, sw_vec p, double reach, sw_closest *out) {

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Nearest points of a segment and a triangle: crossing, corners, sides. */
 #include "shape/pairs.h"
 
 /* Finds where the segment goes through the triangle; 0: it does not. */

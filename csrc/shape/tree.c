@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Builds, refits and searches a tree of bounding boxes. */
 #include "shape/tree.h"
 
 #include <math.h>

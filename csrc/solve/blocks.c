@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Calls the ring matrix (rings.h) or the sparse one (blocks_sparse.h). */
 #include "solve/blocks.h"
 
 #include "base/alloc.h"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Sparse symmetric block matrix: pattern, slots, products; blocks_tree.h makes its factor. */
 #include "solve/blocks_sparse.h"
 
 #include <string.h>

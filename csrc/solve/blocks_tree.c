@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Multifrontal factorisation (Duff and Reid 1983): analysis, factor, solution. */
 #include "solve/blocks_tree.h"
 
 #include <string.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Elimination order and supernodes by CHOLMOD. */
 #include "solve/cholmod_adapter.h"
 
 #include <string.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Gaussian elimination, with or without row swaps. */
 #include "solve/dense.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Block-tridiagonal matrix of rings: storage, slots, products. */
 #include "solve/rings.h"
 
 #include <stdint.h>

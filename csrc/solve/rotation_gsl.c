@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Davenport's q method: R's quaternion is the eigenvector of K's largest eigenvalue. */
 #include <gsl/gsl_eigen.h>
 #include <math.h>
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Makes, measures and clears a field. */
 #include "state/field.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Forces between a step's two stages, and which of them are right. */
 #include "state/first_stage.h"
 
 #include <math.h>

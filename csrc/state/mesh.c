@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A wire's nodes: copies, tangents, frames, and moving, adding and removing nodes. */
 #include "state/mesh.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Makes a plan: masses, holds, lengths of hinges, spans between clamps. */
 #include "state/plan.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Beams, meshes, webs and plans on a tape, with checks of indices. */
 #include "state/state_tape.h"
 
 #include "base/alloc.h"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Makes a web, its surface, and the bounds of its frequencies. */
 #include "state/web.h"
 
 #include <math.h>

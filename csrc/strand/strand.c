@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Calibrates a wire's lattice, places its particles, and checks its rest shape. */
 #include "strand/strand.h"
 
 #include <math.h>

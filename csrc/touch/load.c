@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Adds a touch's force F and stiffness K to its place's nodes: w_i F, w_i w_j K with weights w. */
 #include "touch/load.h"
 
 #include "solve/band3.h"

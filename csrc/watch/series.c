@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Starts, finds and reads the series of wires, forces and ties. */
 #include "watch/series.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Adds a step's tension, bending, friction and pressure to a wire's places. */
 #include "watch/wear.h"
 
 #include <math.h>

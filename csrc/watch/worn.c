@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Read-outs of recorded wear. */
 #include "watch/worn.h"
 
 #include "record/wear.h"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Distances of wires to zones at steps, and lower bounds between steps. */
 #include "watch/zone.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Straight pieces of a wire, for distances to zones. */
 #include "watch/zone_piece.h"
 
 #include <math.h>

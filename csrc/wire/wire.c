@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* List of all wire models, and the common recipe of wires as meshes. */
 #include "wire/wire.h"
 
 #include <string.h>
