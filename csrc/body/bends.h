@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Keeps the bends of a wire when its edges change, or when a hold comes or goes. Of the scene's
- * inside. */
+/* Keeps the bends of a wire when its edges change, or when a hold comes or goes. */
 #ifndef SW_BODY_BENDS_H
 #define SW_BODY_BENDS_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The class of a body: a line of nodes along an arc, or a web of particles. A member function is
- * what building, holding and reading back do differently for the two. Of the scene's inside. */
+/* The class of a body: a line of nodes along an arc, or a web of particles. Its functions are the
+ * differences between the two in building, holding and reading back. */
 #ifndef SW_BODY_BODY_H
 #define SW_BODY_BODY_H
 

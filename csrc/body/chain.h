@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A chain of straight links. Its turns from link to link come as near as possible to given turns.
- * Of this room's inside. */
+ */
 #ifndef SW_BODY_CHAIN_H
 #define SW_BODY_CHAIN_H
 

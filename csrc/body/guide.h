@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Guides: holds through which wire passes within a step. Of this room and of steps. */
+/* Guides: holds through which wire passes within a step. */
 #ifndef SW_BODY_GUIDE_H
 #define SW_BODY_GUIDE_H
 

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A wire that is a line, with its present or planned holds. The scene is not built yet. Of this
- * room's inside. */
+/* A wire that is a line, with its present or planned holds, before the scene is built. */
 #ifndef SW_BODY_HELD_WIRE_H
 #define SW_BODY_HELD_WIRE_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Carries the histories of forces over a change of the system. Of the scene's inside. */
+/* Carries the histories of forces over a change of the system. */
 #ifndef SW_BODY_HISTORY_H
 #define SW_BODY_HISTORY_H
 

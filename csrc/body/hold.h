@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Holds: clamps, pins, grips, feeds. Of the scene's inside. */
+/* Holds: clamps, pins, grips, feeds. */
 #ifndef SW_BODY_HOLD_H
 #define SW_BODY_HOLD_H
 

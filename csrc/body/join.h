@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Joins and ties between wires. Of the scene's inside. */
+/* Joins and ties between wires. */
 #ifndef SW_BODY_JOIN_H
 #define SW_BODY_JOIN_H
 

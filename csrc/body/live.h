@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The state of a built scene, of contact and of the stepper. Of the scene's inside. */
+/* The state of a built scene, of contact and of the stepper. */
 #ifndef SW_BODY_LIVE_H
 #define SW_BODY_LIVE_H
 

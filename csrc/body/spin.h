@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Material frames of wires that turn about their axis. Of the scene's inside. */
+/* Material frames of wires that turn about their axis. */
 #ifndef SW_BODY_SPIN_H
 #define SW_BODY_SPIN_H
 

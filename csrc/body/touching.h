@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Contact of a scene's wires with obstacles and with each other, behind one interface (see
- * sw_contact and sw_mutual). Of the scene's inside. */
+ * sw_contact and sw_mutual). */
 #ifndef SW_BODY_TOUCHING_H
 #define SW_BODY_TOUCHING_H
 

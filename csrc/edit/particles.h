@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* State of the making of an object of particles. Of this room only. */
+/* Work space while an object of particles is made. Private to this room. */
 #ifndef SW_EDIT_PARTICLES_H
 #define SW_EDIT_PARTICLES_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The course of a scene: what it remembers of its last steps for the next one. Steps write it (see
- * step/stages.def); the scene only reports its changes. Of the scene's inside. */
+/* The course of a scene: values of its last steps for the next one. Steps write it (see
+ * step/stages.def); the scene only reports its changes. */
 #ifndef SW_SCENE_COURSE_H
 #define SW_SCENE_COURSE_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A force of the scene. Of its inside. */
+/* A force of the scene. */
 #ifndef SW_SCENE_FORCES_H
 #define SW_SCENE_FORCES_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The energy ledger of a run, as the scene keeps it. Steps write it. Of the scene's inside. */
+/* The energy ledger of a run. The scene keeps it, steps write it. */
 #ifndef SW_SCENE_LEDGER_H
 #define SW_SCENE_LEDGER_H
 

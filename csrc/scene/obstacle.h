@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* An obstacle of the scene. Of its inside. */
+/* An obstacle of the scene. */
 #ifndef SW_SCENE_OBSTACLE_H
 #define SW_SCENE_OBSTACLE_H
 

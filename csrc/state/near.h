@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Parts of a mesh whose nodes move near a hold. Of this room's inside. */
+/* Parts of a mesh whose nodes move near a hold. */
 #ifndef SW_STATE_NEAR_H
 #define SW_STATE_NEAR_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Checks whether a trial of a step is believable. Shared by the files of this room only. */
+/* Checks whether a trial of a step is believable. Private to this room. */
 #ifndef SW_STEP_BELIEVE_H
 #define SW_STEP_BELIEVE_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Blows of wires on obstacles. The steps of a blow are taken in short parts (substeps). Shared by
- * the files of this room only. */
+/* Blows of wires on obstacles. The steps of a blow are taken in short parts (substeps). Private to
+ * this room. */
 #ifndef SW_STEP_BLOW_H
 #define SW_STEP_BLOW_H
 

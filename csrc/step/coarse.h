@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Divides steps of fixed size into parts (substeps) where they are too coarse for the motion of a
- * wire. Shared by the files of this room only. */
+ * wire. Private to this room. */
 #ifndef SW_STEP_COARSE_H
 #define SW_STEP_COARSE_H
 

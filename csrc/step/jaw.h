@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Jaws of tools in a step, or from one pose to the next. Shared by the files of this room only. */
+/* Jaws of tools in a step, or from one pose to the next. Private to this room. */
 #ifndef SW_STEP_JAW_H
 #define SW_STEP_JAW_H
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The ladder of a step of motion. Each rung (listed in stages.def) is responsible for one quantity:
  * it tries the step with the rungs below it and repeats that until the quantity is right. The last
- * rung computes a trial. Shared by the files of this room only. */
+ * rung computes a trial. Private to this room. */
 #ifndef SW_STEP_LADDER_H
 #define SW_STEP_LADDER_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rungs for drives that obey a force. Each trial corrects a drive until its force at the end of the
- * step is the wanted one (see base/root.h). Shared by the files of this room only. */
+ * step is the wanted one (see base/root.h). Private to this room. */
 #ifndef SW_STEP_OBEY_H
 #define SW_STEP_OBEY_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Divides steps that would take a wire past a force of short reach into parts (substeps). Shared by
- * the files of this room only. */
+/* Divides steps that would take a wire past a force of short reach into parts (substeps). Private
+ * to this room. */
 #ifndef SW_STEP_PASSING_H
 #define SW_STEP_PASSING_H
 

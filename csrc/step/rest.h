@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Equilibria of the scene, and poses of slow handling. Shared by the files of this room only. */
+/* Equilibria of the scene, and poses of slow handling. Private to this room. */
 #ifndef SW_STEP_REST_H
 #define SW_STEP_REST_H
 

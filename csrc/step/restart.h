@@ -2,7 +2,7 @@
 /* Reasons for which a method starts anew, without the accelerations and rates of the state. These
  * are stale, or belong to a motion that has ended. All reasons are here. A request by the scene
  * (see scene/course.h) holds for every try until a step is taken; a reason found in a try holds for
- * the tries after it. Shared by the files of this room only. */
+ * the tries after it. Private to this room. */
 #ifndef SW_STEP_RESTART_H
 #define SW_STEP_RESTART_H
 

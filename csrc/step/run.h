@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Parts of a run. Shared by the files of this room only. */
+/* Parts of a run. Private to this room. */
 #ifndef SW_STEP_RUN_H
 #define SW_STEP_RUN_H
 

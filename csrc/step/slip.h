@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Feeds that yield to a force. Shared by the files of this room only. */
+/* Feeds that yield to a force. Private to this room. */
 #ifndef SW_STEP_SLIP_H
 #define SW_STEP_SLIP_H
 
