@@ -95,7 +95,8 @@ static sw_status check_given(const char *object, const sw_param *row, double val
 static sw_status check_choice(const char *object, const sw_param *row, int value, sw_error *err) {
   for (int k = 0; row->choices[k]; k++)
     if (k == value) return SW_OK;
-  return sw_fail(err, SW_EINVAL, "%s: %s has a value that is no choice of it", object, row->name);
+  return sw_fail(err, SW_EINVAL, "%s: %s has a value that is not one of its choices", object,
+                 row->name);
 }
 
 sw_status sw_params_check(const sw_params *params, const void *args, int lenient, sw_error *err) {

@@ -183,10 +183,10 @@ static int refuse_change(lua_State *L, const char *object, const sw_params *para
     }
   luaL_pushresult(&b);
   if (!*lua_tostring(L, -1))
-    return luaL_error(L, "%s: %s is given when it is made; this object has nothing to set", object,
-                      name);
-  return luaL_error(L, "%s: %s is given when it is made; the parameters to set are:%s", object,
-                    name, lua_tostring(L, -1));
+    return luaL_error(L, "%s: %s is given when the object is made; this object has nothing to set",
+                      object, name);
+  return luaL_error(L, "%s: %s is given when the object is made; the parameters to set are:%s",
+                    object, name, lua_tostring(L, -1));
 }
 
 void lsw_changes(lua_State *L, int index, const char *object, const sw_params *params, void *args) {

@@ -52,8 +52,8 @@ static int fail(lua_State *L, const char *format, ...) {
 /* Adds the forces of the array to the field. */
 static void read_back(lua_State *L, int array, sw_field *field, size_t n) {
   if (lua_rawlen(L, array) > n)
-    fail(L, "f has %d items; it must keep its %d, three for each node", (int)lua_rawlen(L, array),
-         (int)n);
+    fail(L, "f must keep its %d items, three for each node; it has %d", (int)n,
+         (int)lua_rawlen(L, array));
   for (size_t i = 0; i < n; i++) {
     lua_rawgeti(L, array, (lua_Integer)i + 1);
     const double f = lua_tonumber(L, -1);

@@ -57,7 +57,7 @@ static lsw_load load_of(lua_State *L) {
   const lsw_self j = lsw_check_self(L, &lsw_class_join);
   const lua_Integer k = lua_isinteger(L, 2) ? lua_tointeger(L, 2) : 0;
   if (k < 1)
-    luaL_error(L, "join: it must get the number of one of its ends, from 1; got %s",
+    luaL_error(L, "join: the first argument must be the number of an end, from 1, got %s",
                lsw_describe(L, 2));
   LSW_DO(L, sw_scene_join_force, j.scene, j.id, (size_t)k - 1, &on.force, &on.moment);
   return on;

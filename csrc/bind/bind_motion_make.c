@@ -127,8 +127,8 @@ static void read_times(lua_State *L, int table, const char *what, sw_waypoint *p
   if (!lua_istable(L, -1))
     luaL_error(L, "%s: times must be an array of numbers [s], got %s", what, luaL_typename(L, -1));
   if (lua_rawlen(L, -1) != count)
-    luaL_error(L, "%s: times has %d entries for %d way-points", what, (int)lua_rawlen(L, -1),
-               (int)count);
+    luaL_error(L, "%s: times must have one entry per way-point, %d in all, got %d", what,
+               (int)count, (int)lua_rawlen(L, -1));
   for (size_t i = 0; i < count; i++) {
     lua_rawgeti(L, -1, (lua_Integer)i + 1);
     const char *name = lua_pushfstring(L, "%s: times[%d]", what, (int)i + 1);

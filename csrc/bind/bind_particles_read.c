@@ -69,7 +69,8 @@ static const double *read_positions(lua_State *L, int table, size_t *count) {
   const int points = lua_istable(L, -1);
   lua_pop(L, 1);
   if (!points && n % 3)
-    luaL_error(L, "particles: positions has %d numbers, which is not a multiple of 3", (int)n);
+    luaL_error(L, "particles: positions has %d number%s, which is not a multiple of 3", (int)n,
+               n == 1 ? "" : "s");
   *count = points ? n : n / 3;
   double *out = new_array(L, 3 * *count, sizeof *out);
   for (size_t i = 0; i < n; i++) {
@@ -151,12 +152,15 @@ static size_t parts_of(lua_State *L, const kind *k, int entry, size_t number, si
   const char *what = group < 0 ? k->what : k->group[group];
   const size_t n = length_of(L, lua_gettop(L), what);
   if (group < 0 && n != k->size[0] && n != k->size[1])
-    luaL_error(L, "particles: %s, entry %d, names %d particles; it must be %d, or have a list '%s'",
-               k->what, (int)number + 1, (int)n, (int)k->size[0], k->group[0]);
+    luaL_error(
+        L, "particles: %s, entry %d, must name %d%s particles, or have a list '%s'; it names %d",
+        k->what, (int)number + 1, (int)k->size[0],
+        k->size[1] > k->size[0] ? lua_pushfstring(L, " or %d", (int)k->size[1]) : "", k->group[0],
+        (int)n);
   *size = group < 0 ? n : k->size[group];
   if (n % *size)
-    luaL_error(L, "particles: %s, entry %d: %s has %d numbers, which is not a multiple of %d",
-               k->what, (int)number + 1, what, (int)n, (int)*size);
+    luaL_error(L, "particles: %s, entry %d: %s has %d number%s, which is not a multiple of %d",
+               k->what, (int)number + 1, what, (int)n, n == 1 ? "" : "s", (int)*size);
   return n / *size;
 }
 
@@ -172,8 +176,9 @@ static void open_values(lua_State *L, const kind *k, int entry, size_t number, s
       luaL_error(L, "particles: %s, entry %d: %s must be a number or a list of them, got %s",
                  k->what, (int)number + 1, k->values[v], lsw_describe(L, -1));
     if (lua_rawlen(L, -1) != count)
-      luaL_error(L, "particles: %s, entry %d: %s has %d items for %d of them", k->what,
-                 (int)number + 1, k->values[v], (int)lua_rawlen(L, -1), (int)count);
+      luaL_error(L, "particles: %s, entry %d: %s must have %d item%s, got %d", k->what,
+                 (int)number + 1, k->values[v], (int)count, count == 1 ? "" : "s",
+                 (int)lua_rawlen(L, -1));
   }
 }
 

@@ -76,7 +76,8 @@ static void read_steps(lua_State *L, const double *x, double *step, size_t n) {
   else if (!list)
     for (size_t i = 1; i < n; i++) step[i] = step[0];
   else if (given != n)
-    luaL_error(L, "tune.minimise: step has %d numbers for %d of start", (int)given, (int)n);
+    luaL_error(L, "tune.minimise: step must have as many numbers as start, %d, got %d", (int)n,
+               (int)given);
 }
 
 static void push_result(lua_State *L, const double *x, size_t n, int list, const sw_minimum *r) {

@@ -139,12 +139,12 @@ void lsw_read_flat(lua_State *L, int index, double *out, size_t n) {
   index = lua_absindex(L, index);
   luaL_checktype(L, index, LUA_TTABLE);
   if (lua_rawlen(L, index) != n)
-    luaL_error(L, "%d numbers instead of %d", (int)lua_rawlen(L, index), (int)n);
+    luaL_error(L, "the list must have %d numbers, got %d", (int)n, (int)lua_rawlen(L, index));
   for (size_t i = 0; i < n; i++) {
     lua_rawgeti(L, index, (lua_Integer)i + 1);
     out[i] = lua_tonumber(L, -1);
     if (lua_type(L, -1) != LUA_TNUMBER || !isfinite(out[i]))
-      luaL_error(L, "number %d of the list: finite numbers are wanted", (int)i + 1);
+      luaL_error(L, "number %d of the list must be a finite number", (int)i + 1);
     lua_pop(L, 1);
   }
 }

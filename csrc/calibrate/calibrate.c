@@ -182,21 +182,21 @@ static void tube_advice(const sw_calibrate_args *args, const sw_tube_args *tube,
   const double fits = sqrt(2 * c->target[SW_TARGET_EI] / c->target[SW_TARGET_EA]);
   if (args->mesh == SW_LATTICE_TUBE && h > 0.85 * limit)
     snprintf(text, n,
-             "the diagonals that GJ needs are too stiff in bending: make spacing = %.4g m less "
-             "than about %.4g m, or reach = %ld more",
+             "the diagonals that GJ needs are too stiff in bending: spacing = %.4g m must be "
+             "less than about %.4g m, or increase reach = %ld",
              h, 0.8 * limit, sw_tube_reach(tube));
   else if (args->mesh == SW_LATTICE_RADIAL && h > 0.85 * limit)
     snprintf(text, n,
-             "the diagonals that GJ needs are too stiff in bending: make spacing = %.4g m less "
-             "than about %.4g m, or give fewer particles",
+             "the diagonals that GJ needs are too stiff in bending: spacing = %.4g m must be "
+             "less than about %.4g m, or give fewer particles",
              h, 0.8 * limit);
   else if (worst == SW_TARGET_SQUEEZE)
     snprintf(text, n, "give another squeeze, or more %s",
              args->mesh == SW_LATTICE_TUBE ? "chords (brace)" : "layers");
   else if (args->mesh == SW_LATTICE_TUBE && tube->core && fits > R / 1.1)
     snprintf(text, n,
-             "particles with EI at the radius R have an EA of at least about 2 EI/R^2: make "
-             "ring_radius = %.4g m about %.4g m or more%s",
+             "particles with EI at the radius R have an EA of at least about 2 EI/R^2: increase "
+             "ring_radius = %.4g m to about %.4g m or more%s",
              R, 1.1 * fits, tube->bend ? "" : ", or give bend = true");
   else if (args->mesh == SW_LATTICE_TUBE && !tube->core)
     snprintf(text, n,
@@ -213,7 +213,7 @@ static void cubic_advice(const sw_cubic_args *cubic, const sw_calibration *c, in
   double most = 0;
   for (size_t i = 0; i < c->lattice.particles; i++) most = fmax(most, fabs(c->lattice.at[3 * i]));
   if (worst == SW_TARGET_SQUEEZE)
-    snprintf(text, n, "ask for another squeeze");
+    snprintf(text, n, "give another squeeze");
   else if (ratio > 0.5 * most * most)
     snprintf(text, n,
              "EI/EA = %.3g m2 of the wire is too close to %.3g m2 of the outermost particles: make "
@@ -221,10 +221,10 @@ static void cubic_advice(const sw_cubic_args *cubic, const sw_calibration *c, in
              ratio, most * most);
   else if (cubic->section == SW_SECTION_RECTANGLE)
     snprintf(text, n,
-             "EI/EI2 must be near (width/height)^2 = %.4g; if it is, make across = %ld more",
+             "EI/EI2 must be near (width/height)^2 = %.4g; if it is, increase across = %ld",
              cubic->width * cubic->width / (cubic->height * cubic->height), cubic->across);
   else
-    snprintf(text, n, "make across = %ld more, and even", cubic->across);
+    snprintf(text, n, "increase across = %ld, to an even number", cubic->across);
 }
 
 /* 1 if springs meet the targets only by releasing the section's shape. If a squeeze stiffness was
@@ -326,8 +326,8 @@ sw_status sw_calibrate_check_bent(const sw_calibration *c, sw_error *err) {
   return sw_fail(
       err, SW_EINVAL,
       "slices of spacing = %.4g m have hoops of %.2g of their wall's stiffness and would "
-      "wrinkle when the tube is bent; make spacing less than about %.4g m, or particles "
-      "fewer than %zu",
+      "wrinkle when the tube is bent; make spacing less than about %.4g m, or give fewer "
+      "than %zu particles",
       h, c->k[SW_GROUP_HOOP] / wall,
       0.8 * largest_spacing(R, c->target[SW_TARGET_EI], c->target[SW_TARGET_GJ], 1, (long)M), M);
 }

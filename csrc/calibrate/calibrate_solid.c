@@ -309,7 +309,7 @@ static sw_status refuse(const task *t, sw_error *err) {
              ratio, r * r);
   else
     snprintf(advice, sizeof advice,
-             "make spacing = %.4g m less, or nu such that GJ is near EI/(1 + nu) = %.4g N m2",
+             "reduce spacing = %.4g m, or give a nu for which GJ is near EI/(1 + nu) = %.4g N m2",
              c->lattice.spacing, c->target[SW_TARGET_EI] / (1 + c->nu));
   return sw_fail(err, SW_EINVAL,
                  "calibrate: no solid elements with nu = %.4g and springs of this mesh give %s = "

@@ -149,16 +149,17 @@ static sw_status check(const sw_cell *c, const double *k, sw_error *err) {
                      i / 3 + 1);
   for (size_t g = 0; g < c->groups; g++)
     if (!(k[g] >= 0) || !isfinite(k[g]))
-      return sw_fail(err, SW_EINVAL, "cell: group %zu has a stiffness of %g N/m; not below 0",
-                     g + 1, k[g]);
+      return sw_fail(err, SW_EINVAL,
+                     "cell: group %zu has a stiffness of %g N/m; it must be at least 0", g + 1,
+                     k[g]);
   for (size_t m = 0; m < c->links; m++) {
     const sw_cell_link *l = c->link + m;
     if (l->from >= c->particles || l->to >= c->particles || l->group >= c->groups)
       return sw_fail(err, SW_EINVAL, "cell: link %zu names a particle or group that does not exist",
                      m + 1);
     if (!(l->weight >= 0) || !isfinite(l->weight))
-      return sw_fail(err, SW_EINVAL, "cell: link %zu has the weight %g; not below 0", m + 1,
-                     l->weight);
+      return sw_fail(err, SW_EINVAL, "cell: link %zu has the weight %g; it must be at least 0",
+                     m + 1, l->weight);
     if (!l->bend && !(sw_cell_length(c, l) > 0))
       return sw_fail(err, SW_EINVAL, "cell: link %zu has no length", m + 1);
   }

@@ -42,8 +42,8 @@ sw_status sw_cell_check_solids(const sw_cell *c, sw_error *err) {
     if (s->group >= c->groups || !(s->nu > -1) || !(s->nu < 0.5))
       return sw_fail(err, SW_EINVAL, "cell: nu = %g must be in (-1, 0.5)", s->nu);
     if (s->nodes != SW_SOLID_PRISM && s->nodes != SW_SOLID_HEX)
-      return sw_fail(err, SW_EINVAL, "cell: element %zu has %d particles; 6 or 8 make one", m + 1,
-                     s->nodes);
+      return sw_fail(err, SW_EINVAL, "cell: element %zu has %d particles; it must have 6 or 8",
+                     m + 1, s->nodes);
     for (int a = 0; a < s->nodes; a++)
       if (s->particle[a] >= c->particles)
         return sw_fail(err, SW_EINVAL, "cell: element %zu names a particle that does not exist",

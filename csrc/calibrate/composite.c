@@ -70,8 +70,8 @@ static void share_out(plan *p) {
 static sw_status too_much(const plan *p, const char *name, double value, const char *unit,
                           double most, sw_error *err) {
   return sw_fail(err, SW_EINVAL,
-                 "calibrate: %s = %.6g %s of each of %g cores must be in (0, %.6g) %s, so that the "
-                 "shell has a part of the wire's %s: make %s less",
+                 "calibrate: %s = %.6g %s with cores = %g must be in (0, %.6g) %s, so that the "
+                 "shell has a part of the wire's %s: reduce %s",
                  name, value, unit, p->n, most, unit, name + strlen("core_"), name);
 }
 
@@ -86,20 +86,20 @@ static sw_status check_parts(const plan *p, sw_error *err) {
   if (isnan(p->given->core_EA) && p->aside > 0 && !(p->shell.EA > 0 && p->shell.EI > 0))
     return sw_fail(err, SW_EINVAL,
                    "calibrate: cores = %g bonded off the axis add their whole EA to bending, so EA "
-                   "= %.6g N and EI = %.6g N m2 are not possible together; make bonded = false, or "
-                   "cores = 1, or EI more",
+                   "= %.6g N and EI = %.6g N m2 are not possible together; give bonded = false, "
+                   "cores = 1 or a larger EI",
                    p->n, p->wire.EA, p->wire.EI);
   if (!(p->shell.EA > 0)) return too_much(p, "core_EA", p->core.EA, "N", p->wire.EA / p->n, err);
   if (!(p->core.EA > 0))
     return sw_fail(
         err, SW_EINVAL,
         "calibrate: a shell from %.4g m to %.4g m with the rest of EI = %.6g N m2 would have more "
-        "than the wire's EA = %.6g N: give core_EI more than %.6g N m2, or make radius more",
+        "than the wire's EA = %.6g N: give a core_EI above %.6g N m2, or a larger radius",
         p->place->bore, p->place->radius, p->wire.EI, p->wire.EA, p->core.EI);
   if (!(p->shell.EI > 0))
     return sw_fail(err, SW_EINVAL,
                    "calibrate: %g bonded cores with core_EA = %.6g N off the axis alone have more "
-                   "than EI = %.6g N m2: make core_EA less than %.6g N, or bonded = false",
+                   "than EI = %.6g N m2: give a core_EA below %.6g N, or bonded = false",
                    p->n, p->core.EA, p->wire.EI, EI / p->aside);
   if (!(p->shell.GJ > 0)) return too_much(p, "core_GJ", p->core.GJ, "N m2", p->wire.GJ / p->n, err);
   return SW_OK;
@@ -117,8 +117,8 @@ static sw_status check_wall(const plan *p, double R, sw_error *err) {
   const double a = left_by_ring(p, c->bore), b = left_by_ring(p, c->radius);
   return sw_fail(err, SW_EINVAL,
                  "calibrate: with core_EA = %.6g N and core_EI = %.6g N m2 the shell's particles "
-                 "would be at %.4g m, outside of its wall from %.4g m to %.4g m: make core_EA "
-                 "between about %.5g N and %.5g N, or change wall, or give more particles",
+                 "would be at %.4g m, outside of its wall from %.4g m to %.4g m: give a "
+                 "core_EA between about %.5g N and %.5g N, another wall, or more particles",
                  p->core.EA, p->core.EI, R, c->bore, c->radius, fmax(0, fmin(a, b)), fmax(a, b));
 }
 
@@ -170,10 +170,10 @@ static sw_status check_core(const plan *p, const sw_calibration *core, sw_error 
   char text[160];
   if (p->args->tolerance == 1 || (near && core->fading >= FADED)) return SW_OK;
   if (h > 0.85 * core_limit(p))
-    snprintf(text, sizeof text, "make spacing = %.4g m less than about %.4g m", h,
+    snprintf(text, sizeof text, "spacing = %.4g m must be less than about %.4g m", h,
              0.8 * core_limit(p));
   else if (p->given->core == SW_CORE_CUBIC && sw_core_across(p->given, p->place) < 2)
-    snprintf(text, sizeof text, "make core_across = 1 more");
+    snprintf(text, sizeof text, "increase core_across = 1");
   else
     snprintf(text, sizeof text,
              "core_EI/core_EA is %.3g m2, and that of a solid core of this radius is %.3g m2: "
@@ -185,8 +185,8 @@ static sw_status check_core(const plan *p, const sw_calibration *core, sw_error 
                    "springs of the core close to zero (%.2g of the usual stiffness); %s",
                    sw_group_names[core->faded], core->fading, text);
   return sw_fail(err, SW_EINVAL,
-                 "calibrate: no springs of the core give core_%s = %.6g %s; the nearest have "
-                 "%+.2g %% of it more; %s",
+                 "calibrate: no springs of the core give core_%s = %.6g %s; the nearest differ "
+                 "by %+.2g %%; %s",
                  sw_target_names[worst], core->target[worst], sw_target_units[worst], 100 * off,
                  text);
 }
@@ -286,16 +286,17 @@ static sw_status check_whole(const plan *p, const sw_calibration *out, sw_error 
                    h, R, p->place->bore, p->place->radius, OF_LIMIT * most);
   if (h > 0.85 * most)
     snprintf(text, sizeof text,
-             "the diagonals that GJ needs are too stiff in bending: make spacing = %.4g m less "
-             "than about %.4g m",
+             "the diagonals that GJ needs are too stiff in bending: spacing = %.4g m must be "
+             "less than about %.4g m",
              h, 0.8 * most);
   else if (p->given->bonded && out->residual[worst] > 0)
     snprintf(text, sizeof text,
-             "bonds and cores alone have more than that: make bond = %g less, or core_%s, or "
-             "bonded = false",
+             "bonds and cores alone have more than that: reduce bond = %g or core_%s, or "
+             "give bonded = false",
              p->given->bond, sw_target_names[worst]);
   else
-    snprintf(text, sizeof text, "try another spacing than %.4g m, wall, or core_EA than %.4g N", h,
+    snprintf(text, sizeof text,
+             "try another wall, a spacing other than %.4g m, or a core_EA other than %.4g N", h,
              p->core.EA);
   return sw_fail(err, SW_EINVAL,
                  "calibrate: no springs of the shell give the whole %s = %.6g %s; the nearest have "

@@ -56,7 +56,7 @@ sw_status sw_lattice_composite_solid(const sw_composite *c, double spacing, sw_l
   if (all > SW_CELL_PARTICLES)
     return sw_fail(err, SW_EINVAL,
                    "calibrate: %zu layers of %zu particles around a line are %zu in a slice; at "
-                   "most %d: make particles, core_layers or layers less",
+                   "most %d: reduce particles, core_layers or layers",
                    layers, c->ring, all, SW_CELL_PARTICLES);
   SW_TRY(sw_lattice_layers(c->ring, layers, at, spacing, l, err));
   for (size_t m = 0; m < c->core_layers * c->ring; m++) l->solid[m].group = CORE_SOLID;

@@ -54,7 +54,7 @@ static sw_status check_room(const sw_composite *c, sw_error *err) {
   if (c->core_radius <= most * (1 + 1e-12)) return SW_OK;
   return sw_fail(err, SW_EINVAL,
                  "calibrate: core_radius = %.6g m is not allowed; %zu core%s fit%s in a bore of "
-                 "%.6g m with a radius in (0, %.6g] m: make core_radius or wall less",
+                 "%.6g m with a radius in (0, %.6g] m: reduce core_radius or wall",
                  c->core_radius, c->cores, c->cores == 1 ? "" : "s", c->cores == 1 ? "s" : "",
                  c->bore, most);
 }
@@ -115,11 +115,10 @@ sw_status sw_composite_core_share(const sw_composite_args *a, const sw_composite
                    "shell has a part of the wire's mass of %.6g kg/m",
                    a->core_density, mass / (M_PI * core), mass);
   if (!(n * given < mass))
-    return sw_fail(
-        err, SW_EINVAL,
-        "calibrate: core_mass = %.6g kg/m of each of %g cores must be in (0, %.6g) kg/m, "
-        "so that the shell has a part of the wire's mass",
-        given, n, mass / n);
+    return sw_fail(err, SW_EINVAL,
+                   "calibrate: core_mass = %.6g kg/m with cores = %g must be in (0, %.6g) kg/m, "
+                   "so that the shell has a part of the wire's mass",
+                   given, n, mass / n);
   *share = given / mass;
   return SW_OK;
 }
@@ -356,10 +355,11 @@ sw_status sw_lattice_composite(const sw_composite_args *args, const sw_lattice *
   c->each = core->particles;
   const size_t all = c->ring + c->cores * c->each;
   if (all > SW_CELL_PARTICLES)
-    return sw_fail(err, SW_EINVAL,
-                   "calibrate: %zu particles of the ring and %zu of each of %zu cores are %zu in a "
-                   "slice; at most %d: make core_layers, core_particles or core_across less",
-                   c->ring, c->each, c->cores, all, SW_CELL_PARTICLES);
+    return sw_fail(
+        err, SW_EINVAL,
+        "calibrate: %zu particles of the ring and %zu of each core (cores = %zu) are %zu "
+        "in a slice; at most %d: reduce core_layers, core_particles or core_across",
+        c->ring, c->each, c->cores, all, SW_CELL_PARTICLES);
   sw_status status = shell(args, c, core->spacing, &ring, err);
   if (status == SW_OK) status = put_together(args, &ring, core, core_share, c, l, err);
   sw_lattice_free(&ring);

@@ -43,8 +43,8 @@ static sw_status rectangle(const sw_cubic_args *a, grid *g, sw_error *err) {
   const double rows_of = fmax(1, round(a->height / g->ax));
   if (rows_of > MOST)
     return sw_fail(err, SW_EINVAL,
-                   "calibrate: height = %g m is %.0f voxels of %g m high; at most %d: make across "
-                   "less",
+                   "calibrate: height = %g m is %.0f voxels of %g m high; at most %d: reduce "
+                   "across",
                    a->height, rows_of, g->ax, MOST);
   g->ny = (size_t)rows_of;
   g->ay = a->height / rows_of;
@@ -71,8 +71,8 @@ static sw_status circle(const sw_cubic_args *a, double radius, grid *g, sw_error
     }
   if (count == 0)
     return sw_fail(err, SW_EINVAL,
-                   "calibrate: no voxel of %g m lies between inner = %g m and radius = %g m; make "
-                   "across = %ld more",
+                   "calibrate: no voxel of %g m lies between inner = %g m and radius = %g m; "
+                   "increase across = %ld",
                    pitch, inner, radius, a->across);
   g->ax = g->ay = sqrt(M_PI * (radius * radius - inner * inner) / count);
   return SW_OK;

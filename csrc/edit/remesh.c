@@ -213,7 +213,8 @@ static sw_status check_fed(const sw_scene *s, sw_error *err) {
 sw_status sw_scene_remesh(sw_scene *s, const size_t *segments, size_t count, sw_error *err) {
   SW_TRY(sw_scene_ready(s, err));
   if (count != sw_scene_wire_slots(s))
-    return sw_fail(err, SW_EINVAL, "scene '%s': %zu wires, but %zu numbers of segments",
+    return sw_fail(err, SW_EINVAL,
+                   "scene '%s': segments must have one number per wire, %zu in all, got %zu",
                    sw_scene_name(s), sw_scene_wire_slots(s), count);
   for (size_t w = 0; w < count; w++)
     if (segments[w] < 2 || segments[w] > 10000000)

@@ -73,7 +73,9 @@ static const double SHORTEST_SEGMENT = 1e-9; /* of the wire's length [-] */
 static sw_status check_mesh(const char *name, const sw_mesh *m, sw_error *err) {
   const double total = m->s[m->n - 1];
   if (!(total > 0) || !isfinite(total))
-    return sw_fail(err, SW_EINVAL, "wire '%s': its points give a length of %g m", name, total);
+    return sw_fail(err, SW_EINVAL,
+                   "wire '%s': its points give a length of %g m; it must be above 0 m", name,
+                   total);
   for (size_t i = 0; i + 1 < m->n; i++)
     if (!(m->s[i + 1] - m->s[i] > SHORTEST_SEGMENT * total))
       return sw_fail(err, SW_EINVAL, "wire '%s': the path turns back on itself near s = %g m", name,

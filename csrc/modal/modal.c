@@ -93,7 +93,7 @@ static sw_status choose_shift(job *p, size_t modes) {
   SW_TRY(count_below(p, -p->floor, p->other, &unstable));
   if (unstable > MOST_UNSTABLE)
     return sw_fail(p->err, SW_EDIVERGED,
-                   "frequencies: the state is unstable in %zu ways (slack, or compressed far "
+                   "frequencies: the state is unstable in %zu directions (slack, or compressed far "
                    "beyond buckling); call scene:settle() before",
                    unstable);
   p->target = modes + unstable;
@@ -261,7 +261,7 @@ static sw_status polish(const job *p, sw_modes *out) {
   while (q < m && q < p->target + SPARE && p->residuals[m - 1 - q] <= NEARLY * p->values[m - 1 - q])
     q++;
   if (q < p->target)
-    return sw_fail(p->err, SW_ENOCONV, "frequencies: only %zu frequencies were found", q);
+    return sw_fail(p->err, SW_ENOCONV, "frequencies: only %zu of %zu were found", q, p->target);
   double **x = sw_alloc(q, sizeof *x);
   double *dense = sw_alloc(3 * q * q + 2 * q, sizeof *dense);
   double *w = sw_alloc(2 * p->n, sizeof *w);

@@ -50,8 +50,8 @@ static sw_status twist_moment(sw_scene *s, sw_handle h, double place, double *ou
   *out = p.twist_moment;
   if (!why) return SW_OK;
   return sw_fail(err, SW_EINVAL,
-                 "wire '%s': twist_moment at s = %.6g m is not known: %s; rods and "
-                 "meshes have",
+                 "wire '%s': twist_moment at s = %.6g m is not known: %s; it is for "
+                 "rods and meshes",
                  w->name, place, why);
 }
 

@@ -306,7 +306,7 @@ static sw_status iterate(sw_system *s, const sw_stage *stage, const sw_newton *n
     if (i == STEADY && !newton->statics) sw_spin_slow_down(s, mass_rate(stage));
     SW_TRY(solve_once(s, stage, newton, report, err));
     const double share = share_of(s, newton, report);
-    if (share < 0) return sw_fail(err, SW_EDIVERGED, "the positions left the finite numbers");
+    if (share < 0) return sw_fail(err, SW_EDIVERGED, "positions are no longer finite numbers");
     if (share == 0) return sw_fail(err, SW_ENOCONV, "nothing holds a wire in its place");
     far += share < report->share;
     if (sw_lead_fails(s, newton, far, shortened))

@@ -138,9 +138,9 @@ static sw_status look_at(sw_scene *s, size_t w, double push, size_t edge, sw_vec
   else
     sw_scene_tell(s, "buckling", name, at, push,
                   "wire '%s' stays straight under a push of %.3g N, but is unstable in %zu "
-                  "directions: a real wire would buckle; draw it bent by a thousandth of its "
+                  "direction%s: a real wire would buckle; draw it bent by a thousandth of its "
                   "length, or add a small force across it",
-                  name, push, count);
+                  name, push, count, count == 1 ? "" : "s");
   return SW_OK;
 }
 

@@ -280,7 +280,7 @@ describe("a function as a force", function()
     fails(function(_, _, _, f) f[6] = math.huge end, "component 3 of the force on node 2")
     fails(function(_, _, _, f) f[5] = "12" end, "component 2 of the force on node 2")
     fails(function(_, _, _, f) f[5] = nil end, "component 2 of the force on node 2")
-    fails(function(_, _, _, f) f[22] = 1 end, "f has 22 items")
+    fails(function(_, _, _, f) f[22] = 1 end, "f must keep its 21 items, three for each node; it has 22")
     fails(function(_, x) x[1].y = 1 end, "index a number value")
   end)
 

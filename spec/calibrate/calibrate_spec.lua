@@ -252,7 +252,7 @@ describe("calibrate refuses", function()
     local ring = { mesh = "cubic", section = "annulus", radius = 0.005, EA = 1e4, EI = 0.08, GJ = 0.06 }
     refused(ring, "needs inner [m], below radius = 0.005 m")
     refused(with(ring, { inner = 0.006 }), "needs inner [m]")
-    refused(with(ring, { inner = 0.0049 }), "make across = 4 more")
+    refused(with(ring, { inner = 0.0049 }), "increase across = 4")
     refused(with(FLAT, { width = false }), "width must be a number [m], got boolean")
     local bare = with(FLAT)
     bare.width = nil
@@ -261,14 +261,14 @@ describe("calibrate refuses", function()
     bare.EI2 = nil
     refused(bare, "needs EI2 [N m2] too")
     refused(with(SOLID, { mesh = "cubic", EI2 = 1 }), "EI2 goes with section = 'rectangle'")
-    refused(with(FLAT, { height = 1 }), "at most 64: make across less")
+    refused(with(FLAT, { height = 1 }), "at most 64: reduce across")
     refused(with(FLAT, { width = 0.01, height = 0.039, across = 16 }), "at most 512")
   end)
 
   it("targets that cannot be reached, and says what helps", function()
     local wide = { mesh = "tube", EA = 1e4, EI = 0.2, GJ = 0.15, radius = 0.005 }
-    refused(wide, "no springs of this mesh give EA = 10000 N", "make ring_radius = 0.005 m about 0.006957 m "
-      .. "or more, or give bend = true")
+    refused(wide, "no springs of this mesh give EA = 10000 N",
+      "increase ring_radius = 0.005 m to about 0.006957 m or more, or give bend = true")
     near(0, calibrate(with(wide, { ring_radius = 0.0072 })).residuals.EA, 1e-8)
     near(0, calibrate(with(wide, { bend = true })).residuals.EA, 1e-8)
     refused(with(wide, { tolerance = 0.5 }), "only with spoke springs close to zero")
@@ -280,7 +280,7 @@ describe("calibrate refuses", function()
       "give core = true, or leave out ring_radius")
 
     local long = { mesh = "tube", EA = 1e4, EI = 0.05, GJ = 0.25, radius = 0.005, spacing = 0.02 }
-    refused(long, "the diagonals that GJ needs are too stiff in bending: make spacing = 0.02 m less than "
+    refused(long, "the diagonals that GJ needs are too stiff in bending: spacing = 0.02 m must be less than "
       .. "about")
     local limit = 0.005 * math.sqrt(2 * 0.05 / 0.25) * math.sin(math.pi / 4)
     near(0, calibrate(with(long, { spacing = 0.8 * limit })).residuals.EI, 1e-8)
@@ -294,7 +294,7 @@ describe("calibrate refuses", function()
       "EI/EA = 0.0001 m2 of the wire is too close to 2.62e-05 m2 of the outermost particles")
     refused(with(FLAT, { EI2 = 0.06 }), "EI/EI2 must be near (width/height)^2 = 4")
     refused({ mesh = "cubic", across = 1, EA = 1e4, EI = 0.05, GJ = 0.05, radius = 0.005 },
-      "make across = 1 more")
+      "increase across = 1")
     refused({ mesh = "tube", EA = 1e300, EI = 1e300, GJ = 1e300, radius = 1e-9 },
       "1e+300 N", "is not allowed")
   end)

@@ -266,11 +266,11 @@ describe("a composite of elements refuses", function()
     refused({ nu = 0.5 }, "nu = 0.5 of solid elements must be in [0, 0.4999]")
     refused({ layers = 7 }, "layers = 7 is not allowed; it must be in [0, 6]")
     refused({ particles = 64, layers = 4, core_layers = 5 }, "577 in a slice; at most 512",
-      "make particles, core_layers or layers less")
+      "reduce particles, core_layers or layers")
     refused({ core_E = 1e8, core_EA = 5 }, "core_E = 1e+08 Pa and core_EA = 5 N describe the same stiffness")
     refused({ core_mass = 1e-3, core_density = 1e3, density = 1 }, "describe the same mass; give one of them")
     refused({ core_density = 1e3 }, "core_density = 1000 kg/m3 goes with the shell's density")
-    refused({ core_mass = 1, density = 1000 }, "core_mass = 1 kg/m of each of 1 cores must be in")
+    refused({ core_mass = 1, density = 1000 }, "core_mass = 1 kg/m with cores = 1 must be in")
     refused({ core_density = 1e4, mass_per_length = 0.1 },
       "core_density = 10000 kg/m3 must be in (0, 3536.78)",
       "the wire's mass of 0.1 kg/m")

@@ -336,48 +336,48 @@ describe("a composite refuses", function()
       "spin_inertia = 1e-09 kg m goes with mesh = 'tube'")
     refused(with(SOLID, { core_mass = 0.1 }), "core_mass = 0.1 kg/m goes with the wire's mass_per_length")
     refused(with(SOLID, { mass_per_length = 0.1, cores = 3, core_mass = 0.04 }),
-      "core_mass = 0.04 kg/m of each of 3 cores must be in (0, 0.0333333) kg/m")
+      "core_mass = 0.04 kg/m with cores = 3 must be in (0, 0.0333333) kg/m")
   end)
 
   it("cores that do not fit", function()
     refused(with(SOLID, { core_radius = 0.005 }), "core_radius = 0.005 m must be in (0, 0.005) m")
     refused(with(SOLID, { core_radius = 0.004, wall = 0.002 }), "core_radius = 0.004 m is not allowed; "
-      .. "1 core fits in a bore of 0.003 m with a radius in (0, 0.003] m: make core_radius or wall less")
+      .. "1 core fits in a bore of 0.003 m with a radius in (0, 0.003] m: reduce core_radius or wall")
     refused(with(SOLID, { cores = 3, core_radius = 0.002 }), "core_radius = 0.002 m is not allowed; "
       .. "3 cores fit in a bore of 0.004 m with a radius in (0, 0.00181928] m")
     refused(with(SOLID, { cores = 7, core_radius = 0.0015 }), "7 cores fit in a bore of 0.004 m")
     refused(with(SOLID, { wall = 0.006 }), "wall = 0.006 m must be in (0, 0.005) m, below the wire's radius")
     refused(with(SOLID, { cores = 7, core_layers = 6, core_particles = 20 }),
-      "121 of each of 7 cores are 859 in a slice; at most 512: make core_layers")
+      "121 of each core (cores = 7) are 859 in a slice; at most 512: reduce core_layers")
   end)
 
   it("a part that has more than the wire", function()
     refused(with(WIRE, { core_EA = 1.1 * EA }),
-      "core_EA = 8639.38 N of each of 1 cores must be in (0, 7853.98) N", "make core_EA less")
-    refused(with(WIRE, { cores = 3, core_EI = 0.5 * EI }), "core_EI = 0.0245437 N m2 of each of 3 cores "
+      "core_EA = 8639.38 N with cores = 1 must be in (0, 7853.98) N", "reduce core_EA")
+    refused(with(WIRE, { cores = 3, core_EI = 0.5 * EI }), "core_EI = 0.0245437 N m2 with cores = 3 "
       .. "must be in (0, 0.0163625) N m2")
-    refused(with(WIRE, { core_GJ = EI }), "core_GJ = 0.0490874 N m2 of each of 1 cores must be in (0, ")
+    refused(with(WIRE, { core_GJ = EI }), "core_GJ = 0.0490874 N m2 with cores = 1 must be in (0, ")
     refused(with(WIRE, { core_EA = 0.9 * EA }), "with core_EA = 7068.58 N", "would be at 0.01043 m, outside "
-      .. "of its wall from 0.003 m to 0.005 m: make core_EA between about 0 N and 4435.9 N")
+      .. "of its wall from 0.003 m to 0.005 m: give a core_EA between about 0 N and 4435.9 N")
     refused(with(WIRE, { cores = 3, core_EA = 0.3 * EA, core_EI = 1e-3, EI = 0.2 * EI, GJ = 0.2 * EI }),
       "3 bonded cores with core_EA = 2356.19 N off the axis alone have more than EI", "or bonded = false")
     refused(with(CABLE, { cores = 3 }), "cores = 3 bonded off the axis add their whole EA to bending",
-      "make bonded = false, or cores = 1")
+      "give bonded = false, cores = 1 or a larger EI")
     refused(with(WIRE, { EA = 0.5 * EA }), "with the rest of EI = 0.0490874 N m2 would have more than the "
       .. "wire's EA",
-      "give core_EI more than")
+      "give a core_EI above")
   end)
 
   it("targets that cannot be reached, and says what helps", function()
     refused(with(WIRE, { core_EA = 0.01 * EA }), "no springs of the core give core_EA = 78.5398 N",
       "core_EI/core_EA is 8.1e-05 m2, and that of a solid core of this radius is 2.25e-06 m2")
-    refused(with(WIRE, { core = "cubic", core_across = 1 }), "make core_across = 1 more")
-    refused(with(WIRE, { spacing = 0.008 }), "make spacing = 0.008 m less than about")
+    refused(with(WIRE, { core = "cubic", core_across = 1 }), "increase core_across = 1")
+    refused(with(WIRE, { spacing = 0.008 }), "spacing = 0.008 m must be less than about")
     refused(with(WIRE, { core = "line", spacing = 0.02 }), "with spacing = 0.02 m the shell's particles "
       .. "would be at", "make spacing less than about")
     near(0, calibrate(with(WIRE, { core = "line", spacing = 0.006 })).residuals.EI, FITTED)
     refused(with(WIRE, { GJ = 0.02 * EI }), "no springs of the shell give the whole GJ",
-      "make bond = 1 less, or core_GJ, or bonded = false")
+      "reduce bond = 1 or core_GJ, or give bonded = false")
     share(0.02 * EI, calibrate(with(WIRE, { GJ = 0.02 * EI, bond = 0.1 })).GJ, FITTED)
     refused(with(WIRE, { core_radius = 0.00498 }), "outside of its wall from 0.00498 m to 0.005 m")
     local nearest = calibrate(with(WIRE, { GJ = 0.02 * EI, tolerance = 1 }))

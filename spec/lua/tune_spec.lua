@@ -116,7 +116,7 @@ describe("tune.minimise", function()
       ["give either from and to, or start  "] = { f = f, from = 1 },
       ["start, number 2 must be a number, got string"] = { f = f, start = { 1, "x" } },
       ["start has 0 numbers"] = { f = f, start = {} },
-      ["step has 1 numbers for 2 of start"] = { f = f, start = { 1, 2 }, step = { 1 } },
+      ["step must have as many numbers as start, 2, got 1"] = { f = f, start = { 1, 2 }, step = { 1 } },
       ["with a step of 0"] = { f = f, start = 1, step = 0 },
       ["tolerance = 0"] = { f = f, from = 0, to = 1, tolerance = 0 },
       ["f must return a number, got nil"] = { f = function() end, from = 0, to = 1 },

@@ -17,7 +17,7 @@ local wrong = {
     .. "way-point" },
   { { points = ways, speed = 1, duration = 2 }, "give duration = 2 s or a speed, not both" },
   { { points = ways, times = { 0, 1, 2 }, speed = 1 }, "the way-points have times; leave out speed" },
-  { { points = ways, times = { 0, 1 } }, "times has 2 entries for 3 way-points" },
+  { { points = ways, times = { 0, 1 } }, "times must have one entry per way-point, 3 in all, got 2" },
   { { points = ways, times = { 0, 1, 1 } }, "times must increase, but way-point 3 has t = 1 s after 1 s" },
   { { points = ways, times = { 0, "a", 1 } }, "trajectory: times[2] must be a number [s], got string" },
   { { points = ways, times = 3 }, "times must be an array of numbers [s], got number" },

@@ -68,7 +68,7 @@ describe("series", function()
   it("rejects columns of another length and other extensions", function()
     local data = { time = { 0, 1 }, columns = { { name = "f", values = { 1 } } } }
     assert.has_error(function() series.csv(data, folder .. "/c.csv") end,
-      "series: column f has 1 values for 2 times")
+      "series: column f has 1 value for 2 times")
     assert.error_matches(function() series.write({ time = {}, columns = {} }, "a.txt") end,
       "neither in .csv nor")
     assert.error_matches(function() series.csv({}, folder .. "/c.csv") end, "a run with time series")

@@ -73,7 +73,7 @@ describe("a gripper with pads", function()
         { s = 0.3, approach = "plates", force = 1 },
       ["approach = 'plate' is not one of: auto imposed mixed plates; did you mean 'plates'?"] =
         { approach = "plate" },
-      ["how far? give force [N], distance [m] or speed [m/s]"] = { s = 0.1, approach = "plates" },
+      ["give force [N], distance [m] or speed [m/s]"] = { s = 0.1, approach = "plates" },
       ["force goes with approach = 'plates' or 'mixed'"] = { s = 0.1, force = 1 },
       ["region goes with approach = 'mixed'"] = { s = 0.1, approach = "plates", force = 1, region = 0.1 },
       ["a mixed grasp takes time; call it in a process"] = { s = 0.1, approach = "mixed", force = 1 },

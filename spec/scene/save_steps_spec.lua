@@ -210,9 +210,13 @@ print(("%%a %%a %%a"):format(wire:max_tension(), left.peak_force, wire:position(
     end
     assert.is_truthy(other("friction"):find("obstacle 'plane1' differs from the file", 1, true))
     assert.is_truthy(other("wire"):find("wire 'wire1' differs from the file", 1, true))
-    assert.is_truthy(other("gripper"):find("gripper 'right' is there instead of gripper 'left'", 1, true))
-    assert.is_truthy(other("more"):find("obstacle 'sphere2' is there instead of", 1, true))
+    assert.is_truthy(other("gripper"):find("gripper 'left' of the file is missing in the script", 1, true))
+    assert.is_truthy(other("more"):find("obstacle 'sphere2' of the script is not in the file", 1, true))
     assert.is_truthy(other("gravity"):find("gravity differs from the file", 1, true))
+    local bare = sw.scene{ name = "laying" }
+    -- gravity stands last in the list: in a scene without objects it meets the file's first object
+    assert.is_truthy(fails("of another scene", bare.resume, bare, path)
+      :find("of the file is missing in the script", 1, true))
 
     local e = sw.scene{ name = "laying" }
     e:obstacle{ shape = "plane", friction = 0.3 }

@@ -114,7 +114,7 @@ describe("obstacle:set", function()
     for text, args in pairs{
       ["obstacle:set: there is no parameter 'fricton'; did you mean 'friction'?"] = { fricton = 1 },
       ["obstacle:set: friction = -1 is not allowed; it must be in [0, 100]"] = { friction = -1 },
-      ["obstacle:set: name is given when it is made; the parameters to set are: at rotation friction "
+      ["obstacle:set: name is given when the object is made; the parameters to set are: at rotation friction "
         .. "kinetic_friction restitution"] = { name = "x" },
       ["obstacle:set: at must be a table of 3 numbers [m], got number 1"] = { at = 1 },
     } do
@@ -230,13 +230,13 @@ describe("force:set", function()
     local gone = scene:force{ kind = "drag", on = wire, linear = 1 }
     gone:release()
     for text, call in pairs{
-      ["force point: set: s is given when it is made; the parameters to set are: force"] =
+      ["force point: set: s is given when the object is made; the parameters to set are: force"] =
         function() point:set{ s = 0.2 } end,
       ["force damping: set: there is no parameter 'mas'; did you mean 'mass'?"] =
         function() damping:set{ mas = 2 } end,
       ["mass = -1"] = function() damping:set{ mass = -1 } end,
       ["nan s is not allowed"] = function() damping:set{ mass = 2, stiffness = 0 / 0 } end,
-      ["yield_moment is given when it is made; this object has nothing to set"] =
+      ["yield_moment is given when the object is made; this object has nothing to set"] =
         function() strain:set{ yield_moment = 2 } end,
       ["force drag: it was released; make another one"] = function() gone:set{ linear = 2 } end,
       ["force damping: set takes one table of parameters"] = function() damping:set(7) end,

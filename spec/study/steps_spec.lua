@@ -131,7 +131,7 @@ describe("p.broken", function()
   end)
 
   it("reports wrong arguments", function()
-    for words, results in pairs { ["did you mean 'peak'?"] = { peek = 1 }, ["must get results"] = 3,
+    for words, results in pairs { ["did you mean 'peak'?"] = { peek = 1 }, ["p.broken takes results"] = 3,
       ["p.broken: peak"] = { peak = "x" } } do
       local fine, why = pcall(asked, function(p)
         assert(p.broken(results))

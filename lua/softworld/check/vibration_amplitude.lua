@@ -4,6 +4,7 @@
 --     sigma^2 = W(f) / (2 damping) / (32 pi^3 f^3)  (displacement for a participation of 1),
 -- times shape and participation, with squares summed over the modes.
 -- @module softworld.check.vibration_amplitude
+local counted = require "softworld.output.number".count
 local holding = require "softworld.check.holding"
 local swings = require "softworld.check.swings"
 local vec = require "softworld.vec"
@@ -123,8 +124,8 @@ local function amplitude(wire, found, given)
   local high = math.sqrt(largest(most) ^ 2 + rest ^ 2)
   local best = { value = value, s = at and places[at], low = math.min(value, (largest(least))),
     high = math.max(value, high) }
-  best.note = ("%d modes up to %.4g Hz, damping ratio %g%s"):format(#found, found[#found] or 0, given.damping,
-    swings.note(given))
+  best.note = ("%s up to %.4g Hz, damping ratio %g%s"):format(counted(#found, "mode"), found[#found] or 0,
+    given.damping, swings.note(given))
   if rest > MATTERS * best.high then
     local top = given.spectrum[#given.spectrum][1]
     best.note = best.note .. "; " .. swings.advice(wire, errors(top), edge, top)

@@ -156,7 +156,7 @@ function Gripper:move(args)
   check_place(self, "move")
   args = move:read(args)
   if not (args.path or args.points or args.to or args.by or args.turn or args.func) then
-    error(("gripper '%s': move where? give path, points, to, by, turn or func"):format(self.name), 2)
+    error(("gripper '%s': move has no target; give path, points, to, by, turn or func"):format(self.name), 2)
   end
   if args.func and not args.duration then
     error(("gripper '%s': move: func has no end; give duration [s]"):format(self.name), 2)

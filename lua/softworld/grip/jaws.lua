@@ -42,7 +42,7 @@ local open = rows.call("gripper:open_jaws", "{...}", "opens the jaws", {
 function jaws.order(self, args, what)
   local distance, force, speed = args.distance, args.force, args.speed or jaws.SPEED
   if not (distance or force or args.speed) then
-    error(("%s: how far? give force [N], distance [m] or speed [m/s]"):format(what), 0)
+    error(("%s: give force [N], distance [m] or speed [m/s]"):format(what), 0)
   end
   if distance then return { mode = "to", opening = distance, speed = speed, force = force } end
   if force then return { mode = "force", speed = speed, force = force } end

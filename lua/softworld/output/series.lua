@@ -4,6 +4,7 @@
 -- @module softworld.output.series
 
 local checks = require "softworld.checks"
+local counted = require "softworld.output.number".count
 local json = require "softworld.output.json"
 local sink = require "softworld.output.sink"
 
@@ -23,7 +24,8 @@ function series.of(source)
       sink.fail("series: column %d lacks a name or values", i)
     end
     if #column.values ~= #data.time then
-      sink.fail("series: column %s has %d values for %d times", column.name, #column.values, #data.time)
+      sink.fail("series: column %s has %s for %s", column.name, counted(#column.values, "value"),
+        counted(#data.time, "time"))
     end
   end
   return data

@@ -6,6 +6,7 @@
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
+local counted = require "softworld.output.number".count
 local methods = require "softworld.methods"
 local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
@@ -232,8 +233,8 @@ function Observer:__tostring()
   local own, when = fields(self), {}
   if own.every then when[1] = ("every %g s"):format(own.every) end
   if own.wall then when[#when + 1] = ("every %g s on the clock"):format(own.wall) end
-  return ("observer of '%s', %s, %d calls%s"):format(own.scene.name, #when > 0 and table.concat(when, " and ")
-    or "at each step", own.calls, own.gone and ", removed" or "")
+  return ("observer of '%s', %s, %s%s"):format(own.scene.name, #when > 0 and table.concat(when, " and ")
+    or "at each step", counted(own.calls, "call"), own.gone and ", removed" or "")
 end
 
 methods.guard_table("observer", Observer)

@@ -8,6 +8,7 @@
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
+local counted = require "softworld.output.number".count
 local rows = require "softworld.rows"
 
 local plot = {}
@@ -38,7 +39,7 @@ local function fail(text, ...) error(("sw.plot: " .. text):format(...), 0) end
 
 local function check_numbers(what, list, count)
   if #list == 0 then fail("%s has no values", what) end
-  if #list ~= count then fail("%s has %d values, and y %d", what, #list, count) end
+  if #list ~= count then fail("%s has %s, and y %d", what, counted(#list, "value"), count) end
   for i, x in ipairs(list) do
     if type(x) ~= "number" then fail("%s[%d] must be a number, got %s", what, i, checks.got(x)) end
   end
@@ -120,7 +121,7 @@ end
 
 local function read(args)
   if type(args) ~= "table" or getmetatable(args) then
-    fail("must get a table, such as { run1, run2, path = 'both.svg' }, got %s", checks.got(args))
+    fail("takes a table, such as { run1, run2, path = 'both.svg' }, got %s", checks.got(args))
   end
   local named, list = {}, {}
   for key, value in next, args do

@@ -255,6 +255,14 @@ local function take(scene, text)
   return note
 end
 
+-- True if a list { name, content, ... } has a name.
+local function has(list, name)
+  for i = 1, #list, 2 do
+    if list[i] == name then return true end
+  end
+  return false
+end
+
 -- Raises an error unless the script's scene is the same as the file's was before its first run.
 local function compare(scene, note, file)
   local now, then_ = save.origin(scene), note.origin
@@ -262,9 +270,9 @@ local function compare(scene, note, file)
     local a, b = now[i], then_[i]
     if a ~= b or now[i + 1] ~= then_[i + 1] then
       local what = a == b and ("%s differs from the file"):format(a)
-        or not a and ("%s of the file is missing in the script"):format(b)
-        or not b and ("%s is not in the file"):format(a)
-        or ("%s is there instead of %s"):format(a, b)
+        or b and not has(now, b) and ("%s of the file is missing in the script"):format(b)
+        or a and not has(then_, a) and ("%s of the script is not in the file"):format(a)
+        or ("%s comes before %s in the script, and after it in the file"):format(a, b)
       error(("scene:resume: '%s' is of another scene: %s. A script must build the same scene before it goes "
         .. "on; remove the file to start from the beginning, or read it with sw.load")
         :format(file, what), 0)

@@ -6,6 +6,7 @@
 --     print(fit)
 -- @module softworld.study.fit
 local campaign = require "softworld.study.campaign"
+local counted = require "softworld.output.number".count
 local design = require "softworld.study.design"
 local fitdata = require "softworld.study.fitdata"
 local fitsearch = require "softworld.study.fitsearch"
@@ -60,9 +61,8 @@ local function check(own, data, o)
     end
   end
   if data.count < #own.parameters then
-    error(("study:fit: %d data cannot determine %d parameters; measure more, or fix some parameters"):format(
-      data.count,
-      #own.parameters), 0)
+    error(("study:fit: %s cannot determine %s; measure more, or fix some parameters"):format(
+      data.count == 1 and "1 datum" or data.count .. " data", counted(#own.parameters, "parameter")), 0)
   end
   if o.loss == "soft" and not data.known then
     error("study:fit: loss = 'soft' needs the sigma of the data, which says what is far from the model", 0)

@@ -23,7 +23,7 @@ local function spread_list(what, item, key, given)
   local list = {}
   if given == nil then return nil end
   if type(given) == "table" and #given ~= #item.values then
-    fail("%s: %s has %d numbers, and there are %d data", what, key, #given, #item.values)
+    fail("%s: %s must have one number per datum, %d in all, got %d", what, key, #item.values, #given)
   end
   for i = 1, #item.values do
     local value = given

@@ -213,8 +213,9 @@ local function sums(fit, f, data, scale, loss, said)
     fit.chance, said[#said + 1] = chance, text
   end
   if fit.sigma == "unknown" and f.C then
-    said[#said + 1] = ("%d data and %d parameters leave no residuals to estimate sigma from, so there are no "
-      .. "intervals; give sigma or more data"):format(data.count, #f.list)
+    said[#said + 1] = ("%s and %s leave no residuals to estimate sigma from, so there are no "
+      .. "intervals; give sigma or more data"):format(data.count == 1 and "1 datum" or data.count .. " data",
+      counted(#f.list, "parameter"))
   end
   local far = 0
   for _, z in ipairs(f.r) do far = far + (math.abs(z) > 3 and 1 or 0) end

@@ -78,7 +78,7 @@ end
 --- Returns the name of the first constraint that some results break, or nil; results: those known so far.
 function judge.broken(own, results)
   if type(results) ~= "table" then
-    fail("p.broken: must get results, such as p.broken { peak = 12 }, got %s", checks.got(results))
+    fail("p.broken takes results, such as p.broken { peak = 12 }, got %s", checks.got(results))
   end
   local known = {}
   for _, c in ipairs(own.constraints) do known[c.name] = true end
