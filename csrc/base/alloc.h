@@ -34,9 +34,9 @@ void sw_free(void *p);
   sw_free_all((void *const[]){__VA_ARGS__}, sizeof((void *const[]){__VA_ARGS__}) / sizeof(void *))
 void sw_free_all(void *const *list, size_t count);
 
-/* Makes the compiler free what a local pointer points to at the end of the pointer's block, also
- * after return or break. Write it before the value:
- * double *work SW_LOCAL = sw_alloc(n, sizeof *work); */
+/* Makes the compiler free the block of a local pointer at the end of the pointer's scope, also
+ * after return or break. Write it before the value: double *work SW_LOCAL = sw_alloc(n, sizeof
+ * *work); */
 #define SW_LOCAL __attribute__((cleanup(sw_free_local)))
 static inline void sw_free_local(void *pointer) {
   void *p;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* scene:events() and scene:tell{...}: what happened in a run. */
+/* scene:events() and scene:tell{...}: the events of a run. */
 #include <math.h>
 
 #include "bind/child.h"

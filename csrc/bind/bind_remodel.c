@@ -4,7 +4,7 @@
 
 #include "bind/child.h"
 
-/* Reads the table of arguments and returns the model. There are no keys for what the wire keeps;
+/* Reads the table of arguments and returns the model. Values that the wire keeps have no keys;
  * `model` is required. */
 static int read_arguments(lua_State *L, sw_wire_args *args, sw_wire_mesh_args *mesh,
                           double region[2]) {

@@ -147,7 +147,7 @@ static int mod_fork(lua_State *L) {
   if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) return lsw_failed(L);
   ours->fd = ends[0], theirs->fd = ends[1];
   const pid_t parent = getpid();
-  fflush(NULL); /* else both processes would write what is buffered */
+  fflush(NULL); /* else both processes would write the buffered output */
   const pid_t pid = lsw_process_fork();
   if (pid == 0) {
     close(ours->fd);

@@ -33,7 +33,7 @@ static lsw_self check_at(lua_State *L, int index, const lsw_class *c) {
 
 lsw_self lsw_check_self(lua_State *L, const lsw_class *c) { return check_at(L, 1, c); }
 
-/* Raises: the value at index is not what `what`, a method and its argument, must be. */
+/* Raises an error: the value at index has the wrong type. what: a method and its argument. */
 static void refuse(lua_State *L, int index, const char *wanted, const char *what) {
   luaL_error(L, "%s must be %s, got %s", what, wanted, lsw_describe(L, index));
 }

@@ -56,7 +56,7 @@ const char *lsw_describe(lua_State *L, int index);
  * method tables by class name; Lua files add methods to these. */
 void lsw_open_classes(lua_State *L);
 
-/* Makes what lsw_quiet of child.h needs. */
+/* Makes the tables of lsw_quiet (child.h). */
 void lsw_open_quiet(lua_State *L);
 
 /* Raises "interrupted" when the user wants to stop. */
@@ -80,9 +80,9 @@ typedef struct lsw_section {
 void lsw_sections(lua_State *L, int index, const char *object, const lsw_section *sections,
                   int count);
 
-/* Returns the index among names of the word on top of the stack. If it is none of them, raises a
- * message of what ("wire: there is no model"), the word, and the nearest name; or, if none is near,
- * also and all names. */
+/* Returns the index among names of the word on top of the stack. If it is not there, raises an
+ * error with `what` ("wire: there is no model"), the word, and the nearest name; if none is near,
+ * with `also` and all names. */
 size_t lsw_word(lua_State *L, const char *what, const char *also, const char *const *names,
                 size_t count);
 

@@ -116,7 +116,7 @@ static sw_vec bend_at(const sw_bends *b, double s, int side) {
 
 /* --- give ------------------------------------------------------------------------------ */
 
-/* Nodes on each side of a hold that move: over so many, what does not fit is made good by a bend of
+/* Nodes on each side of a hold that move. Spread over so many, a remaining misfit needs a bend of
  * less than a hundredth of the wire's [-]. */
 enum { FOLLOWERS = 8 };
 
@@ -237,7 +237,7 @@ static void make_chain(maker *k) {
   }
 }
 
-/* Puts the nodes where the links end; what still lacks to the next fixed place is shared out. */
+/* Puts the nodes where the links end; spreads the gap to the next fixed place over them. */
 static void take_section(const maker *k, double *normals, size_t a, size_t b, int back) {
   const sw_mesh *m = k->v->mesh;
   const double *x = k->v->nodes;

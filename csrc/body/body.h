@@ -24,8 +24,8 @@ typedef struct sw_body_class {
   const char *held; /* what holds grasp, for messages */
   double apart;     /* least wire between two holds, over the whole length [-] */
 
-  /* Place. state: returns the body's arrays. plan: makes its plan, with what holds form, held at
-   * places (count). take: takes its state out of the built system. SW_ENOMEM. */
+  /* Place. state: returns the body's arrays. plan: makes its plan, with the parts that holds make
+   * rigid, held at places (count). take: takes its state out of the built system. SW_ENOMEM. */
   sw_body_state (*state)(const sw_scene_wire *wire);
   sw_status (*plan)(const sw_scene *scene, size_t wire, const sw_hold_place *places, size_t count,
                     sw_plan **out);
@@ -33,16 +33,16 @@ typedef struct sw_body_class {
 
   /* Hold. widen: extends an interval to one that can be held [m]. */
   void (*widen)(const sw_mesh *mesh, double *s1, double *s2);
-  /* place: finds a new hold's interval, for which nodes may move. fresh: 0 if it held the wire
-   * before the wire's model changed, and stays where it is; a line then waits for sw_line_refine.
-   * grasp: finds what the hold holds, and its pose. refine: makes enough edges between the hold and
-   * others; NULL: place has. SW_ENOMEM. */
+  /* place: finds a new hold's interval; nodes may move for it. fresh: 0 if it held the wire before
+   * the wire's model changed, and stays where it is; a line then waits for sw_line_refine. grasp:
+   * finds the nodes of the hold, and its pose. refine: makes enough edges between the hold and
+   * others; NULL: place has done so. SW_ENOMEM. */
   sw_status (*place)(sw_scene *scene, sw_hold *hold, const sw_hold_args *args, int fresh);
   sw_status (*grasp)(const sw_scene_wire *wire, sw_hold *hold, const sw_hold_args *args);
   /* let_go: the hold ends, and the wire keeps its bends. NULL: nothing to do. SW_ENOMEM. */
   sw_status (*let_go)(sw_scene *scene, sw_hold *hold);
   sw_status (*refine)(const sw_scene *scene, const sw_hold *hold, sw_mesh *mesh);
-  /* Adds what the hold holds to the system's held nodes, each like `node`. */
+  /* Adds the hold's nodes to the system's held nodes, each like `node`. */
   void (*add_held)(const sw_body *body, const sw_hold *hold, sw_held_node node, sw_system *system);
 
   /* Check: SW_EINVAL, naming both, when two holds hold the same node or particle. */

@@ -20,8 +20,8 @@ sw_status sw_scene_draw_untwisted(sw_scene_wire *wire);
 /* Drops the contact memory kept for the next system. */
 void sw_scene_forget_contact(sw_scene *scene);
 
-/* Call when a body or an obstacle was added: what is then inside an obstacle comes out slowly, as
- * at the beginning of a scene, and the energy for that is no error. */
+/* Call after a body or an obstacle was added: wire inside an obstacle then comes out slowly, as at
+ * the beginning of a scene, and the energy for that is no error. */
 void sw_scene_let_out(sw_scene *scene);
 
 /* Finds the wire of a handle; builds and refreshes the scene for reading. */

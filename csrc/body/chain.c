@@ -72,8 +72,8 @@ static void solve(const chain *c, sw_vec *b) {
   }
 }
 
-/* Fills in the forces of the joints on the links: what their turns differ by from the wanted ones,
- * across the wire, over their lengths. */
+/* Computes the right-hand side: at each joint the difference of the links' turn from the wanted
+ * one, across the wire, over the links' lengths. */
 static void load(const chain *c, sw_vec *b) {
   memset(b, 0, c->n * sizeof *b);
   for (size_t k = 0; k + 1 < c->n; k++) {

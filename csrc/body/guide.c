@@ -280,7 +280,8 @@ static void take_node(guide *g) {
 
 enum { FINE = 0, ADD = 1, TAKE = 2, EMPTY = 3 };
 
-/* Returns what a guide's side needs while its first edge changes by `change` [m]. */
+/* Returns the edit (ADD, TAKE, ...) that a guide's side needs while its first edge changes by
+ * `change` [m]. */
 static int needs(const sw_scene *s, const guide *g, double change) {
   const sw_hold *next;
   const double now = edge_length(g, 0), then = now + change, second = edge_length(g, 1);

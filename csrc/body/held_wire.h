@@ -39,9 +39,9 @@ sw_vec sw_held_director(const sw_held_wire *v, const sw_hold *h, int end);
 double sw_held_joint(const sw_held_wire *v, size_t i);
 double sw_held_clamp_joint(const sw_held_wire *v, const sw_clamp_hinge *h);
 
-/* Return the turn of the unloaded wire, in its present directions, and what the present turn
- * differs by from it: at a node between edges; between the edge on this side of node i and a hold's
- * direction [rad]. */
+/* Return the turn of the unloaded wire, in its present directions (rest_turn), and the difference
+ * of the present turn from it (flexure): at a node between edges; `beside`: between the edge on
+ * this side of node i and a hold's direction [rad]. */
 sw_vec sw_held_rest_turn(const sw_held_wire *v, size_t i);
 sw_vec sw_held_flexure(const sw_held_wire *v, size_t i);
 sw_vec sw_held_rest_turn_beside(const sw_held_wire *v, const sw_hold *h, size_t i, int side,

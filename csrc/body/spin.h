@@ -8,7 +8,7 @@
 
 /* Measures the unloaded frames of a wire for its plan. SW_ENOMEM. */
 sw_status sw_scene_unloaded(const sw_scene *scene, size_t wire, sw_plan *plan);
-/* The same for what depends on the edges beside one node. */
+/* Does this for the values that depend on the edges beside one node. */
 void sw_scene_unloaded_near(const sw_scene *scene, size_t wire, sw_plan *plan, size_t node);
 /* Present frames: into the system's state, and back into a mesh. */
 void sw_scene_frame_in(sw_scene *scene);

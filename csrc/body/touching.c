@@ -143,7 +143,7 @@ static int stands(const sw_hold *h, double t) {
   return sw_drive_stands(&h->drive, t) && !sw_hold_passes(h) && !h->cls->hold->rail;
 }
 
-/* Tells which holds stand, and what they bear while their wire waits. */
+/* Marks the holds that stand, and stores their loads while their wire waits. */
 static void inform_holds(sw_scene *s, double t) {
   for (size_t k = 0; k < s->system.hold_count; k++) {
     const sw_hold *h = sw_scene_held_by(s, k);

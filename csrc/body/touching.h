@@ -23,7 +23,7 @@ sw_status sw_scene_new_pairs(sw_scene *scene);
 /* Connects contact and holds to the system. */
 void sw_scene_couple(sw_scene *scene);
 int sw_scene_has_contact(const sw_scene *scene);
-/* Tells contact what obstacles remember and which may move. */
+/* Tells contact the memory of obstacles, and which obstacles may move. */
 void sw_scene_inform_contact(sw_scene *scene);
 /* The scene is built and will run: see sw_contact_clear. */
 sw_status sw_scene_clear_meshes(sw_scene *scene, sw_error *err);

@@ -34,7 +34,7 @@ sw_vec sw_view_ray(const sw_view *v, double x, double y);
 sw_status sw_raster(const sw_drawing *d, const sw_view *v, int without_tubes, sw_layer *layer,
                     int (*interrupted)(void));
 
-/* A lamp at infinity and the map of what it sees. */
+/* A lamp at infinity and the map of the surfaces that it lights. */
 typedef struct sw_lamp {
   sw_vec toward, right, up;           /* direction to the lamp, axes of the map [-] */
   double left, bottom, scale, middle; /* map's edges [m], cells a metre [1/m], zero of near [m] */

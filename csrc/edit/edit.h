@@ -19,7 +19,7 @@ sw_status sw_scene_draw(sw_scene_wire *wire, size_t segments, sw_mesh *out, sw_e
 /* SW_EINVAL when the wire, as given, does not go with the scene's forces. */
 sw_status sw_scene_check_rules(const sw_scene *scene, size_t wire, const sw_scene_wire *as,
                                sw_error *err);
-/* Free what these slots own. */
+/* Free the memory of these slots. */
 void sw_scene_clear_body(sw_scene_wire *body);
 void sw_scene_clear_obstacle(sw_scene_obstacle *obstacle);
 void sw_scene_clear_force(sw_scene_force *force);

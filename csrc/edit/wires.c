@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Wires of a scene: what users may give, and how wires are made from it. */
+/* Wires of a scene: checks of the user's values, and the making of wires from them. */
 #include <math.h>
 #include <string.h>
 

@@ -79,7 +79,7 @@ static void add_place(const sw_clip *c, const double x[3], double t, const doubl
   for (int k = 0; k < 9; k++) out->next[k] += part[0] * part[1] * H[WHOLE[k]];
 }
 
-/* Adds what comes from the weight, which changes with the edge's way along the axis. */
+/* Adds the derivatives of the weight, which changes with the edge's way along the axis. */
 static void add_weight(const sw_clip_walk *w, int stiffness, sw_clip_sum *out) {
   const double sum = out->energy / w->weight; /* of U chi over the places [J] */
   double G[2][3];

@@ -104,7 +104,7 @@ int sw_clip_edge(const sw_clip *clip, const sw_field *field, size_t e, sw_clip_s
 /* Turns (u, v, a) into world axes. */
 sw_vec sw_clip_world(const sw_clip *clip, const double local[3]);
 
-/* Adds what the field wants of a sum to the field. */
+/* Adds the values selected by field->want from a sum to the field. */
 void sw_clip_on_edge(const sw_clip *clip, sw_field *field, size_t e, const sw_clip_sum *sum);
 
 /* Returns an upper bound of the clip's stiffness; its friction slips at a stretch of `slip` [m],

@@ -52,8 +52,8 @@ typedef struct sw_force_class {
    * out. */
   int (*applies)(const sw_plan *plan);
 
-  /* Adds what field->want asks for. args is the argument struct. Returns SW_OK, or SW_ECALLBACK
-   * from user code (err filled). */
+  /* Adds the values selected by field->want. args is the argument struct. Returns SW_OK, or
+   * SW_ECALLBACK from user code (err filled). */
   sw_status (*eval)(const void *args, sw_field *field, sw_error *err);
 
   /* Largest stable step of undamped leapfrog due to this force alone on this
@@ -97,11 +97,11 @@ typedef struct sw_force_class {
   void (*commit)(const void *args, const sw_field *field, double *history);
   void (*inherit)(const sw_plan *old, const double *from, const sw_field *field, double *history);
 
-  /* Between two searches for the same equilibrium: brings what lags a step behind the state up to
-   * it; guesses = 1: only where it is a first guess. Returns the change of the force on the wire,
+  /* Between two searches for the same equilibrium: advances values that lag a step behind the state
+   * to the state; guesses = 1: only first guesses. Returns the change of the force on the wire,
    * over the largest force that lags [-]. NULL = nothing lags. */
   double (*catch_up)(const void *args, const sw_field *field, int guesses, double *history);
-  /* A run begins: what the history records of a run starts anew. NULL = nothing does. */
+  /* A run begins: clears the history's records of a run. NULL = no records. */
   void (*begin_run)(double *history);
 
   /* 1 if the last commit produced an event. Fills its kind, place on the wire, value and text. NULL

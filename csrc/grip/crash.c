@@ -38,7 +38,7 @@ static void look_at_bone(void *user, sw_vec a, sw_vec b, double skin) {
   for (int i = 0; i < n; i++) o->depth = fmax(o->depth, skin - near[i].gap);
 }
 
-/* Looks at the points alone; they find what sticks out into the middle of a face. */
+/* Checks the points only; they find parts that stick out into the middle of a face. */
 static void look_at_end(void *user, sw_vec a, sw_vec b, double skin) {
   if (a.x == b.x && a.y == b.y && a.z == b.z) look_at_point(user, a, skin);
 }

@@ -108,8 +108,8 @@ static void look_at_wire(const list *l, size_t first, size_t end, sw_held *out, 
   for (size_t k = first; k < end; k++) l->touch[k].at = sw_sub(l->touch[k].at, middle);
 }
 
-/* Turns that move the touches by less than a tenth of what the widest ones do are left out: those
- * of a nearly straight line of touches about itself. The slips do not tell them, and the arms of a
+/* Turns that move the touches by less than a tenth of the widest one's move are left out: those of
+ * a nearly straight line of touches about itself. Slips do not determine them, and the arms of a
  * line that bends change from step to step. This is the share of the largest inertia [-]. */
 static const double IDLE = 1e-2;
 

@@ -12,10 +12,10 @@ typedef struct sw_held {
   double sliding;      /* normal force of the touches that slide [N] */
   double place;        /* mean of the touches' arc lengths, weighted by normal forces [m] */
   unsigned press;      /* one bit for each finger that presses */
-  double margin;       /* largest one of a wire: friction and its moment over what the touches can
-                          resist, from 0 to 1 [-] */
-  sw_vec slip, turn;   /* way and turn of the wires between the pads in the last step, in the
-                          tool's axes [m], [rad] */
+  double margin;     /* largest one of a wire: friction and its moment over the touches' resistance,
+                        from 0 to 1 [-] */
+  sw_vec slip, turn; /* way and turn of the wires between the pads in the last step, in the
+                        tool's axes [m], [rad] */
 } sw_held;
 
 /* Reads the touches of the tool's pads. slipped, turned: slip and turn before this step, in the

@@ -11,7 +11,7 @@
 void sw_scene_clear_tool(sw_tool *tool);
 /* Returns the force per finger of the last trial, which ended at time t [N]. */
 double sw_tool_squeeze(sw_scene *scene, const sw_tool *tool, double t);
-/* Updates what the tools hold at the accepted state, and adds a row to their logs. */
+/* Updates the tools' held wires at the accepted state, and adds a row to their logs. */
 sw_status sw_tool_observe(sw_scene *scene, sw_error *err);
 /* Checks whether the tool runs into obstacles. */
 sw_status sw_tool_look_out(sw_scene *scene, size_t tool, sw_error *err);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Tools: their frames, pads and holds, and the state of what they hold. */
+/* Tools: their frames, pads and holds, and the state of the wires that they hold. */
 #include "grip/tool.h"
 
 #include <math.h>
@@ -123,7 +123,7 @@ sw_status sw_scene_tool_watch(sw_scene *s, sw_handle tool, double tolerance, int
   return SW_OK;
 }
 
-/* --- what it holds ---------------------------------------------------------------- */
+/* --- held wires ------------------------------------------------------------------- */
 
 double sw_tool_squeeze(sw_scene *s, const sw_tool *t, double time) {
   sw_contact *contact = sw_scene_contact(s);
@@ -209,7 +209,7 @@ sw_status sw_scene_tool_finger(sw_scene *s, sw_handle tool, int finger, const sw
   return SW_OK;
 }
 
-/* Returns the load on the frozen grip over what the pads in its place could bear. */
+/* Returns the load on the frozen grip over the load that its pads could bear. */
 static double hold_frozen(const sw_scene *s, sw_tool *t, sw_vec force, sw_vec moment) {
   sw_tool_state *now = &t->now;
   now->margin =

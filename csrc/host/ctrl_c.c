@@ -31,8 +31,8 @@ static pthread_t owner; /* the thread that runs Lua */
 static volatile sig_atomic_t seen, prompt, cancelled;
 static struct timespec last; /* time of the previous Ctrl-C; tv_sec 0 = none */
 
-/* Pushes the position of the script's innermost running line, also when the library was called from
- * it; without one, the position of what runs. */
+/* Pushes the position of the script's innermost running line, also when that line called the
+ * library; without a script, the position of the running code. */
 static void push_place(lua_State *L) {
   lua_Debug at;
   for (int level = 0; lua_getstack(L, level, &at); level++) { /* 0: the function the hook stopped */

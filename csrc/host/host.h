@@ -30,7 +30,7 @@ typedef struct host_options {
   const char *log; /* file of --log, or NULL */
 } host_options;
 
-/* Reads the command line. HOST_USAGE after a message about what is wrong. */
+/* Reads the command line. HOST_USAGE after a message about the mistake. */
 int host_options_read(host_options *o, int argc, char **argv);
 
 /* Returns the code of the first -e option at or after argv index *at, and moves *at

@@ -152,7 +152,7 @@ static int read_rest(lua_State *L) {
       lua_settop(L, text - 1);
       return LUA_YIELD;
     }
-    status = load_with(L, text, ""); /* no more lines: the message says what is missing */
+    status = load_with(L, text, ""); /* no more lines: the message names the missing part */
     lua_remove(L, text);
     return status;
   }

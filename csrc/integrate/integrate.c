@@ -99,7 +99,7 @@ static void add(size_t n, double a, const double *restrict x, double *restrict o
   for (size_t i = 0; i < n; i++) out[i] += a * x[i];
 }
 
-/* Computes the stage's xhat and vhat. Reads only what the row uses; two sources, the usual number,
+/* Computes the stage's xhat and vhat. Reads only the row's sources; two sources, the usual number,
  * take one pass. */
 static void prepare_stage(const sw_stepper *p, const sw_stage_row *row, const sw_system *s,
                           double hbar) {

@@ -71,8 +71,8 @@ struct sw_stepper {
   double *y[SW_STAGES_MAX], *w[SW_STAGES_MAX]; /* stage positions and velocities */
   double *a;                                   /* acceleration of the last stage */
   double *xp, *vp;                             /* state before last */
-  /* strains (as many as the system's): what the stage's rates count from; of the stages; rates of
-   * the last stage; of the state before last. NULL without dashpots [-], [1/s] */
+  /* strains (as many as the system's): base of the stage's rates; of the stages; rates of the last
+   * stage; of the state before last. NULL without dashpots [-], [1/s] */
   double *strain_past, *strain[SW_STAGES_MAX], *strain_rate, *strain_before;
   double *tension; /* saved for a rejected step (edges) */
   /* axial forces integrated over time from the step's start to each stage (edges); their mean over

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* TR-BDF2 (Bank et al. 1985): the trapezoidal rule over gamma h, then BDF2, with gamma = 2 - sqrt 2
- * so that both stages have the same matrix. Second order, L-stable, little damping of what it
- * resolves. The trapezoidal rule needs the acceleration at the step's start, so sdirk2 takes one
- * step after a discontinuity. The error estimate is that of the trapezoidal rule and BDF2, from the
+ * so that both stages have the same matrix. Second order, L-stable, little damping of resolved
+ * motion. The trapezoidal rule needs the acceleration at the step's start, so sdirk2 takes one step
+ * after a discontinuity. The error estimate is that of the trapezoidal rule and BDF2, from the
  * three velocities. */
 #include "integrate/integrate.h"
 

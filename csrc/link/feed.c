@@ -35,7 +35,7 @@ static const double AT_END = 1e-9; /* of the wire's length, for rounding [-] */
 /* A jump of the speed is made at once if the force limit needs less than this time for it [s]. */
 static const double AT_ONCE = 1e-3;
 
-/* --- what it holds ---------------------------------------------------------------- */
+/* --- held nodes ------------------------------------------------------------------- */
 
 /* Returns the direction of wire paid out at arc length s of the mesh, see sw_guide. */
 static int outward(const sw_mesh *m, double s) {
@@ -55,7 +55,7 @@ typedef struct feed_now {
   double fed, speed, acceleration; /* [m], [m/s], [m/s2] */
 } feed_now;
 
-/* Returns the length slipped in addition to what was asked for [m]. */
+/* Returns the slipped length, beyond the fed one [m]. */
 static double slipped(const sw_slip *slip, double t) {
   const double u = t - slip->since;
   return slip->length + (slip->speed + 0.5 * slip->growth * u) * u;
@@ -275,7 +275,7 @@ static sw_slip *slips(sw_hold *h) {
   return isfinite(slip->push) || isfinite(slip->limit) ? slip : NULL;
 }
 
-/* --- what is asked of it ------------------------------------------------------------ */
+/* --- orders ------------------------------------------------------------------------- */
 
 /* Stops the feed at time t. The next request starts from there. */
 static void stop(sw_hold *h, double t) {

@@ -12,7 +12,7 @@
  * for (step/slip.c). */
 typedef struct sw_slip {
   double push, limit;   /* force on the wire, largest force; NAN = none [N] */
-  double length;        /* slipped in addition to what was asked for [m] */
+  double length;        /* slipped, beyond the fed length [m] */
   double since;         /* time at which length and speed hold [s] */
   double speed;         /* [m/s] */
   double growth;        /* rate of the speed in this step; between steps: in the last one [m/s2] */
@@ -45,7 +45,7 @@ typedef struct sw_guide {
   sw_mesh shape;       /* the wire with its unloaded shape, if the wire has frames */
 } sw_guide;
 
-/* Returns what is left of the spare lengths at a fed length [m]. */
+/* Returns the rest of the spare lengths at a fed length [m]. */
 void sw_guide_spare(const sw_guide *guide, double fed, double spare[2]);
 
 /* A hold through which the wire slides. The length paid out at time t is fed + speed (t - since) +

@@ -147,7 +147,7 @@ typedef struct sw_hold_acts {
 /* 1 if wire passes through the hold. */
 static inline int sw_hold_passes(const sw_hold *hold) { return hold->cls->hold->passes != NULL; }
 
-void sw_hold_clear(sw_hold *hold); /* frees what it owns */
+void sw_hold_clear(sw_hold *hold); /* frees its memory */
 /* Clears the arguments that are not kept with the others. */
 void sw_hold_forget(sw_hold_args *args);
 

@@ -46,7 +46,7 @@ static void arm_of(const end *e, const sw_link_wire *w, size_t nodes[2]) {
   nodes[1] = i == last ? last : i + 1;
 }
 
-/* --- what it keeps ---------------------------------------------------------------- */
+/* --- springs and hubs ------------------------------------------------------------- */
 
 /* Returns the wire's direction at the join: the mesh's tangent for a wire that is straight at rest,
  * the chord between the arm's nodes for a curved one. */
@@ -131,7 +131,7 @@ static sw_status add(sw_joint *j, const sw_link_wire *wires) {
   return j->rigid ? add_hub(j, wires) : SW_OK;
 }
 
-/* --- what it bears ------------------------------------------------------------------ */
+/* --- loads -------------------------------------------------------------------------- */
 
 static void force(const sw_joint *j, const sw_link_wire *wires, const double *x, size_t k,
                   sw_vec *force, sw_vec *moment) {

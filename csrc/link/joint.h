@@ -34,7 +34,7 @@ typedef struct sw_joint {
 /* Functions of a joint class. wires: the wires of its ends, in order. */
 typedef struct sw_joint_acts {
   int apart;                  /* 1: its ends need not meet */
-  const char *const *outputs; /* names of what read gives, NULL-terminated, or NULL */
+  const char *const *outputs; /* names of read's results, NULL-terminated, or NULL */
   /* wires is NULL when one of them is gone. */
   void (*read)(const sw_joint *joint, const sw_link_wire *wires, double *out);
   /* Measures the ends when the joint is made or a mesh has changed. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Links keep wires at a place or at each other. Holds keep part of one wire (hold.h); joints
- * connect two wires or more (joint.h). Each member is one file with its parameters, what it holds
- * or pulls, its reaction and its read-outs. The file ends in one sw_link_class; list.def has one
+ * connect two wires or more (joint.h). Each member is one file with its parameters, its held nodes
+ * or springs, its reaction and its read-outs. The file ends in one sw_link_class; list.def has one
  * X(name) line for each. */
 #ifndef SW_LINK_LINK_H
 #define SW_LINK_LINK_H

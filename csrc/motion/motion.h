@@ -53,13 +53,13 @@ typedef struct sw_motion_plan {
   const char *name; /* for messages; NULL = "trajectory" */
   const char *law;  /* NULL: "spline" for three or more timed way-points, else "minimum-jerk" */
   const sw_waypoint *points;
-  size_t count;                /* way-points [-] */
-  sw_vec turn;                 /* of the whole path, world axes; 0 = none [rad] */
-  int about;                   /* 1: relative; what moves goes round `centre` as it turns [-] */
-  sw_vec centre;               /* at the start; the way-points displace it, world axes [m] */
-  double speed;                /* highest [m/s] */
-  double angular_speed;        /* highest [rad/s] */
-  double acceleration;         /* highest along the path [m/s2] */
+  size_t count;         /* way-points [-] */
+  sw_vec turn;          /* of the whole path, world axes; 0 = none [rad] */
+  int about;            /* 1: relative; the moving object goes round `centre` as it turns [-] */
+  sw_vec centre;        /* at the start; the way-points displace it, world axes [m] */
+  double speed;         /* highest [m/s] */
+  double angular_speed; /* highest [rad/s] */
+  double acceleration;  /* highest along the path [m/s2] */
   double angular_acceleration; /* highest along the path [rad/s2] */
   double duration;             /* of the whole path, instead of speeds [s] */
   double blend;                /* distance from a corner at which its blend starts; NAN: a tenth of

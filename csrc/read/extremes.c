@@ -290,7 +290,8 @@ void sw_scene_keep_extremes(sw_wire_extremes *kept, const sw_wire_extremes *now)
 sw_status sw_scene_note_extremes(sw_scene *s, size_t w, sw_wire_extremes *now, sw_error *err) {
   double *tension = NULL;
   /* Steps as long as the window count, too: a window may begin in one and end in a part (substep).
-   * Else a pulse at the begin of the first parts had no window without what came after it. */
+   * Else the window of a pulse that begins with the first parts would lack the time after the
+   * pulse. */
   if (sw_scene_course(s)->span > 0 && fit_window(s, w) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "out of memory for the tension of '%s'",
                    sw_scene_wire_in(s, w)->name);

@@ -61,9 +61,9 @@ static sw_vec largest_across(const look *l, sw_vec along) {
  * forces do [-]. */
 static const double CURVED = 0.01;
 
-/* Finds a plane through a line along the wire and what is farthest from it: a node, over the
- * wire's size, or a force, over the largest. The nodes of a straight wire alone do not show in
- * which plane it lies. 0: there is none. */
+/* Finds the plane through a line along the wire and the point farthest from it: of a node, over the
+ * wire's size, or of a force, over the largest. The nodes of a straight wire alone do not show its
+ * plane. 0: there is none. */
 static int find_plane(const look *l, plane *p) {
   size_t count;
   const float *x = sw_scene_frame_wire(l->scene, l->first, l->w, &count);

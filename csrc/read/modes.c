@@ -96,7 +96,7 @@ static sw_status check_joins(const sw_scene *s, size_t w, int alone, sw_error *e
           "frequencies: wire '%s' slides along '%s'; frequencies are for wires without sliders",
           sw_scene_wire_in(s, w)->name, h->name);
   const sw_joint *join = sw_scene_joined(s, w);
-  if (!join || alone) return SW_OK; /* its own stiffness has what joins do to it, without bridges */
+  if (!join || alone) return SW_OK; /* its own stiffness includes that of joins, without bridges */
   return sw_fail(err, SW_EINVAL,
                  "frequencies: wire '%s' is joined to others by '%s' and moves with them; give "
                  "alone = true for the frequencies of this wire with the others fixed",

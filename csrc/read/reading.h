@@ -87,7 +87,7 @@ typedef struct sw_probe_result {
   double *product; /* (nodes x 3), the caller's; or NULL: stiffness times direction [N] */
 } sw_probe_result;
 
-/* Finds what all forces of one class do to a wire. Changes nothing. */
+/* Computes the effect of all forces of one class on a wire. Changes nothing. */
 sw_status sw_scene_probe(sw_scene *scene, sw_handle wire, const sw_force_class *cls,
                          const sw_probe *at, sw_probe_result *out, sw_error *err);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How sharp a wire's largest curvature is against its edges, and what it would be between nodes. */
+/* Sharpness of a wire's largest curvature against its edges, and the curvature between nodes. */
 #include <math.h>
 
 #include "body/spin.h"
@@ -12,9 +12,9 @@
  * which the wire bends there. At a clamp the nodes on its wire's side are 3 and 4 [-]. */
 enum { AROUND = 5, HERE = 2 };
 
-/* Shares of `uneven` by which smooth bends, kinks and clamped ends had errors besides those that
- * the curvatures beside them tell; the factors cover the scatter of what these tell. From 500 bends
- * against 8 times as many edges (spec/check/bend_calm_spec) [-]. */
+/* Shares of `uneven`: errors of smooth bends, kinks and clamped ends besides those from the
+ * curvatures beside them; the factors cover the scatter of the latter. From 500 bends against 8
+ * times as many edges (spec/check/bend_calm_spec) [-]. */
 static const double SMOOTH = 1.4, SMOOTH_MORE = 0.02, SMOOTH_LESS = 0.03;
 static const double KINK = 0.9, KINK_LESS = 0.15;
 static const double HELD = 1.4, HELD_LESS = 0.04, PUSHED = 0.6;
@@ -59,8 +59,8 @@ static double uneven_at_clamp(const sw_system *s, const sw_body *b, const sw_cla
   return sw_norm(sw_madd(sw_add(here, third), next, -2.0));
 }
 
-/* Returns what the accelerations of nodes up to two from i make of a second difference: an edge's
- * mass times the acceleration across the wire, over EI/h^2 [1/m]. */
+/* Returns the part of a second difference from the accelerations of nodes up to two from i: an
+ * edge's mass times the acceleration across the wire, over EI/h^2 [1/m]. */
 static double swings_at(const sw_scene *s, const sw_body *b, long i) {
   const sw_plan *p = b->plan;
   const sw_course *course = sw_scene_course(s);
@@ -98,9 +98,9 @@ static double meeting(const double c[AROUND], int steep) {
   return steep ? exp(high) : high;
 }
 
-/* A bend between holds: smooth, so that a parabola through three nodes has its top, less what a
- * hinge's mean over its edges takes from it (1/24 of the second difference). Or at one place, a
- * touch, where two flanks meet. */
+/* A bend between holds: smooth, with its top on a parabola through three nodes, less the loss by a
+ * hinge's mean over its edges (1/24 of the second difference). Or at one place, a touch, where two
+ * flanks meet. */
 static void between_holds(const double c[AROUND], double uneven, sw_sharpness *out) {
   double second[AROUND] = {0}, least = HUGE_VAL;
   for (int k = 1; k + 1 < AROUND; k++) second[k] = 2 * c[k] - c[k - 1] - c[k + 1];

@@ -56,7 +56,7 @@ sw_status sw_line_carry(const sw_scene *s, size_t wire, sw_mesh *to) {
   return SW_OK;
 }
 
-/* --- what is borne --------------------------------------------------------------------- */
+/* --- borne forces ---------------------------------------------------------------------- */
 
 sw_status sw_borne_read(sw_scene *s, size_t wire, sw_borne *out) {
   sw_system *system = sw_scene_system(s);
@@ -76,7 +76,7 @@ sw_status sw_borne_read(sw_scene *s, size_t wire, sw_borne *out) {
 
 void sw_borne_free(sw_borne *b) { SW_FREE_ALL(b->at.s, b->force); }
 
-/* Adds to the forces of the wire's edges what the old edges bore beside their springs. */
+/* Adds the old edges' forces of system/borne.h to the forces of the wire's edges. */
 static sw_status add_old(sw_scene *s, size_t wire, const sw_borne *old, double *force) {
   const sw_mesh *m = &sw_scene_wire_in(s, wire)->mesh;
   size_t count = 0;
@@ -111,8 +111,8 @@ static sw_status give_lengths(sw_scene *s, size_t wire, const sw_wire_bends *ben
  * slopes [-]. */
 static const double PROBE = 1e-3;
 
-/* A line's edges: the whole axial force, what is borne beside the springs [N], and by how much it
- * changes with the springs' force of the edge before, its own and the edge after (3 x edges) [-];
+/* A line's edges: the whole axial force, the part of system/borne.h [N], and the slope of the
+ * latter over the springs' force of the edge before, its own and the edge after (3 x edges) [-];
  * room (edges). */
 typedef struct share {
   size_t edges;
@@ -144,7 +144,7 @@ static void probe(sw_system *s, const sw_body *b, const double *x, size_t first,
         out->slope[3 * e + k] = (now[e] - out->borne[e]) / (PROBE * b->plan->beam.EA);
 }
 
-/* Reads what the built scene's edges bear, and the slopes. SW_ENOMEM. */
+/* Reads the axial forces of the built scene's edges, and the slopes. SW_ENOMEM. */
 static sw_status read_share(sw_scene *s, size_t wire, share *out) {
   sw_system *system = sw_scene_system(s);
   const sw_body *b = &system->bodies[wire];
@@ -162,7 +162,8 @@ static sw_status read_share(sw_scene *s, size_t wire, share *out) {
   return SW_OK;
 }
 
-/* Changes the springs' forces T so that they and what is borne then are the whole. */
+/* Changes the springs' forces T so that they and the forces of system/borne.h then are the
+ * whole. */
 static void solve(const share *h, double *T) {
   double *upper = h->room, *rest = h->borne;
   for (size_t e = 0; e < h->edges; e++) { /* Gauss; the matrix is 1 + slope */
@@ -178,7 +179,9 @@ static void solve(const share *h, double *T) {
   }
 }
 
-enum { TURNS = 3 }; /* edges turn as they get other lengths, which changes a little what is borne */
+enum {
+  TURNS = 3
+}; /* edges turn as they get other lengths, which changes the forces of system/borne.h a little */
 
 static sw_status share_out(sw_scene *s, size_t wire, const sw_borne *old, share *h,
                            sw_wire_bends *bends, sw_error *err) {

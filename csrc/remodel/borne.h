@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lines that get other edges or become lines of another model: what the springs of their edges bear
- * of the axial force. The rest is borne by bending forces (system/borne.h). */
+/* Lines that get other edges or become lines of another model: the part of the axial force in the
+ * springs of their edges. The rest is in bending forces (system/borne.h). */
 #ifndef SW_REMODEL_BORNE_H
 #define SW_REMODEL_BORNE_H
 
@@ -17,9 +17,9 @@ typedef struct sw_borne {
 sw_status sw_borne_read(sw_scene *scene, size_t wire, sw_borne *out);
 void sw_borne_free(sw_borne *borne);
 
-/* The wire is another line now. The springs of its edges take over what the old one's forces bore
- * and leave what its own forces bear: the whole axial force stays. Edges get the lengths that this
- * asks for, with the bends that they have. The scene is built, and is built again. */
+/* The wire is another line now. The springs of its edges take the old line's forces of
+ * system/borne.h, less its own ones: the whole axial force stays. Edges get lengths for these
+ * forces, and keep their bends. The scene is built, and is built again. */
 sw_status sw_borne_exchange(sw_scene *scene, size_t wire, const sw_borne *old, sw_error *err);
 
 /* Makes the mesh of a line that stays one: strains of its edges stay, too, on either side of holds.

@@ -24,7 +24,7 @@ static sw_status new_line(size_t n, sw_line *out) {
   return SW_OK;
 }
 
-/* --- what it is ---------------------------------------------------------------------- */
+/* --- the old model -------------------------------------------------------------------- */
 
 /* Returns a rod's twist per length at arc length s of its mesh [rad/m]. */
 static double rod_rate(const sw_scene *s, const sw_body *b, double at) {
@@ -146,7 +146,7 @@ sw_status sw_line_read(sw_scene *s, sw_handle h, size_t n, const double *at, sw_
   return SW_OK;
 }
 
-/* --- what it becomes --------------------------------------------------------------------- */
+/* --- the new model ------------------------------------------------------------------------ */
 
 sw_status sw_line_mesh(const sw_scene_wire *w, const sw_line *l, sw_mesh *out) {
   const double ends[6] = {0, 0, 0, l->length, 0, 0};

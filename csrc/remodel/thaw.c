@@ -248,7 +248,7 @@ static sw_status change_to_mesh(sw_scene *s, const sw_exchange *x, const double 
  * that force at a radius [-]. Rod and mesh differ by less than that (mixed.md). */
 static const double FORCE_STAYS = 0.02, MOMENT_STAYS = 0.05;
 
-/* Tells if the pads do not bear what the rigid grip bore. */
+/* Reports if the pads do not bear the rigid grip's load. */
 static sw_status tell_jump(sw_scene *s, sw_handle tool, const sw_handle wire,
                            const sw_freeze_report *was, sw_error *err) {
   const sw_plan *p = sw_scene_system(s)->bodies[wire.slot].plan;

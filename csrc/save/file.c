@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Scenes as bytes that outlive the process. A file is a head, a note of the caller's, the objects,
- * and the state of the built scene or what an edited one remembers. A scene that is not built is
+ * and the state of the built scene or the memory of an edited one. A scene that is not built is
  * saved as it is, because building it between two edits would give other bits. */
 #include "save/file.h"
 

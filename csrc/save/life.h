@@ -19,8 +19,8 @@ sw_status sw_scene_set_gravity(sw_scene *scene, sw_vec gravity, sw_error *err);
 
 /* 0 if neither the scene nor a living snapshot of it will use the force again. */
 int sw_scene_force_needed(const sw_scene *scene, sw_handle force);
-/* Restoring removes what was made after the snapshot. Its handles are stale from then on, unless
- * another living snapshot still knows it. */
+/* Restoring removes objects made after the snapshot. Their handles are stale from then on, unless
+ * another living snapshot still knows them. */
 sw_status sw_scene_snapshot(sw_scene *scene, sw_snapshot **out, sw_error *err);
 sw_status sw_scene_restore(sw_scene *scene, const sw_snapshot *snapshot, sw_error *err);
 void sw_snapshot_free(sw_snapshot *snapshot);         /* NULL is allowed */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Puts a scene on a tape, the only form in which a file, a snapshot or another process gets it: its
- * objects, and the state of the built scene or what an edited one remembers. A scene that is not
- * built is written as it is, because building it between two edits would give other bits. */
+/* Puts a scene on a tape, the only form for a file, a snapshot or another process: its objects, and
+ * the state of the built scene or the memory of an edited one. A scene that is not built is written
+ * as it is, because building it between two edits would give other bits. */
 #include "base/alloc.h"
 #include "body/build.h"
 #include "body/history.h"

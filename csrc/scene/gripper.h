@@ -30,16 +30,16 @@ typedef struct sw_tool_state {
   int status;          /* of the jaws */
   double squeeze;      /* force per finger against opening [N] */
   double normal, most; /* normal force of the pads, friction that it allows [N] */
-  double margin;       /* friction and its moment over what the touches can resist; of a frozen
-                          grip: force and moment over what its touches could balance [-] */
-  double sliding;      /* share of the force at touches that slide [-] */
-  double slip;         /* longest way of a touch by `slipped` and `turned` [m] */
-  sw_vec slipped;      /* slip of the wires since the last order to the jaws, in the tool's axes
-                          [m] */
-  sw_vec turned;       /* turn of the wires between the pads since then, in the same axes [rad] */
-  sw_vec centre;       /* of the tool, in the world [m] */
-  sw_quat q;           /* its orientation [-] */
-  double place;        /* arc length of the wire between the pads [m] */
+  double margin;  /* friction and its moment over the touches' resistance; of a frozen grip: force
+                     and moment over those that its touches could balance [-] */
+  double sliding; /* share of the force at touches that slide [-] */
+  double slip;    /* longest way of a touch by `slipped` and `turned` [m] */
+  sw_vec slipped; /* slip of the wires since the last order to the jaws, in the tool's axes
+                     [m] */
+  sw_vec turned;  /* turn of the wires between the pads since then, in the same axes [rad] */
+  sw_vec centre;  /* of the tool, in the world [m] */
+  sw_quat q;      /* its orientation [-] */
+  double place;   /* arc length of the wire between the pads [m] */
   double slip_time, slip_place; /* when and where the slip exceeded the tolerance; NAN = it did not
                                    [s], [m] */
   int frozen;                   /* 1: a rigid grip stands for the pads */
@@ -62,7 +62,7 @@ typedef struct sw_jaw {
   double goal;      /* opening to go to [m] */
   double force;     /* per finger: wanted force, or limit at which the jaws stop [N] */
   double now;       /* force per finger of the accepted state [N] */
-  double stiffness; /* stiffness of what the jaws hold, found last; 0 = not known [N/m] */
+  double stiffness; /* stiffness of the wires between the jaws, found last; 0 = not known [N/m] */
   sw_bracket found; /* speeds with too little force and with too much [m/s], [N] */
   int trials, guessed;
 } sw_jaw;

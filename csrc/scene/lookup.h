@@ -35,7 +35,7 @@ sw_status sw_scene_check_line(const sw_scene_wire *wire, const char *what, sw_er
 /* A body is a wire or an object of particles; sw_scene_find_wire refuses the latter. */
 sw_scene_wire *sw_scene_find_body(const sw_scene *scene, sw_handle h, sw_error *err);
 sw_scene_wire *sw_scene_find_wire(const sw_scene *scene, sw_handle h, sw_error *err);
-/* Returns the body of a number in frames; NULL if it is gone, then *gone is what is known of it. */
+/* Returns the body of a number in frames; NULL if it is gone, then *gone is its record. */
 const sw_scene_wire *sw_scene_numbered(const sw_scene *scene, size_t number, const sw_gone **gone);
 
 #endif

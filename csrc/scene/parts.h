@@ -103,7 +103,7 @@ const sw_pose *sw_scene_part(const sw_scene *scene, double *share); /* returns b
 void sw_scene_renumber(sw_scene *scene);
 /* Call when the wire has other nodes: contact forgets it, and its velocities jump. */
 void sw_scene_forget_mesh(sw_scene *scene, size_t wire);
-/* Drops the last body from the list without freeing what it owns. */
+/* Drops the last body from the list without freeing its memory. */
 void sw_scene_unmake_body(sw_scene *scene);
 /* Returns a new number, for a generation or a shape of a hold. */
 uint32_t sw_scene_number(sw_scene *scene);

@@ -39,7 +39,7 @@ typedef struct sw_poke {
   int hard;        /* 1: this touch is a hard blow */
   double struck;   /* when the last hard blow began; 0: none [s] */
   double time;     /* [s] */
-  double share;    /* its friction over what it can bear [-] */
+  double share;    /* its friction over the largest that it can bear [-] */
   double rate;     /* how fast that grew [1/s] */
   double bend;     /* and how fast this changed [1/s2] */
 } sw_poke;

@@ -49,7 +49,7 @@ struct sw_scene {
   sw_hold_load *hold_loads; /* (system.hold_count) loads of the stage solved last */
   sw_contact *contact;      /* with obstacles, or NULL */
   sw_mutual *pairs;         /* between wires, or NULL */
-  sw_mutual *grains;        /* between objects of particles and what they touch, or NULL */
+  sw_mutual *grains;        /* between objects of particles and their neighbours, or NULL */
   sw_crowd *crowd;          /* between particles that repel each other, or NULL */
   sw_rules rules;
   sw_kept_contact kept;

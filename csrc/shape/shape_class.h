@@ -33,7 +33,7 @@ struct sw_shape_class {
   /* Fills the zeroed struct, bounds included. On failure destroy is called. */
   sw_status (*create)(sw_shape *shape, const void *args, const sw_shape_source *source,
                       sw_error *err);
-  void (*destroy)(sw_shape *shape); /* frees what create allocated; NULL = nothing */
+  void (*destroy)(sw_shape *shape); /* frees the memory of create; NULL = nothing */
 
   /* Like sw_shape_point; exact, and reach may be INFINITY. */
   int (*distance)(const sw_shape *shape, sw_vec p, double reach, sw_closest *out);

@@ -57,7 +57,7 @@ sw_status sw_rings_factor(sw_rings *r, const unsigned char *fixed, size_t *negat
   return bad ? SW_ESINGULAR : SW_OK;
 }
 
-/* Half a cube for what the next ring subtracts from a ring's own rows, half a cube for the columns
+/* Half a cube for the part of the next ring in a ring's own rows, half a cube for the columns
  * before them, a sixth for the rows themselves. */
 double sw_rings_work(size_t rings, size_t per_ring) {
   const double n = 3.0 * (double)per_ring, joints = (double)(rings - 1);

@@ -111,8 +111,8 @@ typedef struct sw_field {
 /* Computes edge lengths and tangents from positions x. */
 void sw_field_geometry(sw_field *field);
 
-/* Zeroes everything that forces add to. It stops halfway if the user wants to stop: check
- * sw_interrupted before using what follows. */
+/* Sets all sums of forces to zero. It stops halfway if the user wants to stop: check sw_interrupted
+ * before using the sums. */
 void sw_field_clear(sw_field *field);
 
 /* Returns component k of the total force on node i [N]. */

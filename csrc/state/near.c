@@ -57,8 +57,8 @@ sw_mesh sw_mesh_stretch(const sw_mesh *m, size_t lo, size_t hi) {
   return part;
 }
 
-/* Copies the mesh with the tensions that its chords have. Those of the wire differ from them by
- * what the solve leaves, which would bend a taut wire. */
+/* Copies the mesh with the tensions of its chords. Those of the wire differ from them by the
+ * solve's remaining error, which would bend a taut wire. */
 static sw_status copy_chords(const sw_mesh *m, sw_mesh *to) {
   SW_TRY(sw_mesh_copy(m, to));
   for (size_t e = 0; e + 1 < m->n; e++)
@@ -163,7 +163,7 @@ static sw_vec curvature_at(const sw_mesh *m, const double *nodes, size_t i) {
   return sw_madd(near, sw_sub(near, far), way);
 }
 
-/* Returns what the wire's curvature at node i differs by from that of the unloaded wire [1/m]. */
+/* Returns the wire's curvature at node i minus that of the unloaded wire [1/m]. */
 static sw_vec flexure_at(const sw_mesh *m, size_t i) {
   const sw_vec now = curvature_at(m, m->x, i);
   if (!m->rest) return now;

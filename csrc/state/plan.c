@@ -242,7 +242,7 @@ size_t sw_plan_locate(const sw_plan *plan, double s, double *fraction) {
   const size_t at = after - 1;
   const double from = plan->s[first ? first[at] : at];
   const double apart = plan->s[first ? first[at + 1] : at + 1] - from;
-  /* not by the rest length: beside a feed it exceeds the arc by what the feed holds back */
+  /* not by the rest length: beside a feed it exceeds the arc by the length still inside the feed */
   *fraction = fmin(1.0, fmax(0.0, (s - from) / apart));
   return at;
 }

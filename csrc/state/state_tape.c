@@ -32,7 +32,7 @@ static void expect_rising(sw_tape *t, const double *s, size_t n) {
   for (size_t i = 0; i + 1 < n; i++) sw_tape_expect(t, s[i] < s[i + 1], "arc lengths do not rise");
 }
 
-/* Allocates zeroed arrays for what is not on the tape because a system sets it. */
+/* Allocates zeroed arrays that are not on the tape because a system sets them. */
 static void fill_up(sw_tape *t, sw_mesh *x) {
   double **const lists[] = {&x->a, &x->tension, &x->rate, &x->turn, &x->spin};
   const size_t width[] = {3, 1, 1, 1, 1}, count = x->rest ? 5 : 3;

@@ -41,9 +41,8 @@ sw_status sw_scene_begin_watching(sw_scene *s, sw_error *err) {
 }
 
 /* 1 if a drive has obeyed a force in a step that begins abruptly, as the first one of a wire that
- * has not settled. The drive has the asked force at the step's end only: what is read out
- * otherwise, which mixes both stages, is 0.29 to 0.5 of it, since wire slips evenly faster within
- * the step. */
+ * has not settled. The drive has the asked force at the step's end only. Other read-outs mix both
+ * stages and show 0.29 to 0.5 of it, since wire slips evenly faster within the step. */
 static int obeys_at_end(const sw_hold *h) {
   const sw_slip *slip = h->cls->hold->slips ? h->cls->hold->slips((sw_hold *)h) : NULL;
   return slip && slip->anew && (isfinite(slip->push) || slip->way != 0);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Reports pads that press a rod into an obstacle, such as the table on which they lay it. Pads,
  * obstacle and the rod's section do not yield, so micrometres of the gripper's height, or of the
- * wire's slide at the pads' edges, decide the force. And pads that in poses squeeze a mesh of
- * springs on an obstacle: what it stands on is as soft there as its weight asks for. */
+ * wire's slide at the pads' edges, decide the force. Also reports pads that in poses squeeze a mesh
+ * of springs on an obstacle: the touches there are only as stiff as its weight needs. */
 #include <math.h>
 
 #include "contact/contact.h"

@@ -18,13 +18,13 @@
 static const double NEAR = 0.1;
 /* A wire is pushed by its end if the cosine of its angle with the normal is above this [-]. */
 static const double END_ON = 0.5;
-/* And if the push is above this, over EI/L^2: a quarter of what buckles it, about 20 [-]. */
+/* And if the push is above this, over EI/L^2: a quarter of the buckling load, about 20 [-]. */
 static const double PUSHED = 5.0;
 /* A touch slides from this share of its friction on, or if it went further than this in the step
  * [-], [m]. */
 static const double SLIDES = 0.9995, WENT = 1e-8;
 
-/* A blow is hard from this push on, over EI/L^2: fifty times what buckles it. An end that strikes
+/* A blow is hard from this push on, over EI/L^2: fifty times the buckling load. An end that strikes
  * hard again before L^2 sqrt(m/EI), about two swings of it, has rebounded [-]. */
 static const double HARD = 1000.0;
 /* A rod is free between its ends if this share of it is [-]. */
@@ -65,8 +65,8 @@ static int find_push(const sw_scene *s, const sw_body *b, int last, sw_contact_p
   return found;
 }
 
-/* Follows an end that sticks, or slides from this state on. Returns the friction that was needed
- * over what there is, if that is decided now and was not before; else 0 [-]. */
+/* Follows an end that sticks, or slides from this state on. Returns the needed friction over the
+ * present one when this is first decided; else 0 [-]. */
 static double follow(sw_poke *p, double time, double share, int slides, double need) {
   const sw_poke was = *p;
   const double rate = was.count ? (share - was.share) / (time - was.time) : HUGE_VAL;

@@ -6,7 +6,7 @@
 #include "scene/scene.h"
 
 /* Lets the wire's holds that no step has watched yet look at obstacles. Call before the wire gets
- * another model: what they push in afterwards comes from the change. */
+ * another model: later pushes into obstacles then count as caused by the change. */
 sw_status sw_scene_watch_holds(sw_scene *scene, sw_handle wire, sw_error *err);
 /* The last crash of a hold: when [s], how deep [m], and the obstacle's name; NAN, 0 and "" if there
  * was none. */

@@ -17,7 +17,7 @@ typedef struct sw_worn {
 
 /* Number of places; 0 where nothing is recorded. */
 sw_status sw_scene_worn(const sw_scene *scene, sw_handle wire, size_t *places, sw_error *err);
-/* Returns the largest pressure T/R of the wire on what it touched [N/m]. */
+/* Returns the largest pressure T/R of the wire on touched objects [N/m]. */
 sw_extreme sw_scene_worn_sidewall(const sw_scene *scene, sw_handle wire);
 /* Returns place number k. cycles: fills in its cycles of a signal (SW_CYCLES_KEPT + SW_CYCLES_OPEN
  * at most) and returns their number. */
