@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Root finding for a quantity that is measured trial by trial: finds the place where it has its
- * target value. Method: false position between a place where the quantity is too small and one
- * where it is too large, with the Illinois rule (Dowell and Jarratt, BIT 11, 1971), which halves
- * the weight of a side that stays. The caller chooses the places until both sides are known. */
+/* Root finding for a quantity that is measured trial by trial: finds the place with the target
+ * value. Method: false position between a place with too small a value and one with too large a
+ * value. The Illinois rule (Dowell and Jarratt, BIT 11, 1971) halves the weight of a side that
+ * stays. The caller chooses the places until both sides are known. */
 #ifndef SW_BASE_ROOT_H
 #define SW_BASE_ROOT_H
 

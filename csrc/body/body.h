@@ -86,7 +86,7 @@ void sw_line_at(const sw_scene *scene, const sw_scene_wire *wire, const sw_body 
 /* Makes enough edges between all holds of a line, which stay where they are (line.c). SW_ENOMEM. */
 sw_status sw_line_refine(sw_scene *scene, size_t wire);
 
-/* Puts the nodes that a hold at this pose holds where it holds them, in a mesh with other nodes. */
+/* Puts the nodes of a hold at this pose to their held places, in a mesh with other nodes. */
 void sw_line_put_held(const sw_hold *hold, sw_pose pose, sw_mesh *mesh);
 
 /* Fails with SW_EINVAL: both hold the same. */

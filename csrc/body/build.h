@@ -26,7 +26,7 @@ void sw_scene_let_out(sw_scene *scene);
 
 /* Finds the wire of a handle; builds and refreshes the scene for reading. */
 sw_status sw_scene_open_wire(sw_scene *scene, sw_handle h, sw_scene_wire **wire, sw_error *err);
-/* The same, for places and velocities only: added forces are not built in for it. */
+/* Does this for reading places and velocities only: does not build in added forces. */
 sw_status sw_scene_open_places(sw_scene *scene, sw_handle h, sw_scene_wire **wire, sw_error *err);
 /* SW_EINVAL when place is no arc length of the wire. */
 sw_status sw_scene_check_place(const sw_scene_wire *wire, double place, sw_error *err);

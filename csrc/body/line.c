@@ -139,8 +139,7 @@ static int leans(const sw_hold *h) {
   return h->cls->hold->direction && !sw_hold_passes(h) && !h->formed;
 }
 
-/* Leans a hold's nodes by its way, see sw_mesh_lean; where it has grasped them, they stay in its
- * grasp. */
+/* Leans a hold's nodes by way (sw_mesh_lean). Nodes that it has grasped stay in its grasp. */
 static sw_status lean(sw_scene *s, sw_hold *h, int way) {
   sw_mesh *m = &sw_scene_wire_in(s, h->wire)->mesh;
   if (!leans(h)) return SW_OK;

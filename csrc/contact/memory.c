@@ -21,8 +21,8 @@ static double steady_force(const sw_contact *c, const sw_system *s, const sw_tou
 }
 
 /* Stiffness to which a touch returns where it presses less [N/m]. That of a mesh stays in statics.
- * Otherwise what steps of motion pressed together would come apart a little in every search, and
- * the force of jaws that hold it with it. */
+ * Otherwise parts pressed together in steps of motion would come apart a little in every search,
+ * and the force of the jaws that hold them would fall. */
 static double goes_back_to(const sw_contact *c, const sw_system *s, const sw_touch *t) {
   const int stays = c->regime == SW_CONTACT_STATIC && s->bodies[t->body].plan->web;
   return stays ? fmax(t->usual, t->press.k) : t->usual;

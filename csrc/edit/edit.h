@@ -38,7 +38,7 @@ void sw_scene_frame_holds(sw_scene *scene, size_t wire);
 /* Lets a hold grasp a wire that has other nodes but lies as before, at the hold's pose. Living
  * holds have grasped the wire already. SW_EINVAL when one of them is in the way; SW_ENOMEM. */
 sw_status sw_scene_rehold(sw_scene *scene, sw_hold *hold, sw_pose pose, sw_error *err);
-/* Returns the arguments with which it does so. */
+/* Returns the arguments of that grasp. */
 sw_hold_args sw_scene_rehold_args(const sw_hold *hold);
 
 /* Makes the nodes of joins anew in a redrawn wire that has its holds. SW_ENOMEM. */

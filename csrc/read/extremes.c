@@ -80,8 +80,8 @@ static void largest_tension(const sw_body *b, const double *T, sw_extreme *out) 
       *out = (sw_extreme){.value = T[e], .s = 0.5 * (b->plan->s[e] + b->plan->s[e + 1])};
 }
 
-/* Returns the largest strain of the outermost fibres at hinges, from the mean axial force of both
- * edges and the chord |t2 - t1| in place of the angle, which is exact to third order. */
+/* Returns the largest strain of the outermost fibres at hinges: from the mean axial force of both
+ * edges and the chord |t2 - t1| instead of the angle (exact to third order). */
 SW_HOT
 static double largest_hinge_strain(size_t n, double half_compliance, double radius,
                                    const double *restrict T, const double *restrict hinge,

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rainflow count of the cycles of a load that comes value by value (ASTM E1049-85, 5.4.4), in
  * bounded room. A cycle closes as soon as no later value can change it, so the count is that of the
- * whole history. When room is short, cycles are merged such that they damage at least as much under
- * any S-N curve with a slope up to SW_CYCLES_SLOPE, and of too many waiting reversals two are
- * closed such that they damage as much with a slope of 3. */
+ * whole history. When room is short, cycles are merged. The merged ones damage at least as much
+ * under any S-N curve with a slope up to SW_CYCLES_SLOPE. Of too many waiting reversals two are
+ * closed; they damage as much with a slope of 3. */
 #ifndef SW_RECORD_CYCLES_H
 #define SW_RECORD_CYCLES_H
 

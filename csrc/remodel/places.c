@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Arc lengths of the nodes of a wire that becomes a line: even, with nodes where its holds will
- * hold it and where it is joined. A node moved there afterwards, on edges that cut the corner at a
- * hold, would be held beside the wire's place. */
+/* Arc lengths of the nodes of a wire that becomes a line: even, with nodes at its holds and joins.
+ * A node moved there afterwards, on edges that cut the corner at a hold, would be held beside the
+ * wire's place. */
 #include <string.h>
 
 #include "base/alloc.h"

@@ -85,10 +85,9 @@ int sw_mesh_is_bent_near(const sw_mesh *mesh, size_t i);
  * curve. keep: as above. SW_ENOMEM. */
 sw_status sw_mesh_halve(sw_mesh *mesh, double low, double high, const double *keep, size_t count);
 
-/* Shifts nodes first to last of a bent wire for a hold that is about to clamp them (way 1), to
- * where the hinges beside them have the bend that the wire has there, or back for one that has let
- * go
- * (-1). keep: as above. SW_ENOMEM. */
+/* Shifts nodes first to last of a bent wire for a hold that is about to clamp them (way 1): the
+ * hinges beside them then have the wire's bend there. Or shifts them back for a hold that has let
+ * go (-1). keep: as above. SW_ENOMEM. */
 sw_status sw_mesh_lean(sw_mesh *mesh, size_t first, size_t last, int way, const double *keep,
                        size_t count);
 

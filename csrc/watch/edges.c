@@ -80,8 +80,8 @@ static bends between(const sw_scene *s, const sw_body *b, size_t from, size_t to
   return sum;
 }
 
-/* Returns the tension that a wire under the tension T has at most too much, because bends within an
- * edge make its path longer than it should be, where it is taut between two holds; else 0 [N]. */
+/* Returns the largest false part of a wire's tension T: bends within an edge make the wire's path
+ * too long where it is taut between two holds. Else 0 [N]. */
 static double false_tension(const sw_scene *s, const sw_body *b, double T) {
   const sw_plan *p = b->plan;
   double most = 0;

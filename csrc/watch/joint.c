@@ -13,9 +13,9 @@
 #include "scene/wire.h"
 #include "watch/observe.h"
 
-/* Least angle that is told. Two joined halves in an arch between clamps that leaves a plane by 0.16
- * rad differ from one wire by 1 % in bends, moments and forces, by 0.27 rad 2 to 4 %, by 0.1 rad
- * less than 1 % (spec/link/joint_twist_spec) [rad]. */
+/* Least reported angle. Two joined halves in an arch between clamps that leaves a plane differ from
+ * one wire in bends, moments and forces: by less than 1 % at 0.1 rad, 1 % at 0.16 rad, 2 to 4 % at
+ * 0.27 rad (spec/link/joint_twist_spec) [rad]. */
 static const double TOLD = 0.15;
 /* Largest turn of a wire from edge to edge below which it counts as straight [rad]. */
 static const double STRAIGHT = 1e-3;
