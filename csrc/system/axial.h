@@ -50,9 +50,8 @@ typedef struct sw_between {
   double first; /* time of the first stage over the step [-] */
 } sw_between;
 
-/* Force and moment about point of hold k on its wire with nodes at x, at the last stage or the
- * state made from it. Like sw_system_reaction, but with the axial forces of read-outs [N], [N
- * m]. */
+/* Force and moment about point of hold k on its wire with nodes at x [N], [N m], at the last stage
+ * or the state made from it. Like sw_system_reaction, but with the axial forces of read-outs. */
 void sw_system_bears(const sw_system *system, int hold, const double *x, sw_vec point,
                      sw_vec *force, sw_vec *moment);
 /* After a step h: sets the axial forces of read-outs. They are a mix of the first stage's forces

@@ -221,8 +221,8 @@ void sw_system_follow(sw_system *system, const double *x);
 /* Sets every field's geometry to the state (system->x). */
 void sw_system_refresh(sw_system *system);
 
-/* Computes force and moment about point of hold k on its wire, from the last solved stage [N], [N
- * m]. */
+/* Computes force and moment about point of hold k on its wire [N], [N m], from the last solved
+ * stage. */
 void sw_system_reaction(const sw_system *system, int hold, sw_vec point, sw_vec *force,
                         sw_vec *moment);
 /* Computes this for all holds about their places; out: (holds). */
