@@ -5,6 +5,7 @@
 local checks = require "softworld.checks"
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
+local reading = require "softworld.run.reading"
 local window = require "softworld.run.window"
 
 local quantity = {}
@@ -18,13 +19,23 @@ local function positions(wire)
   return list
 end
 
+local measured -- while quantities are read together: object -> its loads
+
+-- Returns the loads of an object since `start`. Several quantities of it may want them, and a long run has
+-- many steps.
+local function loads_of(object, start)
+  local m = measured and measured[object] or object:over(start)
+  if measured then measured[object] = m end
+  return m
+end
+
 local function over(name)
-  return function(gripper, start) return gripper:over(start)[name] end
+  return function(object, start) return loads_of(object, start)[name] end
 end
 
 local function over_at(name)
-  return function(gripper, start)
-    local m = gripper:over(start)
+  return function(object, start)
+    local m = loads_of(object, start)
     return m[name], nil, m[name .. "_time"], m[name .. "_note"]
   end
 end
@@ -191,7 +202,7 @@ local own_keys = { name = "string", value = "number", unit = "string", of = "fun
 local own_names = { "name", "value", "relative", "unit", "of", "at" }
 
 -- Returns a quantity of the user's own: { name =, value =, unit =, of = function, at = [s] }.
-local function own(what, number, given)
+local function own(scene, what, number, given)
   local label = ("%s: tolerance: quantity %d"):format(what, number)
   if checks.kind(given) ~= "table" then
     error(("%s must be a table { name =, value =, unit =, of = function }, got %s"):format(label,
@@ -217,7 +228,8 @@ local function own(what, number, given)
     error(("%s: at = %s s is not allowed; it must be a time of at least 0 s after the start")
       :format(label, checks.shown(given.at)), 0)
   end
-  local q = { name = given.name, unit = given.unit or "", of = given.of, at = given.at, own = true }
+  local q = { name = given.name, unit = given.unit or "", of = given.of, at = given.at, own = true,
+    scene = scene }
   return take(what, q, given.value or { relative = given.relative })
 end
 
@@ -233,7 +245,7 @@ function quantity.list(scene, tolerance, what)
     elseif math.type(key) ~= "integer" or key < 1 or key > #tolerance then
       error(("%s: tolerance: the key %s names no quantity"):format(what, checks.shown(key)), 0)
     else
-      list[key] = own(what, key, value)
+      list[key] = own(scene, what, key, value)
     end
   end
   table.sort(words)
@@ -276,16 +288,37 @@ local function fault_of(v, depth)
   end
 end
 
+local INSTEAD = "read the scene as the run left it, for example wire:position(s) or hold:force()"
+
+-- Calls the function of a quantity of the script.
+local function own_value(q)
+  local fine, value = reading.call(q.scene, ("the quantity '%s'"):format(q.name), INSTEAD, q.of)
+  if not fine then error(value, 0) end
+  return value
+end
+
 --- Reads a quantity. Returns { value, where [m], when [s], note }. start: when the run began [s].
 function quantity.read(q, start)
   local value, s, t, note
-  if q.own then value = q.of() else value, s, t, note = q.of(start) end
+  if q.own then value = own_value(q) else value, s, t, note = q.of(start) end
   local fault = fault_of(value, 1)
   if fault then
     error(("quantity '%s': its function must return a number or a list of numbers, got %s"):format(q.name,
       fault), 0)
   end
   return { value = value, where = s, when = t, note = note }
+end
+
+--- Reads quantities after a run. Returns their values by their names.
+function quantity.read_all(list, start)
+  local found = {}
+  measured = {}
+  local fine, raised = pcall(function()
+    for _, q in ipairs(list) do found[q.name] = q.sample or quantity.read(q, start) end
+  end)
+  measured = nil
+  if not fine then error(raised, 0) end
+  return found
 end
 
 local function is_vector(v) return type(v) == "table" and type(v[1]) == "number" end

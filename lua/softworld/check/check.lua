@@ -225,7 +225,7 @@ local function judge_one(self, member, entry, context, list)
 end
 
 local function judge_own(self, one)
-  local value, why = own.value(one, self.run)
+  local value, why = own.value(one, self.run, self.scene)
   if not value then
     local row = start_row(self, one.name, nil, one.name, one.unit, {})
     row.verdict, row.note = "FAIL", why

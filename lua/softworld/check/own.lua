@@ -3,6 +3,7 @@
 -- @module softworld.check.own
 local checks = require "softworld.checks"
 local limits = require "softworld.check.limits"
+local reading = require "softworld.run.reading"
 local rows = require "softworld.rows"
 
 local own = {}
@@ -63,8 +64,9 @@ end
 local function finite(x) return type(x) == "number" and x - x == 0 and x or nil end
 
 --- Returns the value, or nil and why there is none.
-function own.value(one, run)
-  local fine, value, s, time = pcall(one.of, run)
+function own.value(one, run, scene)
+  local fine, value, s, time = reading.call(scene, ("the check '%s'"):format(one.name),
+    "read the run that is passed to it: of = function(run)", one.of, run)
   if not fine then
     if checks.is_interrupt(value) then error(value, 0) end
     return nil, "its function raised: " .. checks.shown(value)

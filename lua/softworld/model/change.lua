@@ -11,6 +11,7 @@ change.FAINT = 1 / 64 -- change over the allowed one that finer edges hardly bri
 
 local SAFETY = 1.5 -- on estimates for finer levels [-]
 local ELSEWHERE = 1 / 4 -- error of a coarse value, over the value, up to which a comparison counts [-]
+local STILL = 1e-4 -- way over an edge of wires that have not moved [-]
 local STEADY = 1 / 2 -- largest change over the allowed one that finer edges need not confirm [-]
 local NONE = 0 / 0 -- value of a check's row that a computation lacks
 
@@ -107,13 +108,15 @@ local function shapes_apart(one, other)
 end
 
 -- True if the wires were at the same place on the edges of a comparison as in the finest run: nearer than a
--- share of how far they moved, and of the shortest edge there.
+-- share of how far they moved, and of the shortest edge there; or they have not moved, neither on these edges
+-- nor on fine ones: a straight wire that only turns has no way to compare with.
 local function is_there(context, compared, shape)
   local way, edge = shapes_apart(context.start, shape), math.huge
   for i, w in ipairs(context.data.wires) do
     edge = math.min(edge, w.object.length / compared.here.level.segments[i])
   end
-  return shapes_apart(compared.here.shape, shape) < ELSEWHERE * math.min(way, edge)
+  local apart = shapes_apart(compared.here.shape, shape)
+  return apart < ELSEWHERE * math.min(way, edge) or math.max(way, apart) < STILL * edge
 end
 
 -- True if coarse edges may hide a change of a quantity between the rungs of a comparison: inertia counts, and
@@ -128,7 +131,7 @@ end
 -- True if a comparison on this level found about the same as on the level before, and at most half of what is
 -- allowed. Then a finer level will find about the same, where wires are at the same place.
 local function is_steady(there)
-  local before = there.before
+  local before = there.coarser
   return before ~= nil and there.worst <= STEADY and there.worst <= SAFETY * before.worst
 end
 

@@ -133,6 +133,17 @@ function compare.above(context, state, rungs, above, first)
   return probe.of(context, above, 1), 1
 end
 
+-- Returns the comparison on the level before k, if both rungs are known there. A comparison on finer edges
+-- then tells as much as one that came from that level: how the change moves, and whether it is steady.
+local function level_before(context, state, rungs, above, k)
+  local here = k > 1 and probe.known(context, rungs, k - 1)
+  local there = here and probe.known(context, above, k - 1)
+  if not (there and here.ok and there.ok) then return nil end
+  local now = { k = k - 1, here = here, above = there }
+  now.worst = change.between(context, state, now, change.left_by_others).worst
+  return now
+end
+
 --- Compares a rung with the next on the coarsest level, or from level `begin` on, and on finer levels while a
 -- too large change becomes smaller: coarse steps must not rule out a cheap rung. Returns the change, and why
 -- the next rung failed.
@@ -149,7 +160,7 @@ function compare.rungs(context, state, rungs, above, begin)
     local now = { k = k, here = here, above = there, before = before }
     local last = c
     c, before, state.compared = change.between(context, state, now, change.left_by_others), now, now
-    now.worst = c.worst
+    now.worst, now.coarser = c.worst, last and now.before or level_before(context, state, rungs, above, k)
     local clear = c.worst < 1 / DOUBT or c.worst > HOPE ^ (levels - k) or k > 1 and c.worst <= 1
     if last and last.worst > FEIGNED and c.worst <= 1 then mark_astray(now, last) end
     local blurred, all = is_blurred(context, state, now, c)

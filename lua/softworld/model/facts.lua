@@ -20,19 +20,25 @@ function facts.shape(scene)
   return list
 end
 
---- Returns the names of obstacles with friction that pressed on something in the run.
-function facts.rubbing(scene, start)
+-- True if an obstacle pressed on something from a time on [s].
+local function has_pressed(obstacle, from)
+  local rows, count = obstacle:log(from)
+  for i = 0, count - 1 do
+    local pressed = rows[5 * i + 2] ~= 0 or rows[5 * i + 3] ~= 0 or rows[5 * i + 4] ~= 0
+    if pressed and rows[5 * i + 1] >= from then return true end
+  end
+  return false
+end
+
+--- Returns the names of obstacles with friction that pressed on something in the run. seen: nil; or a table
+-- for a run that is looked at several times while it goes on: what earlier looks found.
+function facts.rubbing(scene, start, seen)
   local names = {}
   for _, o in ipairs(build.data(scene).obstacles) do
-    local rows, count = o.object:log(start)
-    local rubs = o.object:get().friction > 0
-    for i = 0, rubs and count - 1 or -1 do
-      local pressed = rows[5 * i + 2] ~= 0 or rows[5 * i + 3] ~= 0 or rows[5 * i + 4] ~= 0
-      if pressed and rows[5 * i + 1] >= start then
-        names[#names + 1] = o.name
-        break
-      end
-    end
+    local from = seen and seen[o.object] or start -- true: it has pressed
+    local rubs = o.object:get().friction > 0 and (from == true or has_pressed(o.object, from))
+    if rubs then names[#names + 1] = o.name end
+    if seen then seen[o.object] = rubs or scene.time end
   end
   return names
 end

@@ -89,6 +89,7 @@ end
 
 -- Goes back to the snapshot; processes are still in the state of that moment.
 local function back(self, total)
+  self.seen = nil
   build.back(self.scene, self.snapshot, true)
   total.jumps = self.jumps
   if total.jumps == 0 then total.last_jump = nil end
@@ -134,9 +135,10 @@ end
 -- change them.
 function guard:look(options, total)
   if not is_due(self, total) then return end
-  self.context.watching = true
+  self.seen = self.seen or {} -- what earlier looks found; a long record is not read again
+  self.context.watching, self.context.seen = true, self.seen
   local i, why = facts.reading(self.scene, self.from, broken, self, total)
-  self.context.watching = nil
+  self.context.watching, self.context.seen = nil, nil
   if i then switch(self, i, why, options, total) end
   self.frames = self.scene:frame_count()
   if not i then self.from = math.max(self.from, time_of(self.scene, self.frames - BEFORE)) end

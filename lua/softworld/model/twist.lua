@@ -31,7 +31,7 @@ end
 
 function twist.look(context, run)
   local met = context.data.touching and #context.scene:touches() > 0
-  local f = { rubs = facts.rubbing(context.scene, run.start), met = met, rods = 0 }
+  local f = { rubs = facts.rubbing(context.scene, run.start, context.seen), met = met, rods = 0 }
   f.flat = met or #f.rubs > 0
   for i, w in ipairs(context.data.wires) do
     if core.exists(w.object) and w.object.model == "rod" then

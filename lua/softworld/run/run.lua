@@ -14,6 +14,7 @@ local methods = require "softworld.methods"
 local counted = require "softworld.output.number".count
 local place = require "softworld.place"
 local refine = require "softworld.run.refine"
+local reading = require "softworld.run.reading"
 local remarks = require "softworld.remarks"
 local tables = require "softworld.rows"
 local runfiles = require "softworld.run.files"
@@ -102,6 +103,7 @@ end
 -- are raised unchanged and leave the scene at its last good step.
 function core.class.scene.run(scene, args)
   build.check(scene, "scene:run", 3)
+  build.call(3, reading.check, scene)
   unread.used()
   if args == nil then args = {} end
   if type(args) == "table" then

@@ -208,12 +208,13 @@ function trust.touches(scene)
   return false
 end
 
---- Returns the values of the quantities after a computation, by their names.
+--- Returns the values of the quantities after a computation, by their names. The same one is read only once.
 function trust.read(job, result)
-  local found = {}
-  if job.rows then job.rows(result) end
-  for _, q in ipairs(job.quantities) do found[q.name] = q.sample or quantity.read(q, result.start) end
-  return found
+  if job.result ~= result then
+    if job.rows then job.rows(result) end
+    job.found, job.result = quantity.read_all(job.quantities, result.start), result
+  end
+  return job.found
 end
 
 -- Reads the quantities on the level just computed. Returns whether all tolerances are met, and whether finer
@@ -276,13 +277,13 @@ local function climb(job, compute)
       check_wires(job)
       job.restore()
     end
-    local known = job.kept and job.kept(k)
+    local known, begun = job.kept and job.kept(k), nil
     if known then
       result, job.levels[#job.levels + 1] = known.run, known.level
     else
       if job.arrange then job.arrange() end
       core.remesh(job.scene, trust.counts(job, k))
-      local begun = os.clock()
+      begun = os.clock()
       result = compute(k, describe(job, k))
       job.levels[#job.levels + 1] = { segments = trust.counts(job, k), ok = result.ok, reason = result.reason,
         cpu = os.clock() - begun }
@@ -291,6 +292,7 @@ local function climb(job, compute)
       local most = estimate.HOPED ^ (job.most - k)
       job.known = good
       local met, vain = judge(job, result, most)
+      if begun then job.levels[#job.levels].cpu = os.clock() - begun end -- reading long records takes time
       good, bad, job.finest, job.known = good + 1, 0, k, good + 1
       if good >= coarsest.LEAST and (met or vain) then break end
     else

@@ -1,0 +1,135 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- What a run with error bars reads of a computation is read once, and the loads of an object once for all
+-- quantities of it: long runs have long records. A scene cannot run while it is read.
+local core = require "softworld.core"
+local facts = require "softworld.model.facts"
+local refine = require "softworld.run.refine"
+local sw = require "softworld"
+
+-- A wire between two clamps; one moves. wall: an obstacle that it does not reach.
+local function scene_of()
+  local scene = sw.scene { name = "read" }
+  scene:force { kind = "damping", mass = 5 }
+  local w = scene:wire { name = "w", E = 5e6, density = 1500, radius = 0.0025, segments = 24,
+    from = { 0, 0, 0 }, to = { 0.6, 0, 0 } }
+  scene:clamp(w, { s = 0, name = "left" })
+  scene:clamp(w, { s = 0.6, name = "right" }):follow { relative = true, duration = 0.5,
+    points = { { 0, 0, 0 }, { -0.1, 0, 0 } } }
+  scene:settle()
+  return scene, w
+end
+
+describe("a computation with error bars", function()
+  local over, computer = core.class.clamp.over, refine.computer
+  after_each(function() core.class.clamp.over, refine.computer = over, computer end)
+
+  -- Returns the run; numbers of computations, of calls of the function of a quantity, and of reads of loads.
+  local function run_with(extra)
+    local scene, calls, loads, computed = scene_of(), 0, 0, 0
+    function refine.computer(...)
+      local compute = computer(...)
+      return function(...)
+        computed = computed + 1
+        return compute(...)
+      end
+    end
+    function core.class.clamp.over(...)
+      loads = loads + 1
+      return over(...)
+    end
+    local args = { duration = 0.5, tolerance = { ["right.peak_force"] = { relative = 0.3 },
+      ["right.mean_force"] = { relative = 0.3 }, ["right.mean_moment"] = { relative = 0.3 },
+      { name = "odd", value = 1, unit = "-", of = function()
+        calls = calls + 1
+        return 1
+      end } } }
+    for key, value in pairs(extra) do args[key] = value end
+    local run = scene:run(args)
+    assert.is_true(run.met, tostring(run:error_bars()))
+    return run, computed, calls, loads
+  end
+
+  it("is read once, and the loads of a hold once for all quantities", function()
+    local run, computed, calls, loads = run_with {}
+    assert.equal(#run.levels, computed)
+    assert.equal(computed, calls)
+    assert.equal(computed, loads)
+  end)
+
+  it("is not read again where levels serve the choice of a model", function()
+    local run, computed, calls, loads = run_with { model = "auto" }
+    assert.equal(computed, calls, tostring(run:why()))
+    assert.equal(computed, loads)
+  end)
+end)
+
+describe("obstacles that rub", function()
+  it("are found by looks at a run that goes on as by one look at all of it", function()
+    local scene, w = scene_of()
+    local log, read = core.class.obstacle.log, {}
+    scene:obstacle { name = "floor", shape = "plane", at = { 0, 0, -0.22 }, friction = 0.3 }
+    scene:obstacle { name = "far", shape = "plane", at = { 0, 0, -1 }, friction = 0.3 }
+    local seen, found = {}, {}
+    function core.class.obstacle.log(o, from)
+      read[#read + 1] = from
+      return log(o, from)
+    end
+    for i = 1, 4 do
+      if i == 2 then scene:find "right":follow { relative = true, duration = 0.5,
+        points = { { 0, 0, 0 }, { -0.3, 0, 0 } } } end
+      scene:run { duration = 0.5 }
+      local names = facts.rubbing(scene, 0, seen)
+      local all = facts.rubbing(scene, 0)
+      assert.same(all, names)
+      found[i] = #names
+    end
+    core.class.obstacle.log = log
+    assert.same({ 0, 1, 1, 1 }, found)
+    assert.is_true(core.exists(w))
+    -- by looks: both; both, from 0.5 s on; then only the far one, from 1 and 1.5 s on
+    local later = 0
+    for _, from in ipairs(read) do later = later + (from > 0 and 1 or 0) end
+    assert.equal(4, later)
+  end)
+end)
+
+describe("a scene that runs inside the function of a quantity or a check", function()
+  local function refused(words, f)
+    local scene, w = scene_of()
+    local function inside()
+      scene:run { duration = 0.1 }
+      return 1
+    end
+    local fine, message = pcall(f, scene, inside)
+    if fine then message = tostring(message) end
+    for _, word in ipairs(words) do assert.truthy(message:find(word, 1, true), message) end
+    assert.is_true(scene:run { duration = 0.1 }.ok) -- it can run afterwards
+    assert.is_true(core.exists(w))
+  end
+
+  it("is told what to read instead", function()
+    local asked = { "'read' cannot be run inside the function `of` of the quantity 'odd'", "wire:position" }
+    for _, model in ipairs { false, "auto" } do
+      refused(asked, function(scene, of)
+        scene:run { duration = 0.2, model = model or nil,
+          tolerance = { { name = "odd", value = 1, of = of } } }
+      end)
+    end
+    refused(asked, function(scene, of)
+      scene:settle { tolerance = { { name = "odd", value = 1, of = of } } }
+    end)
+    refused({ "inside the function `of` of the check 'odd'", "the run that is passed to it" },
+      function(scene, of)
+        local own = { name = "odd", unit = "-", of = of, max = 2 }
+        return scene:run { duration = 0.2 }:check { checks = { own } }
+      end)
+  end)
+
+  it("may be another scene", function()
+    local scene, other = scene_of(), scene_of()
+    local run = scene:run { duration = 0.2, tolerance = { { name = "odd", value = 1, of = function()
+      return other:run { duration = 0.01 }.time
+    end } } }
+    assert.is_true(run.ok)
+  end)
+end)
