@@ -237,9 +237,16 @@ describe("run:check", function()
     local other, its_scene = laying()
     fails(function()
       other:check{ checks = { { name = "x", unit = "m", max = 1, of = function()
-        return its_scene:run{ duration = 0.01, dt = 0.005 }.time
+        its_scene:settle{ max_iterations = 1 }
+        return 0
       end } } }
     end, "has gone on since this run")
+    other, its_scene = laying()
+    fails(function()
+      other:check{ checks = { { name = "x", unit = "m", max = 1, of = function()
+        return its_scene:run{ duration = 0.01, dt = 0.005 }.time
+      end } } }
+    end, "cannot be run inside the function `of` of the check 'x'")
   end)
 
   it("is open where the cable has no limit for the use", function()

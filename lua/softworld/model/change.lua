@@ -116,7 +116,9 @@ local function is_there(context, compared, shape)
     edge = math.min(edge, w.object.length / compared.here.level.segments[i])
   end
   local apart = shapes_apart(compared.here.shape, shape)
-  return apart < ELSEWHERE * math.min(way, edge) or math.max(way, apart) < STILL * edge
+  local lines = not context.job.shape -- a mesh may be squeezed without a way
+  local still = lines and math.max(way, apart) < STILL * edge
+  return still or apart < ELSEWHERE * math.min(way, edge)
 end
 
 -- True if coarse edges may hide a change of a quantity between the rungs of a comparison: inertia counts, and

@@ -6,14 +6,15 @@ local build = require "softworld.scene.build"
 
 local reading = {}
 
---- Returns what pcall(f, ...) returns. what: of what f is the function `of`, and what to read instead of
--- another run, for reading.check.
+--- Returns what pcall(f, ...) returns; raises an error if f tried to run the scene. what: of what f is the
+-- function `of`, and what to read instead of another run, for reading.check.
 function reading.call(scene, what, instead, f, ...)
   local data = build.data(scene)
-  local before = data.read
-  data.read = { what = what, instead = instead }
+  local before, now = data.read, { what = what, instead = instead }
+  data.read = now
   local results = table.pack(pcall(f, ...))
   data.read = before
+  if now.refused then error(results[1] and now.refused or results[2], 0) end
   return table.unpack(results, 1, results.n)
 end
 
@@ -21,8 +22,9 @@ end
 function reading.check(scene)
   local read = build.data(scene).read
   if not read then return end
-  error(("scene:run: scene '%s' cannot be run inside the function `of` of %s: that function reads a run that "
-    .. "has ended; %s"):format(scene.name, read.what, read.instead), 0)
+  read.refused = ("scene:run: scene '%s' cannot be run inside the function `of` of %s: that function reads a "
+    .. "run that has ended; %s"):format(scene.name, read.what, read.instead)
+  error(read.refused, 0)
 end
 
 return reading
