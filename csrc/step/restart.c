@@ -6,6 +6,7 @@
 #include "link/hold.h"
 #include "scene/course.h"
 #include "scene/gripper.h"
+#include "scene/obstacle.h"
 #include "scene/parts.h"
 
 /* --- jerks ----------------------------------------------------------------------- */
@@ -46,6 +47,10 @@ sw_status sw_restart_jerks(const sw_scene *s, double time, double h, int *jerks,
   }
   SW_EACH(tool, t, s) {
     SW_TRY(drive_jerks(&t->drive, time, h, smooth, jerks, err));
+    if (*jerks) return SW_OK;
+  }
+  SW_EACH(obstacle, o, s) {
+    if (o->alive && !o->drive.tool) SW_TRY(drive_jerks(&o->drive, time, h, smooth, jerks, err));
     if (*jerks) return SW_OK;
   }
   return SW_OK;

@@ -10,8 +10,8 @@
 
 /* 1 if the scene was changed or its state jumped; the energy of such a step is not judged. */
 int sw_restart_changed(const sw_scene *scene);
-/* *jerks: 1 if a drive of a hold or tool starts, stops or turns a corner abruptly at this time,
- * which is the start or end of a part of h [s]. Fails only if a script's function fails. */
+/* *jerks: 1 if a drive of a hold, tool or obstacle starts, stops or turns a corner abruptly at this
+ * time, which is the start or end of a part of h [s]. Fails only if a script's function fails. */
 sw_status sw_restart_jerks(const sw_scene *scene, double time, double h, int *jerks, sw_error *err);
 /* Call when a part of h begins: starts anew if a drive does so now [s]. */
 sw_status sw_restart_at_jerk(sw_scene *scene, double h, sw_error *err);
