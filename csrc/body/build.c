@@ -286,11 +286,11 @@ static sw_status place_hold(void *user, int hold, double t, sw_hold_state *out, 
   sw_scene *s = user;
   sw_motion_state m;
   sw_hold *h = &s->holds[s->hold_slot[hold]];
-  SW_TRY(sw_drive_eval(s, &h->drive, t, &m, err));
-  *out = (sw_hold_state){m.pose, m.v, m.a, m.omega, m.alpha};
+  SW_TRY(sw_drive_place(s, &h->drive, t, &m, err));
+  *out = (sw_hold_state){m.pose, m.v, m.a, m.omega, m.alpha, {0, 0, 0}};
   if (h->cls->hold->place) {
     const sw_link_wire w = sw_scene_link_wire(s, h->wire);
-    h->cls->hold->place(h, &w, t, out);
+    h->cls->hold->place(h, &w, t, s->system.inner, out);
   }
   if (s->part_from) out->pose = part_way(&s->part_from[hold], &m.pose, s->part);
   return SW_OK;
@@ -298,7 +298,7 @@ static sw_status place_hold(void *user, int hold, double t, sw_hold_state *out, 
 
 static sw_status place_obstacle(void *user, int o, double t, sw_motion_state *out, sw_error *err) {
   sw_scene *s = user;
-  return sw_drive_eval(s, &s->obstacles[o].drive, t, out, err);
+  return sw_drive_place(s, &s->obstacles[o].drive, t, out, err);
 }
 
 static sw_status add_contact(sw_scene *s) {

@@ -193,6 +193,12 @@ static void find_mean(sw_stepper *p, const sw_integrator *m, const sw_system *s,
   for (size_t e = 0; p->mean && e < s->edges; e++) sum[e] *= share / h;
 }
 
+/* 1 if a stage only goes on from the step's start by its own velocity, and others follow. */
+static int is_inner(const sw_integrator *m, size_t k) {
+  const sw_stage_row *row = &m->rows[k];
+  return k + 1 < m->stages && row->xn == 1 && row->xv == 0 && row->xp == 0 && row->xa == 0;
+}
+
 static sw_status solve_stage(sw_stepper *p, const sw_integrator *m, size_t k, sw_system *s,
                              double t, double h, sw_error *err) {
   const sw_stage_row *row = &m->rows[k];
@@ -203,6 +209,7 @@ static sw_status solve_stage(sw_stepper *p, const sw_integrator *m, size_t k, sw
   const sw_stage stage = {.time = t + row->time * h,
                           .from = m->flags & SW_INTEGRATOR_ONWARDS ? t : 0,
                           .to = m->flags & SW_INTEGRATOR_ONWARDS ? t + h : 0,
+                          .inner = is_inner(m, k) ? hbar : 0,
                           .hbar = hbar,
                           .inertia = row->inertia,
                           .first = row->x1,

@@ -148,10 +148,12 @@ static void slide(sw_hold *h, const sw_link_wire *w, double arc, double fed) {
   if (!same) reshape(h, w, p);
 }
 
-static void place(sw_hold *h, const sw_link_wire *w, double t, sw_hold_state *state) {
+static void place(sw_hold *h, const sw_link_wire *w, double t, double inner, sw_hold_state *state) {
   const sw_guide *g = &h->feed.guide;
   const feed_now now = feed_at(h, t);
-  slide(h, w, arc_at(g, now.fed), now.fed);
+  const int rigid = !isfinite(h->feed.slip.push) && !isfinite(h->feed.slip.limit);
+  const double fed = inner > 0 && rigid ? feed_at(h, t - inner).fed + inner * now.speed : now.fed;
+  slide(h, w, arc_at(g, fed), fed);
   const sw_vec along = sw_scale(sw_rotate(state->pose.q, h->director[1]), g->outward);
   state->v = sw_madd(state->v, along, now.speed);
   state->a = sw_madd(state->a, along, now.acceleration);

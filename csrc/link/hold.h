@@ -120,8 +120,10 @@ typedef struct sw_hold_acts {
   /* Begins a new hold whose nodes are in place. SW_ENOMEM. */
   sw_status (*begin)(sw_hold *hold, const sw_link_wire *wire);
   void (*clear)(sw_hold *hold);
-  /* Adds the wire's motion in the hold's frame at time t to the hold's state. */
-  void (*place)(sw_hold *hold, const sw_link_wire *wire, double t, sw_hold_state *state);
+  /* Adds the wire's motion in the hold's frame at time t to the hold's state. inner: see sw_stage
+   * [s]. */
+  void (*place)(sw_hold *hold, const sw_link_wire *wire, double t, double inner,
+                sw_hold_state *state);
   /* A state was accepted and the scene has its time: updates mesh and hold. Returns 1 if velocities
    * jumped. */
   int (*follow)(sw_hold *hold, const sw_link_wire *wire);

@@ -8,6 +8,7 @@
 #include "scene/gripper.h"
 #include "scene/obstacle.h"
 #include "scene/parts.h"
+#include "step/corner.h"
 
 /* --- jerks ----------------------------------------------------------------------- */
 
@@ -59,7 +60,9 @@ sw_status sw_restart_jerks(const sw_scene *s, double time, double h, int *jerks,
 sw_status sw_restart_at_jerk(sw_scene *s, double h, sw_error *err) {
   sw_course *c = sw_scene_course(s);
   SW_TRY(sw_restart_jerks(s, sw_scene_time(s), h, &c->jerks, err));
-  if (c->jerks) c->stepper.restart = 1;
+  int corner = 0;
+  if (!c->jerks) SW_TRY(sw_corner_now(s, &corner, err));
+  if (c->jerks || corner) c->stepper.restart = 1;
   return SW_OK;
 }
 

@@ -15,6 +15,7 @@
 #include "scene/obstacle.h"
 #include "scene/parts.h"
 #include "step/coarse.h"
+#include "step/corner.h"
 #include "step/restart.h"
 #include "touch/tally.h"
 
@@ -281,12 +282,13 @@ static sw_status while_sliding(const sw_scene *s, double h, sw_when of, double *
 }
 
 sw_status sw_restart_until_break(sw_scene *s, double *h, sw_error *err) {
-  double rough, jump, halt = HUGE_VAL;
+  double rough, jump, corner, halt = HUGE_VAL;
   SW_TRY(sw_drives_first(s, *h, SW_FUNCTIONS, rough_of, &rough, err));
   const int smooth = sw_scene_course(s)->smooth = rough > 0;
   SW_TRY(sw_drives_first(s, *h, smooth ? SW_LAWS : SW_ALL_DRIVES, jump_of, &jump, err));
   if (sw_scene_has_contact(s)) SW_TRY(while_sliding(s, *h, halt_of, &halt, err));
-  const double t = fmin(jump < *h * (1 - NEAR) ? jump : HUGE_VAL, halt);
+  SW_TRY(sw_corner_first(s, *h, &corner, err));
+  const double t = fmin(fmin(jump, corner) < *h * (1 - NEAR) ? fmin(jump, corner) : HUGE_VAL, halt);
   if (t > 0 && t < sw_stop_before_end(*h)) *h = t;
   return SW_OK;
 }

@@ -16,6 +16,7 @@ typedef struct sw_system sw_system;
 typedef struct sw_hold_state {
   sw_pose pose;              /* [m], [-] */
   sw_vec v, a, omega, alpha; /* [m/s], [m/s2], [rad/s], [rad/s2] */
+  sw_vec ahead; /* in an inner stage: of wire that passes, by which it is ahead of its path [m] */
 } sw_hold_state;
 
 /* Force and moment of a hold on its wire [N], [N m]. */
@@ -43,6 +44,7 @@ typedef struct sw_held_node {
   sw_vec own_force; /* inertia minus forces before the last solve [N] */
   sw_vec reaction;  /* force on the wire that holds the node [N] */
   size_t kept;      /* its place in the system's strains; 0: none */
+  sw_vec shift;     /* in an inner stage: of its place, by which it is ahead of its path [m] */
   size_t next;      /* number of its body's next held node + 1, or 0; set for each stage */
 } sw_held_node;
 

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/each.h"
+#include "system/inner.h"
 #include "system/rail.h"
 #include "system/system.h"
 
@@ -29,8 +30,9 @@ static sw_status place_hold(sw_system *s, size_t k, double t, sw_error *err) {
 
 sw_status sw_system_place_holds(sw_system *s, double t, double *x, double *v, double *a,
                                 sw_error *err) {
+  for (size_t k = 0; k < s->hold_count; k++) SW_TRY(place_hold(s, k, t, err));
+  if (s->inner > 0) SW_TRY(sw_inner_check(s, t, err));
   for (size_t k = 0; k < s->hold_count; k++) {
-    SW_TRY(place_hold(s, k, t, err));
     s->fastest_turn = fmax(s->fastest_turn, sw_norm(s->hold_states[k].omega));
     sw_store(s->turns + 3 * k, s->still ? sw_v(0, 0, 0) : s->hold_states[k].omega);
     for (size_t side = 0; side < 2; side++) {

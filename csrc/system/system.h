@@ -12,6 +12,7 @@
 #include "state/first_stage.h"
 #include "system/body.h"
 #include "system/coupling.h"
+#include "system/stage.h"
 
 typedef struct sw_counters {
   size_t newton;      /* matrix solves since start [-] */
@@ -41,6 +42,7 @@ struct sw_system {
   double *normals, *normals_now; /* the same for the wire's normals at the holds */
   double fastest_turn;           /* of any hold in this step so far [rad/s] */
   double from, to;               /* to > from: see sw_stage [s] */
+  double inner;                  /* while a stage is solved: see sw_stage [s] */
   int still;                     /* 1: holds count as standing even if they move (statics) */
   int rough; /* 1: the last update turned edges too far to be the stage's last; see above */
   sw_hold_state *hold_states; /* (hold_count) at the last stage */
@@ -104,47 +106,6 @@ struct sw_system {
   double *factor_at; /* (freedoms) positions at which reusable factors were made [m] */
   void *work;
 };
-
-/* Newton controls, all [-] unless noted. */
-typedef struct sw_newton {
-  int max_iterations;
-  int keeps_energy;       /* 1: updates may leave little energy in taut edges */
-  double accept_rotation; /* largest edge rotation of the last update [rad] */
-  double limit_rotation;  /* larger updates are shortened to this [rad] */
-  int statics;            /* 1: no inertia */
-  int most_far; /* statics: number of updates beyond limit_rotation, made or not, after which a
-                   solve of touching wires ends; 0: no limit [-] */
-  double accept_shift; /* statics: largest node shift of the last update [m] */
-} sw_newton;
-
-typedef struct sw_stage {
-  double time; /* at the stage's end [s] */
-  /* to > from: the state lies beyond the stage, extrapolated from `from` through the stage to `to`.
-   * Holds are then placed on the straight line between their poses at `from` and `to`, so that
-   * wires end at the holds. The pose of an accelerating hold at the stage's time would bend a stiff
-   * wire [s]. */
-  double from, to;
-  double hbar;    /* [s] */
-  double inertia; /* factor of the mass, for methods that take forces and accelerations at different
-                     times; 0 means 1 [-] */
-  double first;   /* weight of the step's first stage in xhat [-] */
-  const double *xhat; /* (freedoms): velocity = (y - xhat)/hbar [m], [rad] */
-  const double *vhat; /* (freedoms): acceleration = inertia (velocity - vhat)/hbar [m/s] */
-  double *y;          /* out: positions [m] */
-  double *v;          /* out: velocities [m/s] */
-  double *a;          /* out: accelerations, or NULL [m/s2] */
-  /* with dashpots (strains): strain rate = (strain - strain_past)/hbar; NULL without them, and in
-   * statics [-] */
-  const double *strain_past;
-  double *strain; /* in: a guess, out: the solved stage's [-] */
-} sw_stage;
-
-typedef struct sw_stage_report {
-  int iterations;
-  double rotation; /* of the last update [rad] */
-  double share;    /* share of it that the coupling allows [-] */
-  size_t negative; /* negative pivots of the last matrix */
-} sw_stage_report;
 
 /* Makes arrays for bodies with these plans (retains each plan). The caller fills x, v and terms.
  * SW_ENOMEM leaves nothing behind. */

@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Corners of drives: moments at which their acceleration jumps, as in a trapezoidal motion. A
+ * method that uses earlier steps takes a path with a corner for a smooth one. The forces of bdf2 on
+ * a stiff cable are then off by 0.78 of the jump times the cable's mass, whatever the step. So a
+ * part ends at a corner, and the method starts anew there. */
+#include "step/corner.h"
+
+#include <math.h>
+
+#include "contact/contact.h"
+#include "link/hold.h"
+#include "scene/gripper.h"
+#include "scene/lists.h"
+#include "scene/obstacle.h"
+#include "scene/parts.h"
+
+/* Smaller jumps are no corner: with 0.1 m/s2 forces are off by 0.8 % of a wire's weight [m/s2],
+ * [rad/s2]. */
+static const double LEAST = 0.1;
+/* A corner keeps more than this share of a change in one half of the time; an even change leaves
+ * half of it in each [-]. */
+static const double AT_ONCE = 0.8;
+/* Corners are found to this; accelerations are compared this far from a time [s]. */
+static const double FOUND = 1e-9;
+
+static double change(const sw_motion_state *a, const sw_motion_state *b) {
+  return sw_dist(a->a, b->a) + sw_dist(a->alpha, b->alpha);
+}
+
+/* *at: time after t of a corner, up to h [s]. */
+static sw_status corner_of(const sw_motion *m, double t, double h, double *at, sw_error *err) {
+  sw_motion_state before, after, middle;
+  double from = FOUND, to = h;
+  if (!(h > 2 * FOUND)) return SW_OK;
+  SW_TRY(sw_motion_eval(m, t + from, &before, err));
+  SW_TRY(sw_motion_eval(m, t + to, &after, err));
+  double all = change(&before, &after);
+  if (!(all > LEAST)) return SW_OK;
+  while (to - from > FOUND) {
+    const double half = 0.5 * (from + to);
+    SW_TRY(sw_motion_eval(m, t + half, &middle, err));
+    const double first = change(&before, &middle), second = change(&middle, &after);
+    if (!(fmax(first, second) > AT_ONCE * all) || !(fmax(first, second) > LEAST)) return SW_OK;
+    if (first > second)
+      after = middle, to = half, all = first;
+    else
+      before = middle, from = half, all = second;
+  }
+  *at = to;
+  return SW_OK;
+}
+
+/* *at: 0 if there is a corner at t. */
+static sw_status corner_at(const sw_motion *m, double t, double h, double *at, sw_error *err) {
+  sw_motion_state before, after;
+  (void)h;
+  SW_TRY(sw_motion_eval(m, t - 2 * FOUND, &before, err));
+  SW_TRY(sw_motion_eval(m, t + 2 * FOUND, &after, err));
+  if (change(&before, &after) > LEAST) *at = 0;
+  return SW_OK;
+}
+
+/* The same, without corners at which the motion comes to rest. */
+static sw_status moving_corner_at(const sw_motion *m, double t, double h, double *at,
+                                  sw_error *err) {
+  sw_motion_state after;
+  SW_TRY(sw_motion_eval(m, t + 2 * FOUND, &after, err));
+  return sw_stop_speed(&after) > 0 ? corner_at(m, t, h, at, err) : SW_OK;
+}
+
+/* A function's accelerations are differences; its corners are not known. */
+static sw_status ask(const sw_scene *s, const sw_drive *d, double h, sw_when of, double *at,
+                     sw_error *err) {
+  if (d->tool) d = &sw_scene_tool_in(s, d->tool - 1)->drive;
+  double own = HUGE_VAL;
+  if (!d->motion || sw_motion_is_function(d->motion)) return SW_OK;
+  SW_TRY(of(d->motion, sw_scene_time(s) - d->start, h, &own, err));
+  *at = fmin(*at, own);
+  return SW_OK;
+}
+
+/* Asks the drives of holds, and of obstacles near wires. While wires slide over wires corners are
+ * left out: a cable's sag swings after a corner, steps of 20 ms do not follow that, and friction at
+ * rest came out 0.16 mu m g too low (spec/contact/pair_stop_spec). */
+static sw_status ask_all(const sw_scene *s, double h, sw_when of, double *at, sw_error *err) {
+  const sw_contact *contact = sw_scene_contact(s);
+  size_t count = 0;
+  *at = HUGE_VAL;
+  if (sw_scene_pairs(s) && sw_drives_slide(s, HUGE_VAL, HUGE_VAL)) return SW_OK;
+  SW_EACH(hold, hold, s)
+    if (hold->alive) SW_TRY(ask(s, &hold->drive, h, of, at, err));
+  const int *busy = contact ? sw_contact_busy(contact, &count) : NULL;
+  for (size_t k = 0; k < count; k++)
+    SW_TRY(ask(s, &sw_scene_obstacle_in(s, (size_t)busy[k])->drive, h, of, at, err));
+  return SW_OK;
+}
+
+sw_status sw_corner_first(const sw_scene *s, double h, double *at, sw_error *err) {
+  return ask_all(s, h, corner_of, at, err);
+}
+
+sw_status sw_corner_now(const sw_scene *s, int *yes, sw_error *err) {
+  /* Wires that slide with a drive until it rests keep their friction (stop.c). A restart would turn
+   * it. */
+  const int slide = sw_drives_slide(s, HUGE_VAL, HUGE_VAL);
+  double at;
+  SW_TRY(ask_all(s, 0, slide ? moving_corner_at : corner_at, &at, err));
+  *yes = at <= 0;
+  return SW_OK;
+}

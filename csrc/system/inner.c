@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Holds in an inner stage (inner.h). If a hold accelerates with a, the stage places it a h^2/2
+ * ahead of its path. A wire with one hold goes along, and has the velocity a h. A wire that two
+ * holds keep taut would be stretched by the difference of both shifts. */
+#include "system/inner.h"
+
+#include <math.h>
+
+#include "base/each.h"
+
+/* Shifts are the same if they differ by less than this share of the larger one [-]. */
+static const double SAME = 1e-6;
+/* A wire is slack if its chord, with the difference of both shifts, is shorter than this share of
+ * the wire in between. A sag of 2 % of the span has this share [-]. */
+static const double SLACK = 0.999;
+
+static sw_vec place_of(const sw_system *s, const sw_held_node *h) {
+  return sw_pose_point(s->hold_states[h->hold].pose, h->local);
+}
+
+/* Sets each held node's shift. */
+static sw_status find_shifts(sw_system *s, double t, sw_error *err) {
+  const double inner = s->inner;
+  sw_status status = SW_OK;
+  s->inner = 0;
+  for (size_t i = 0; i < s->held_count && status == SW_OK;) {
+    const int k = s->held[i].hold;
+    sw_hold_state exact;
+    status = s->coupling.place(s->coupling.user, k, t, &exact, err);
+    for (; i < s->held_count && s->held[i].hold == k; i++)
+      s->held[i].shift =
+          sw_sub(place_of(s, &s->held[i]), sw_pose_point(exact.pose, s->held[i].local));
+  }
+  s->inner = inner;
+  return status;
+}
+
+static int is_slack(const sw_system *s, const sw_held_node *a, const sw_held_node *b,
+                    double apart) {
+  const sw_body *body = &s->bodies[a->body];
+  if (body->plan->web) return 0;
+  const double from = body->plan->s[a->node - body->first_node];
+  const double to = body->plan->s[b->node - body->first_node];
+  return sw_dist(place_of(s, a), place_of(s, b)) + apart < SLACK * fabs(to - from);
+}
+
+static int disagree(const sw_system *s, const sw_held_node *a, const sw_held_node *b) {
+  const double apart = sw_dist(a->shift, b->shift);
+  const double most = fmax(sw_norm(a->shift), sw_norm(b->shift));
+  return a->hold != b->hold && apart > SAME * most && !is_slack(s, a, b, apart);
+}
+
+/* 1 if some pair of the body's holds disagrees. Of each hold the first node counts. */
+static int any_disagree(const sw_system *s, const sw_body *body) {
+  int last = -1;
+  for (size_t k = body->held; k; k = s->held[k - 1].next) {
+    const sw_held_node *a = &s->held[k - 1];
+    int seen = a->hold;
+    if (a->hold == last) continue;
+    last = a->hold;
+    for (size_t j = a->next; j; j = s->held[j - 1].next) {
+      const sw_held_node *b = &s->held[j - 1];
+      if (b->hold != seen && disagree(s, a, b)) return 1;
+      seen = b->hold;
+    }
+  }
+  return 0;
+}
+
+/* Places all holds of a body at their poses at t. */
+static sw_status place_exactly(sw_system *s, const sw_body *body, double t, sw_error *err) {
+  const double inner = s->inner;
+  sw_status status = SW_OK;
+  int last = -1;
+  s->inner = 0;
+  for (size_t k = body->held; k && status == SW_OK; k = s->held[k - 1].next) {
+    const int hold = s->held[k - 1].hold;
+    if (hold != last)
+      status = s->coupling.place(s->coupling.user, hold, t, &s->hold_states[hold], err);
+    last = hold;
+  }
+  s->inner = inner;
+  return status;
+}
+
+sw_status sw_inner_check(sw_system *s, double t, sw_error *err) {
+  if (!(s->hold_count > 1)) return SW_OK;
+  SW_TRY(find_shifts(s, t, err));
+  SW_ITEMS(const sw_body, body, s->bodies, s->body_count)
+    if (body->held && any_disagree(s, body)) SW_TRY(place_exactly(s, body, t, err));
+  return SW_OK;
+}
