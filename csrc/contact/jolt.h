@@ -37,4 +37,8 @@ double sw_contact_push_part(const sw_contact *contact, const sw_system *system);
 /* Length from an end of the wire (0: its start) to the next held node, or to its other end [m]. */
 double sw_contact_free_length(const sw_plan *plan, int last);
 
+/* 1 if a slip turns round now, before a step of size h: friction of the last step is over (turn.c).
+ */
+int sw_contact_turned(const sw_contact *contact, const sw_system *system, double h);
+
 #endif

@@ -36,4 +36,8 @@ typedef struct sw_rebound {
 double sw_rebound_limit(sw_contact *c, const sw_system *s, const sw_pressed *t,
                         const sw_rebound *r);
 
+/* 1 if a free wire's slip on a moving obstacle turns round within a step that ends with velocities
+ * v1; c->soonest is then the time at which the step should end (turn.c). */
+int sw_contact_turns(sw_contact *c, const sw_system *s, const double *v1, double h);
+
 #endif

@@ -6,6 +6,7 @@
 #include "contact/cross.h"
 #include "contact/curve.h"
 #include "contact/jolt.h"
+#include "contact/rebound.h"
 #include "touch/same.h"
 
 /* 1 if a node left the range for which its candidates were chosen. Then the reserve is
@@ -231,7 +232,8 @@ sw_contact_verdict sw_contact_review(sw_contact *c, sw_system *s, const double *
   if (bounces(c, s, v1)) return SW_CONTACT_STRIKE;
   const int smaller = bars_too_hard(c, s, h) || cuts_deep(c, s, x1, h) || slips_off(c, s, x1, h) ||
                       brushes(c, s, x1, h);
-  return smaller ? SW_CONTACT_SMALLER : SW_CONTACT_ACCEPT;
+  if (smaller) return SW_CONTACT_SMALLER;
+  return sw_contact_turns(c, s, v1, h) ? SW_CONTACT_SOONER : SW_CONTACT_ACCEPT;
 }
 
 int sw_contact_review_static(sw_contact *c, sw_system *s, const double *x1) {

@@ -89,7 +89,8 @@ sw_status sw_rung_strike(sw_ladder *p, const sw_rung *below, double h, sw_error 
     }
     if (verdict == SW_CONTACT_SOONER) {
       p->soonest = sw_contact_soonest(contact);
-      status = sw_fail(err, SW_ENOCONV, "something rebounds within the step");
+      status =
+          sw_fail(err, SW_ENOCONV, "something rebounds, or a slip turns round, within the step");
       break;
     }
     if (verdict == SW_CONTACT_SMALLER)

@@ -3,6 +3,7 @@
 #include "step/restart.h"
 
 #include "contact/contact.h"
+#include "contact/jolt.h"
 #include "link/hold.h"
 #include "scene/course.h"
 #include "scene/gripper.h"
@@ -62,6 +63,7 @@ sw_status sw_restart_at_jerk(sw_scene *s, double h, sw_error *err) {
   SW_TRY(sw_restart_jerks(s, sw_scene_time(s), h, &c->jerks, err));
   int corner = 0;
   if (!c->jerks) SW_TRY(sw_corner_now(s, &corner, err));
+  if (sw_scene_contact(s)) corner |= sw_contact_turned(sw_scene_contact(s), sw_scene_system(s), h);
   if (c->jerks || corner) c->stepper.restart = 1;
   return SW_OK;
 }

@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Slips that turn round within a step. A free wire lies on an obstacle that moves to and fro. While
+ * it slides, friction mu N acts one way before its velocity over the obstacle is zero, and the
+ * other way after it. A step across that time has both at once: the velocity is off by up to 0.7 mu
+ * g h. So the step ends at that time, and the next one starts without the old friction. Held wires
+ * that swing turn all the time, and their holds correct them; they are left alone. */
+#include <math.h>
+
+#include "contact/jolt.h"
+#include "contact/rebound.h"
+#include "contact/touch.h"
+
+/* Slower slips, over what friction changes in the step, count as at rest [-]. */
+static const double SLOW = 0.05;
+/* The wire slides as one if the sum of its slips has this share of the sum of their sizes [-]. */
+static const double AS_ONE = 0.9;
+/* Turns earlier and later than these shares of the step are at its start and end [-]. */
+static const double AT_START = 1e-3, AT_END = 0.98;
+
+/* A body's slip, weighted by normal forces. */
+typedef struct slip {
+  sw_vec before, after, wall; /* slip at the step's start and end; change of the obstacle's velocity
+                                 [N m/s] */
+  double size, force, rub;    /* sum of sizes at the start [N m/s]; normal force; friction [N] */
+  int slides, gripped;        /* 1: some touch slid at the end of the last solve; a pad presses */
+} slip;
+
+static sw_vec across(sw_vec v, sw_vec n) { return sw_madd(v, n, -sw_dot(v, n)); }
+
+/* Adds a touch; v0, v1: velocities at the start, with the obstacle at `from`, and at the end. */
+static void add(const sw_contact *c, const sw_touch *t, const sw_contact_at *from, const double *v0,
+                const double *v1, slip *sum) {
+  const double N = t->press.normal_force;
+  const sw_vec n = t->press.normal;
+  if (N > 0) sum->gripped |= c->obstacles[t->obstacle].grips > 0;
+  if (!(N > 0) || !c->broad.moves[t->obstacle]) return;
+  const sw_vec was = sw_obstacle_velocity(&from[t->obstacle], t->point);
+  const sw_vec is = sw_obstacle_velocity(&c->now[t->obstacle], t->point);
+  const sw_vec before = across(sw_sub(sw_mean_of(v0, 0, &t->spot), was), n);
+  sum->before = sw_madd(sum->before, before, N);
+  sum->after = sw_madd(sum->after, across(sw_sub(sw_mean_of(v1, 0, &t->spot), is), n), N);
+  sum->wall = sw_madd(sum->wall, across(sw_sub(is, was), n), N);
+  sum->size += N * sw_norm(before);
+  sum->force += N;
+  sum->rub += t->friction * N;
+  sum->slides |= t->press.sliding;
+}
+
+/* Sums the slip of the free wire at touch *i and goes on to the next wire. Returns its mass; 0:
+ * it is not free [kg]. */
+static double next_slip(const sw_contact *c, const sw_system *s, size_t *i,
+                        const sw_contact_at *from, const double *v1, slip *sum) {
+  const size_t body = c->touches[*i].body;
+  const sw_body *b = &s->bodies[body];
+  *sum = (slip){.size = 0};
+  for (; *i < c->touch_count && c->touches[*i].body == body; ++*i)
+    add(c, &c->touches[*i], from, s->v, v1, sum);
+  const int free = !b->held && !b->coupled && !b->roll_block && !sum->gripped;
+  return free ? b->plan->beam.mass * b->plan->length : 0.0;
+}
+
+/* Slip below which a wire is at rest on the obstacle [N m/s]. */
+static double slow_of(const slip *sum, double mass, double h) {
+  return SLOW * sum->rub / mass * h * sum->force;
+}
+
+/* Returns when the slip is zero, after the step's start; HUGE_VAL: it does not turn [s]. */
+static double turns_at(const slip *sum, double mass, double h) {
+  const double before = sw_norm(sum->before), slow = slow_of(sum, mass, h);
+  if (!(before > slow) || before < AS_ONE * sum->size) return HUGE_VAL;
+  if (!(sw_dot(sum->before, sum->after) < slow * before)) return HUGE_VAL;
+  const double gains = sw_dot(sum->wall, sum->before) / (before * sum->force * h);
+  const double slows = sum->rub / mass + gains; /* [m/s2] */
+  return slows > 0 ? before / (sum->force * slows) : HUGE_VAL;
+}
+
+int sw_contact_turns(sw_contact *c, const sw_system *s, const double *v1, double h) {
+  slip sum;
+  if (c->regime != SW_CONTACT_IMPLICIT || !c->broad.mover_count || !isfinite(c->least)) return 0;
+  for (size_t i = 0; i < c->touch_count;) {
+    const double mass = next_slip(c, s, &i, c->start, v1, &sum);
+    const double at = mass > 0 ? turns_at(&sum, mass, h) : HUGE_VAL;
+    if (at > AT_START * h && at < AT_END * h) c->soonest = fmin(c->soonest, at);
+  }
+  return c->soonest < h;
+}
+
+int sw_contact_turned(const sw_contact *c, const sw_system *s, double h) {
+  slip sum;
+  if (c->regime != SW_CONTACT_IMPLICIT || !c->broad.mover_count) return 0;
+  for (size_t i = 0; i < c->touch_count;) {
+    const double mass = next_slip(c, s, &i, c->now, s->v, &sum);
+    if (mass > 0 && sum.slides && sw_norm(sum.before) < slow_of(&sum, mass, h)) return 1;
+  }
+  return 0;
+}
