@@ -21,9 +21,15 @@ static const double AT_START = 1e-3, AT_END = 0.98;
 typedef struct slip {
   sw_vec before, after, wall; /* slip at the step's start and end; change of the obstacle's velocity
                                  [N m/s] */
-  double size, force, rub;    /* sum of sizes at the start [N m/s]; normal force; friction [N] */
-  int slides, gripped;        /* 1: some touch slid at the end of the last solve; a pad presses */
+  sw_vec way, mean;        /* way of the obstacle's point [N m], mean of its velocities [N m/s] */
+  double size, force, rub; /* sum of sizes at the start [N m/s]; normal force; friction [N] */
+  int slides, gripped;     /* 1: some touch slid at the end of the last solve; a pad presses */
 } slip;
+
+/* The obstacle's acceleration is even enough over the step if its mean velocity is that of both
+ * ends within this share of their difference. Otherwise its velocity may have jumped at the start
+ * [-]. */
+static const double EVEN = 0.25;
 
 static sw_vec across(sw_vec v, sw_vec n) { return sw_madd(v, n, -sw_dot(v, n)); }
 
@@ -42,6 +48,10 @@ static void add(const sw_contact *c, const sw_touch *t, const sw_contact_at *fro
   sum->wall = sw_madd(sum->wall, across(sw_sub(is, was), n), N);
   sum->size += N * sw_norm(before);
   sum->force += N;
+  const sw_vec here =
+      sw_pose_point(from[t->obstacle].pose, sw_pose_local(c->now[t->obstacle].pose, t->point));
+  sum->way = sw_madd(sum->way, sw_sub(t->point, here), N);
+  sum->mean = sw_madd(sum->mean, sw_add(was, is), 0.5 * N);
   sum->rub += t->friction * N;
   sum->slides |= t->press.sliding;
 }
@@ -69,6 +79,8 @@ static double turns_at(const slip *sum, double mass, double h) {
   const double before = sw_norm(sum->before), slow = slow_of(sum, mass, h);
   if (!(before > slow) || before < AS_ONE * sum->size) return HUGE_VAL;
   if (!(sw_dot(sum->before, sum->after) < slow * before)) return HUGE_VAL;
+  const sw_vec off = sw_madd(sum->mean, sum->way, -1.0 / h);
+  if (sw_norm(off) > EVEN * sw_norm(sum->wall)) return HUGE_VAL;
   const double gains = sw_dot(sum->wall, sum->before) / (before * sum->force * h);
   const double slows = sum->rub / mass + gains; /* [m/s2] */
   return slows > 0 ? before / (sum->force * slows) : HUGE_VAL;

@@ -56,7 +56,12 @@ static sw_status corner_at(const sw_motion *m, double t, double h, double *at, s
   (void)h;
   SW_TRY(sw_motion_eval(m, t - 2 * FOUND, &before, err));
   SW_TRY(sw_motion_eval(m, t + 2 * FOUND, &after, err));
-  if (change(&before, &after) > LEAST) *at = 0;
+  const double all = change(&before, &after);
+  if (!(all > LEAST)) return SW_OK;
+  /* in a motion of some milliseconds an even change may be as large: half of it is nearer to t */
+  SW_TRY(sw_motion_eval(m, t - FOUND, &before, err));
+  SW_TRY(sw_motion_eval(m, t + FOUND, &after, err));
+  if (change(&before, &after) > AT_ONCE * all) *at = 0;
   return SW_OK;
 }
 

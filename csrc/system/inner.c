@@ -38,7 +38,8 @@ static sw_status find_shifts(sw_system *s, double t, sw_error *err) {
 static int is_slack(const sw_system *s, const sw_held_node *a, const sw_held_node *b,
                     double apart) {
   const sw_body *body = &s->bodies[a->body];
-  if (body->plan->web) return 0;
+  /* a feed that obeys a force tries lengths; the answer must not depend on them */
+  if (body->plan->web || a->slides || b->slides) return 0;
   const double from = body->plan->s[a->node - body->first_node];
   const double to = body->plan->s[b->node - body->first_node];
   return sw_dist(place_of(s, a), place_of(s, b)) + apart < SLACK * fabs(to - from);
