@@ -74,10 +74,16 @@ static double slow_of(const slip *sum, double mass, double h) {
   return SLOW * sum->rub / mass * h * sum->force;
 }
 
+/* 1 if the obstacle's velocity changed in a step of h by more than rest. Otherwise the scene is
+ * that with a standing obstacle, in a frame that moves. */
+static int hurries(const slip *sum, double mass, double h) {
+  return sum->rub > 0 && sw_norm(sum->wall) > slow_of(sum, mass, h);
+}
+
 /* Returns when the slip is zero, after the step's start; HUGE_VAL: it does not turn [s]. */
 static double turns_at(const slip *sum, double mass, double h) {
   const double before = sw_norm(sum->before), slow = slow_of(sum, mass, h);
-  if (!(before > slow) || before < AS_ONE * sum->size) return HUGE_VAL;
+  if (!(before > slow) || before < AS_ONE * sum->size || !hurries(sum, mass, h)) return HUGE_VAL;
   if (!(sw_dot(sum->before, sum->after) < slow * before)) return HUGE_VAL;
   const sw_vec off = sw_madd(sum->mean, sum->way, -1.0 / h);
   if (sw_norm(off) > EVEN * sw_norm(sum->wall)) return HUGE_VAL;
@@ -101,8 +107,10 @@ int sw_contact_turned(const sw_contact *c, const sw_system *s, double h) {
   slip sum;
   if (c->regime != SW_CONTACT_IMPLICIT || !c->broad.mover_count) return 0;
   for (size_t i = 0; i < c->touch_count;) {
-    const double mass = next_slip(c, s, &i, c->now, s->v, &sum);
-    if (mass > 0 && sum.slides && sw_norm(sum.before) < slow_of(&sum, mass, h)) return 1;
+    const double mass = next_slip(c, s, &i, c->start, s->v, &sum); /* start: of the last step */
+    if (mass > 0 && sum.slides && hurries(&sum, mass, c->h) &&
+        sw_norm(sum.after) < slow_of(&sum, mass, h))
+      return 1;
   }
   return 0;
 }
