@@ -14,6 +14,7 @@
 #include "link/spool.h"
 #include "state/hinge.h"
 #include "system/axial.h"
+#include "system/inner.h"
 
 static const sw_param rows[] = {
     {"s", SW_PARAM_NUMBER, "m", 0, 0, HUGE_VAL, 0, NULL, offsetof(sw_hold_args, s),
@@ -148,13 +149,22 @@ static void slide(sw_hold *h, const sw_link_wire *w, double arc, double fed) {
   if (!same) reshape(h, w, p);
 }
 
+/* Length fed at the end of an inner stage (system/inner.h). */
+static double fed_ahead(const sw_hold *h, double t, double inner) {
+  const feed_now now = feed_at(h, t), before = feed_at(h, t - inner);
+  const double ahead = before.fed + inner * now.speed;
+  const double off = now.fed - before.fed - 0.5 * inner * (before.speed + now.speed);
+  return sw_inner_goes_ahead(fabs(off), fabs(ahead - now.fed)) ? ahead : now.fed;
+}
+
 static void place(sw_hold *h, const sw_link_wire *w, double t, double inner, sw_hold_state *state) {
   const sw_guide *g = &h->feed.guide;
   const feed_now now = feed_at(h, t);
   const int rigid = !isfinite(h->feed.slip.push) && !isfinite(h->feed.slip.limit);
-  const double fed = inner > 0 && rigid ? feed_at(h, t - inner).fed + inner * now.speed : now.fed;
+  const double fed = inner > 0 && rigid ? fed_ahead(h, t, inner) : now.fed;
   slide(h, w, arc_at(g, fed), fed);
   const sw_vec along = sw_scale(sw_rotate(state->pose.q, h->director[1]), g->outward);
+  state->ahead = sw_scale(along, fed - now.fed);
   state->v = sw_madd(state->v, along, now.speed);
   state->a = sw_madd(state->a, along, now.acceleration);
   state->a = sw_madd(state->a, sw_cross(state->omega, along), 2.0 * now.speed);

@@ -9,6 +9,7 @@
 #include "scene/course.h"
 #include "scene/gripper.h"
 #include "scene/parts.h"
+#include "system/inner.h"
 
 void sw_drive_free(sw_drive *d) {
   sw_motion_release(d->motion);
@@ -51,11 +52,6 @@ sw_status sw_drive_eval(sw_scene *s, const sw_drive *d, double t, sw_motion_stat
   return status;
 }
 
-/* A drive's acceleration is even enough over a stage if the way differs from the mean of both
- * speeds times the stage by less than this share of the shift below. At the start of a minimum-jerk
- * motion it does by 0.25; where a motion starts or stops within the stage, by more [-]. */
-static const double EVEN = 0.3;
-
 /* Moves the pose at the stage's end to the stage's length times the velocity there. Around a stop
  * it stays: a shift of nanometres would reverse friction. A function's velocities are differences
  * over times on both sides of it. What turns stays too: a drum and a clamp on it would be shifted
@@ -65,7 +61,7 @@ static void go_ahead(const sw_motion_state *from, sw_motion_state *at, double in
   const sw_vec way = sw_sub(at->pose.p, from->pose.p);
   const double off = sw_norm(sw_madd(way, sw_add(from->v, at->v), -0.5 * inner));
   const int turns = sw_norm2(from->omega) + sw_norm2(at->omega) > 0;
-  if (!turns && off < EVEN * sw_dist(next, at->pose.p)) at->pose.p = next;
+  if (!turns && sw_inner_goes_ahead(off, sw_dist(next, at->pose.p))) at->pose.p = next;
 }
 
 sw_status sw_drive_place(sw_scene *s, const sw_drive *d, double t, sw_motion_state *out,

@@ -18,21 +18,30 @@ static sw_vec place_of(const sw_system *s, const sw_held_node *h) {
   return sw_pose_point(s->hold_states[h->hold].pose, h->local);
 }
 
-/* Sets each held node's shift. */
-static sw_status find_shifts(sw_system *s, double t, sw_error *err) {
+/* Places a hold exactly at its pose at t. A guide's wire slides to that, too. */
+static sw_status place_exactly(sw_system *s, int hold, double t, sw_hold_state *out,
+                               sw_error *err) {
   const double inner = s->inner;
-  sw_status status = SW_OK;
   s->inner = 0;
-  for (size_t i = 0; i < s->held_count && status == SW_OK;) {
-    const int k = s->held[i].hold;
-    sw_hold_state exact;
-    status = s->coupling.place(s->coupling.user, k, t, &exact, err);
-    for (; i < s->held_count && s->held[i].hold == k; i++)
-      s->held[i].shift =
-          sw_sub(place_of(s, &s->held[i]), sw_pose_point(exact.pose, s->held[i].local));
-  }
+  const sw_status status = s->coupling.place(s->coupling.user, hold, t, out, err);
   s->inner = inner;
   return status;
+}
+
+/* Sets each held node's shift. */
+static sw_status find_shifts(sw_system *s, double t, sw_error *err) {
+  for (size_t i = 0; i < s->held_count;) {
+    const int k = s->held[i].hold;
+    sw_hold_state exact;
+    SW_TRY(place_exactly(s, k, t, &exact, err));
+    if (s->held[i].slides) /* back again */
+      SW_TRY(s->coupling.place(s->coupling.user, k, t, &s->hold_states[k], err));
+    for (; i < s->held_count && s->held[i].hold == k; i++)
+      s->held[i].shift =
+          sw_add(sw_sub(place_of(s, &s->held[i]), sw_pose_point(exact.pose, s->held[i].local)),
+                 s->hold_states[k].ahead);
+  }
+  return SW_OK;
 }
 
 static int is_slack(const sw_system *s, const sw_held_node *a, const sw_held_node *b,
@@ -69,25 +78,20 @@ static int any_disagree(const sw_system *s, const sw_body *body) {
 }
 
 /* Places all holds of a body at their poses at t. */
-static sw_status place_exactly(sw_system *s, const sw_body *body, double t, sw_error *err) {
-  const double inner = s->inner;
-  sw_status status = SW_OK;
+static sw_status stay(sw_system *s, const sw_body *body, double t, sw_error *err) {
   int last = -1;
-  s->inner = 0;
-  for (size_t k = body->held; k && status == SW_OK; k = s->held[k - 1].next) {
+  for (size_t k = body->held; k; k = s->held[k - 1].next) {
     const int hold = s->held[k - 1].hold;
-    if (hold != last)
-      status = s->coupling.place(s->coupling.user, hold, t, &s->hold_states[hold], err);
+    if (hold != last) SW_TRY(place_exactly(s, hold, t, &s->hold_states[hold], err));
     last = hold;
   }
-  s->inner = inner;
-  return status;
+  return SW_OK;
 }
 
 sw_status sw_inner_check(sw_system *s, double t, sw_error *err) {
   if (!(s->hold_count > 1)) return SW_OK;
   SW_TRY(find_shifts(s, t, err));
   SW_ITEMS(const sw_body, body, s->bodies, s->body_count)
-    if (body->held && any_disagree(s, body)) SW_TRY(place_exactly(s, body, t, err));
+    if (body->held && any_disagree(s, body)) SW_TRY(stay(s, body, t, err));
   return SW_OK;
 }

@@ -171,8 +171,8 @@ describe("joins in a scene", function()
       fails("'splice', which joins wires, needs an implicit", s.run, s,
         { duration = 0.1, dt = 1e-6, integrator = "rk4" })
       local join = s:join{ ends = { { a, s = 0 }, { wire(s, { 0, 0, 0 }, { 0, 1, 0 }, 5), s = 0 } } }
-      fails("from 1; got", join.force, join)
-      fails("from 1; got number 0", join.force, join, 0)
+      fails("from 1, got", join.force, join)
+      fails("from 1, got number 0", join.force, join, 0)
       fails("there is no end 3; it has 2", join.moment, join, 3)
       join:release()
       fails("wire 'c' is joined to others by 'splice'", s.feed, s, c, { s = 0.2 })
