@@ -14,7 +14,7 @@
 #include "link/spool.h"
 #include "state/hinge.h"
 #include "system/axial.h"
-#include "system/inner.h"
+#include "system/system.h"
 
 static const sw_param rows[] = {
     {"s", SW_PARAM_NUMBER, "m", 0, 0, HUGE_VAL, 0, NULL, offsetof(sw_hold_args, s),

@@ -9,7 +9,7 @@
 #include "scene/course.h"
 #include "scene/gripper.h"
 #include "scene/parts.h"
-#include "system/inner.h"
+#include "system/system.h"
 
 void sw_drive_free(sw_drive *d) {
   sw_motion_release(d->motion);

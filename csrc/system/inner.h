@@ -8,14 +8,6 @@
 
 #include "system/system.h"
 
-/* 1 if a drive goes ahead of its path: its way differs from the mean of both speeds times the stage
- * by `off`, less than a share of the shift. At the start of a minimum-jerk motion it does by 0.25;
- * where a motion starts or stops within the stage, by more [m]. */
-static inline int sw_inner_goes_ahead(double off, double shift) {
-  const double even = 0.3; /* [-] */
-  return off < even * shift;
-}
-
 /* Call when the holds have been placed for the stage's time t. Holds of a taut wire that accelerate
  * towards or away from each other are placed anew, at their poses at t: their wire's inertia
  * matters less than the force by which the difference would stretch it. */
