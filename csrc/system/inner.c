@@ -14,6 +14,10 @@ static const double SAME = 1e-6;
  * the wire in between. A sag of 2 % of the span has this share [-]. */
 static const double SLACK = 0.999;
 
+/* A wire that bears more than this many times its weight and its inertia is held by something else
+ * than this hold, such as an obstacle that it is pressed on [-]. */
+static const double BLOCKED = 2.0;
+
 static sw_vec place_of(const sw_system *s, const sw_held_node *h) {
   return sw_pose_point(s->hold_states[h->hold].pose, h->local);
 }
@@ -60,6 +64,17 @@ static int disagree(const sw_system *s, const sw_held_node *a, const sw_held_nod
   return a->hold != b->hold && apart > SAME * most && !is_slack(s, a, b, apart);
 }
 
+/* 1 if the wire's axial forces are not those of its weight and its motion with the hold. */
+static int is_blocked(const sw_system *s, const sw_body *b) {
+  const sw_plan *p = b->plan;
+  const sw_hold_state *hold = &s->hold_states[s->held[b->held - 1].hold];
+  const double own = p->beam.mass * p->length * (sw_norm(sw_load(s->gravity)) + sw_norm(hold->a));
+  double most = 0;
+  for (size_t e = 0; e < p->edges && !p->web; e++)
+    most = fmax(most, fabs(s->tension[b->first_edge + e]));
+  return most > BLOCKED * own;
+}
+
 /* 1 if some pair of the body's holds disagrees. Of each hold the first node counts. */
 static int any_disagree(const sw_system *s, const sw_body *body) {
   int last = -1;
@@ -89,9 +104,9 @@ static sw_status stay(sw_system *s, const sw_body *body, double t, sw_error *err
 }
 
 sw_status sw_inner_check(sw_system *s, double t, sw_error *err) {
-  if (!(s->hold_count > 1)) return SW_OK;
+  if (!s->hold_count) return SW_OK;
   SW_TRY(find_shifts(s, t, err));
   SW_ITEMS(const sw_body, body, s->bodies, s->body_count)
-    if (body->held && any_disagree(s, body)) SW_TRY(stay(s, body, t, err));
+    if (body->held && (is_blocked(s, body) || any_disagree(s, body))) SW_TRY(stay(s, body, t, err));
   return SW_OK;
 }

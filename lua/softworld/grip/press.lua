@@ -51,6 +51,10 @@ local function set_back(p, held, way, args, seen, push)
   local high, higher
   p:wait(math.max(STILL * seen.step, REST))
   local f = push()
+  if f > BEYOND * args.force then -- the blow bends a cable and turns its end aside: it comes free first
+    high, now = { x = now, f = f }, low.x
+    f = go_to(p, held, way, now, high.x, args.speed, seen.step, push)
+  end
   for _ = 1, MOST do
     if f >= args.force and f <= BEYOND * args.force then break end
     if f < args.force then low = { x = now, f = f } else high, higher = { x = now, f = f }, high end
