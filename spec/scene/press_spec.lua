@@ -60,8 +60,8 @@ describe("gripper:press", function()
     end
   end
 
-  -- The first blow has 1200 N. It bent the cable and turned its end aside, and the tool was set from there: by
-  -- chance to 8.9 N, or 30 um beyond the stop.
+  -- The first blow has 1200 N. It bent the cable and turned its end aside, and the tool was set from there:
+  -- by chance to 8.9 N, or 30 um beyond the stop.
   it("does so after a blow, wherever the grip is by a rounding", function()
     for _, shift in ipairs{ -3e-8, -1e-8, 1e-9, 1e-8, 3e-8 } do
       local force, way, there = pressed("H07V-K 4", { force = 0.2, segments = 77, along = { 0, 0.6, -0.8 },
