@@ -64,9 +64,12 @@ static int disagree(const sw_system *s, const sw_held_node *a, const sw_held_nod
   return a->hold != b->hold && apart > SAME * most && !is_slack(s, a, b, apart);
 }
 
-/* 1 if the wire's axial forces are not those of its weight and its motion with the hold. */
+/* 1 if the wire has one hold, and its axial forces are not those of its weight and its motion with
+ * it. Several holds tell by themselves whether they go together. */
 static int is_blocked(const sw_system *s, const sw_body *b) {
   const sw_plan *p = b->plan;
+  for (size_t k = b->held; k; k = s->held[k - 1].next)
+    if (s->held[k - 1].hold != s->held[b->held - 1].hold) return 0;
   const sw_hold_state *hold = &s->hold_states[s->held[b->held - 1].hold];
   const double own = p->beam.mass * p->length * (sw_norm(sw_load(s->gravity)) + sw_norm(hold->a));
   double most = 0;
