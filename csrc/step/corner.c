@@ -9,6 +9,7 @@
 
 #include "contact/contact.h"
 #include "link/hold.h"
+#include "scene/course.h"
 #include "scene/gripper.h"
 #include "scene/lists.h"
 #include "scene/obstacle.h"
@@ -91,6 +92,8 @@ static sw_status ask_all(const sw_scene *s, double h, sw_when of, double *at, sw
   const sw_contact *contact = sw_scene_contact(s);
   size_t count = 0;
   *at = HUGE_VAL;
+  /* explicit methods take short steps and begin each with the forces of its start */
+  if (!(sw_scene_course(s)->method->flags & SW_INTEGRATOR_IMPLICIT)) return SW_OK;
   if (sw_scene_pairs(s) && sw_drives_slide(s, HUGE_VAL, HUGE_VAL)) return SW_OK;
   SW_EACH(hold, hold, s)
     if (hold->alive) SW_TRY(ask(s, &hold->drive, h, of, at, err));
