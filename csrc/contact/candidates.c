@@ -299,6 +299,11 @@ static void set_stiffness(sw_contact *c, const sw_system *s, size_t body, size_t
   }
 }
 
+/* Makes room for one candidate at each node: the usual number if all wires lie on one obstacle. */
+static sw_status reserve(sw_contact *c, size_t nodes) {
+  return sw_grow((void **)&c->candidates, &c->candidate_capacity, nodes, sizeof *c->candidates);
+}
+
 /* Makes empty lists with room for many touches: lists that grow one by one would be copied
  * often. */
 static sw_status make_room(sw_contact *c, size_t bodies) {
@@ -306,11 +311,13 @@ static sw_status make_room(sw_contact *c, size_t bodies) {
   SW_TRY(sw_grow((void **)&c->ranges, &c->range_capacity, bodies, sizeof *c->ranges));
   SW_TRY(sw_grow_empty((void **)&c->touches, &c->touch_capacity, n, sizeof *c->touches));
   SW_TRY(sw_grow_empty((void **)&c->last, &c->last_capacity, n, sizeof *c->last));
-  return sw_grow_empty((void **)&c->pressed, &c->pressed_capacity, n, sizeof *c->pressed);
+  return sw_grow_empty((void **)&c->pressed, &c->pressed_capacity, SW_BOOK_STAGES * n,
+                       sizeof *c->pressed);
 }
 
 sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err) {
   sw_status status = sw_grow((void **)&c->reach, &c->reach_capacity, s->nodes, sizeof *c->reach);
+  if (status == SW_OK) status = reserve(c, s->nodes);
   if (status == SW_OK) status = sw_broad_update(c);
   if (status == SW_OK) status = sw_contact_wait(c, s);
   c->candidate_count = c->touch_count = c->last_count = c->pressed_count = 0;

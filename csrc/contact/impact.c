@@ -340,6 +340,7 @@ int sw_contact_strike_all(sw_contact *c, sw_system *s, double h, int dull) {
       sw_grow((void **)&c->turns, &c->turn_capacity, c->pressed_count, sizeof *c->turns) != SW_OK)
     return 0;
   const size_t n = find_turns(c, s);
+  (void)sw_grow((void **)&c->impacts, &c->impact_capacity, c->impact_count + n, sizeof *c->impacts);
   qsort(c->turns, n, sizeof *c->turns, by_meeting);
   for (size_t i = 0; i < n; i++) {
     const sw_pressed *t = &c->pressed[c->turns[i].touch];
