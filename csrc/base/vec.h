@@ -25,6 +25,10 @@ typedef struct sw_pose {
 static inline double sw_limit(double x, double low, double high) {
   return x < low ? low : x > high ? high : x;
 }
+/* fmax and fmin without a call, with the same bits; of a NaN and a number they return the number.
+ */
+static inline double sw_larger(double a, double b) { return a > b || isnan(b) ? a : b; }
+static inline double sw_smaller(double a, double b) { return a < b || isnan(b) ? a : b; }
 static inline sw_vec sw_v(double x, double y, double z) { return (sw_vec){x, y, z}; }
 static inline sw_vec sw_load(const double *p) { return (sw_vec){p[0], p[1], p[2]}; }
 /* Vector i of a flat array. */

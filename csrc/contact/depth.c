@@ -24,7 +24,7 @@ double sw_contact_deepest(const sw_contact *c, const sw_system *s, const sw_touc
   if (!line || pad) return SW_DEEPEST;
   const double usual = sw_depth_for(SW_DEEPEST, k->radius);
   if (c->regime == SW_CONTACT_STATIC && !is_taut(s, k, t)) return usual;
-  return fmin(usual, SW_SHALLOW * k->radius);
+  return sw_smaller(usual, SW_SHALLOW * k->radius);
 }
 
 double sw_contact_depth_before(const sw_contact *c, const sw_system *s, const sw_touch *t) {
@@ -45,7 +45,7 @@ static double let_out(const sw_contact *c, const sw_system *s, const sw_touch *t
   const double moves = sw_norm(sw_sub(sw_mean_of(s->v, 0, &t->spot), of));
   const int slowly = (web && web->per_ring) || c->fresh;
   const double speed = SW_LET_OUT + (slowly ? 0.0 : TURNS * moves);
-  return fmin(speed, SW_PART) * (c->stage_time - c->time);
+  return sw_smaller(speed, SW_PART) * (c->stage_time - c->time);
 }
 
 void sw_contact_forgive(const sw_contact *c, const sw_system *s, const sw_candidate *k,

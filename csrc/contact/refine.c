@@ -44,7 +44,7 @@ double sw_contact_scale(const sw_contact *c, size_t first, size_t *end) {
   double scale = 0;
   size_t i = first;
   for (; i < c->touch_count && c->touches[i].body == body; i++)
-    scale = fmax(scale, c->touches[i].press.lag);
+    scale = sw_larger(scale, c->touches[i].press.lag);
   *end = i;
   return scale;
 }

@@ -56,7 +56,7 @@ static void take_in(sw_contact *c) {
 /* Largest distance along the segment between places of one touch: the given share, or half the
  * distance of samples [-]. */
 static double within(const sw_candidate *k, double share) {
-  return k->samples ? fmin(share, 0.5 / k->samples) : share;
+  return k->samples ? sw_smaller(share, 0.5 / k->samples) : share;
 }
 
 const sw_memory *sw_contact_remembered(const sw_contact *c, const sw_candidate *k, double at) {
@@ -218,8 +218,8 @@ static double of_arc(const sw_contact *c, const sw_system *s, const sw_memory *m
     const size_t n = k->node + (size_t)by;
     const sw_vec edge = sw_sub(sw_vec_at(s->x, n + 1), sw_vec_at(s->x, n));
     const double in = -by * sw_dot(t->press.normal, sw_unit_or(edge, zero));
-    const double share = fmin(1.0, BESIDE * force_beside(c, k, by) / m->kept.steady);
-    turn += 0.5 * share * asin(fmin(fmax(in, 0.0), MOST_ARC));
+    const double share = sw_smaller(1.0, BESIDE * force_beside(c, k, by) / m->kept.steady);
+    turn += 0.5 * share * asin(sw_smaller(sw_larger(in, 0.0), MOST_ARC));
   }
   return turn > 0 && mu > 0 ? sinh(mu * turn) / sin(turn) : mu;
 }
@@ -272,7 +272,7 @@ static void begin_friction(const sw_contact *c, const sw_system *s, const sw_mem
   t->slid = m ? m->slid : 0.0;
   if (searches) press->ahead = last->press.ahead;
   sw_press_resume(press, m ? &m->kept : NULL, last ? &last->press : NULL, went_on || searches,
-                  press->k * fmax(0.0, -press->gap));
+                  press->k * sw_larger(0.0, -press->gap));
   const int held = m && !m->kept.sliding &&
                    (s->bodies[t->body].roll_block || (!last && c->regime == SW_CONTACT_STATIC));
   if (!held && !searches) sw_press_begin(press, t->friction, went_on || m, felt_stiffness(c, s, t));
@@ -296,7 +296,7 @@ static double end_stiffness(const sw_contact *c, const sw_system *s, const sw_ca
   const size_t e = i ? last - 1 : 0, at = b->first_node + e;
   const sw_vec edge = sw_sub(sw_vec_at(y, at + 1), sw_vec_at(y, at));
   const double along = sw_dot(sw_unit_or(edge, sw_v(0, 0, 0)), normal);
-  return fmax(k->usual, along * along * b->EA / b->plan->rest[e]);
+  return sw_larger(k->usual, along * along * b->EA / b->plan->rest[e]);
 }
 
 /* Stiffness of a touch [N/m]. usual: that of a new one, which is higher near pads. */
@@ -304,7 +304,7 @@ static double stiffness_of(const sw_contact *c, const sw_candidate *k, const sw_
                            const sw_touch *last, double usual) {
   if (c->regime == SW_CONTACT_EXPLICIT) return k->usual;
   if (last) return last->stiffer;
-  return !m ? usual : fmax(m->kept.k, c->regime == SW_CONTACT_STATIC ? usual : 0.0);
+  return !m ? usual : sw_larger(m->kept.k, c->regime == SW_CONTACT_STATIC ? usual : 0.0);
 }
 
 /* 1 if a touch is that of the previous iterate, a little shifted. */
@@ -358,7 +358,7 @@ static void rise(const sw_contact *c, const sw_system *s, const sw_candidate *k,
   if (!k->arcs || t->feature == SW_BEHIND_BARRIER) return;
   t->rise = sw_contact_arc_rise(c, s, k, place, y, t->press.normal);
   if (c->regime == SW_CONTACT_IMPLICIT && !t->sharp) t->rise = sw_contact_arc_mean(k, m, t->rise);
-  if (m) t->fallen = fmax(0.0, m->rise - t->rise);
+  if (m) t->fallen = sw_larger(0.0, m->rise - t->rise);
 }
 
 sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candidate *k,

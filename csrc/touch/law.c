@@ -101,7 +101,7 @@ void sw_press_aim(sw_press *p, sw_vec u, const sw_press *last, int same, double 
 void sw_press_begin(sw_press *p, double friction, int known, double felt) {
   const double most = friction * p->lag, grip = sw_press_grip(p), length = sw_norm(p->trial);
   if (!known) p->sliding = grip * length > most, p->pulls = sw_v(0, 0, 0);
-  const int surely = fmin(grip, felt) * length > SURELY_SLIDING * most;
+  const int surely = sw_smaller(grip, felt) * length > SURELY_SLIDING * most;
   if (surely && p->reversals < REVERSALS) p->sliding = 1;
 }
 
@@ -142,7 +142,7 @@ sw_vec sw_press_eval(sw_press *p, double friction, int lagged, double K[6]) {
   p->tangential = p->sliding ? sw_scale(d, -most) : sw_scale(p->trial, -grip);
   p->slip = sw_add(p->carried, sw_madd(p->trial, p->tangential, 1.0 / grip));
   if (p->sliding) {
-    p->turning = length > SPRING_TOLERANCE ? fmin(most / length, grip) : 0.0;
+    p->turning = length > SPRING_TOLERANCE ? sw_smaller(most / length, grip) : 0.0;
     stiffness_matrix(p->k, p->turning, p->turning, p->normal, d, p->pulls, K);
     const sw_vec back = turned(p, d, p->ahead);
     return sw_add(sw_madd(p->tangential, p->normal, p->normal_force), back);
@@ -159,7 +159,7 @@ static int lag_agrees(const sw_press *p, double force, double force_scale) {
 }
 
 double sw_press_push(const sw_press *p, sw_vec shift) {
-  return fmax(0.0, -p->k * (p->gap + sw_dot(p->normal, shift)));
+  return sw_larger(0.0, -p->k * (p->gap + sw_dot(p->normal, shift)));
 }
 
 int sw_press_slides(const sw_press *p, double friction) {
@@ -240,7 +240,7 @@ static sw_vec pulled(const sw_press *p, sw_vec u, sw_vec along, double most) {
     w = sw_scale(sw_madd(u, p->pulls, -sw_dot(d, along)), 1.0 / length);
   else
     w = most > 0 ? sw_scale(u, sw_press_grip(p) / most) : sw_v(0, 0, 0);
-  return sw_scale(w, 1.0 / fmax(1.0, sw_norm(w)));
+  return sw_scale(w, 1.0 / sw_larger(1.0, sw_norm(w)));
 }
 
 static int update_friction(sw_press *p, double friction, sw_vec shift, double force_scale) {
@@ -259,7 +259,7 @@ static int update_friction(sw_press *p, double friction, sw_vec shift, double fo
   p->slip = sw_add(p->carried, sw_madd(u, p->tangential, 1.0 / grip));
   p->off = sw_norm(sw_sub(rubbed(p, friction), p->tangential));
   /* friction from rounding of its spring has no direction and needs none */
-  const int idle = fmax(most, friction * p->lag) <= small;
+  const int idle = sw_larger(most, friction * p->lag) <= small;
   /* the slide reversed in this iterate: its friction, from lag, must not matter */
   if (p->sliding && along < 0) return idle;
   if (p->sliding && beyond && !idle && along < TURN_TOLERANCE * length * sw_norm(from)) return 0;
@@ -275,7 +275,7 @@ int sw_press_update(sw_press *p, double friction, sw_vec shift, double force_sca
   const int active = p->active;
   p->shift = shift;
   p->gap_after = p->gap + sw_dot(p->normal, shift);
-  p->normal_force = active ? fmax(0.0, -p->k * p->gap_after) : 0.0;
+  p->normal_force = active ? sw_larger(0.0, -p->k * p->gap_after) : 0.0;
   p->next_sliding = 1; /* without touch it moves freely */
   p->slip = sw_v(0, 0, 0);
   p->off = 0;
@@ -307,8 +307,8 @@ int sw_press_was_put(double depth, int first) { return depth > (first ? PLACED :
 
 sw_left sw_press_leave(double depth, const sw_kept *kept, double way) {
   const double explained = kept ? kept->depth : 0.0;
-  const double left = kept ? fmin(kept->left, fmax(0.0, depth - explained)) : 0.0;
-  const double forgiven = left + fmax(0.0, depth - explained - left - way - PLACED);
+  const double left = kept ? sw_smaller(kept->left, sw_larger(0.0, depth - explained)) : 0.0;
+  const double forgiven = left + sw_larger(0.0, depth - explained - left - way - PLACED);
   const double out = depth - explained - forgiven;
   return (sw_left){forgiven, out > PLACED ? out : 0.0, left};
 }
@@ -318,14 +318,14 @@ int sw_press_is_short(int statics, double h, double nominal) {
 }
 
 double sw_press_squeezed(double forgiven, double before, double deepest) {
-  return fmax(before, forgiven + AT_ONCE * deepest);
+  return sw_larger(before, forgiven + AT_ONCE * deepest);
 }
 
 double sw_press_stiffer(const sw_press *p, double usual, double axial, double deepest,
                         double forgiven, double before) {
   const double over = p->gap_after / -deepest;
-  if (over <= 1.0 || p->k >= fmax(MOST_BOOST * usual, axial)) return p->k;
-  if (before < 0) return p->k * fmin(LARGEST_STEP, 2.0 * over);
+  if (over <= 1.0 || p->k >= sw_larger(MOST_BOOST * usual, axial)) return p->k;
+  if (before < 0) return p->k * sw_smaller(LARGEST_STEP, 2.0 * over);
   /* a strike in a short step quickly becomes deep */
   return forgiven - p->gap_after < before + DEEPER * deepest ? p->k : p->k * LARGEST_STEP;
 }
@@ -333,7 +333,7 @@ double sw_press_stiffer(const sw_press *p, double usual, double axial, double de
 static double eased(const sw_press *p, double usual, double k, double deepest) {
   const double depth = p->normal_force / p->k;
   if (!(k > usual) || !(depth < NEEDLESS * deepest)) return k;
-  return fmax(usual, EASING * k);
+  return sw_larger(usual, EASING * k);
 }
 
 sw_vec sw_press_stretch(const sw_press *p, const sw_kept *kept, int gives_way) {
@@ -359,7 +359,7 @@ sw_kept sw_press_keep(const sw_press *p, double usual, double stiffer, double de
 
 void sw_kept_harden(sw_kept *kept, double axial, double deepest) {
   if (kept->depth <= EARLY * deepest || kept->k >= axial) return;
-  const double times = fmin(LARGEST_STEP, axial / kept->k), depth = kept->depth / times;
+  const double times = sw_smaller(LARGEST_STEP, axial / kept->k), depth = kept->depth / times;
   kept->left += kept->depth - depth;
   kept->k *= times, kept->depth = depth;
 }
