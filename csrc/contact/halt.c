@@ -127,6 +127,15 @@ double sw_contact_friction(const sw_contact *c) {
   return most;
 }
 
+double sw_contact_friction_moved(const sw_contact *c, size_t body) {
+  double most = 0;
+  for (size_t i = 0; i < c->touch_count; i++) {
+    const sw_touch *t = &c->touches[i];
+    if (t->body == body && c->broad.moves[t->obstacle]) most += most_of(t);
+  }
+  return most;
+}
+
 double sw_contact_landed(const sw_contact *c, const sw_system *s) {
   double most = 0, wire = 0;
   int held = 0;

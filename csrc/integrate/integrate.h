@@ -118,6 +118,9 @@ int sw_stepper_order(const sw_stepper *stepper);
  * stepper's method has no estimate [m]. */
 double sw_stepper_error(const sw_stepper *stepper, const sw_system *system, size_t first,
                         size_t end);
+/* The same against the error of the node `from`, along the edges before the nodes [m]. */
+double sw_stepper_error_along(const sw_stepper *stepper, const sw_system *system, size_t first,
+                              size_t end, size_t from);
 /* For implicit methods without an estimate: returns the difference between the last trial's
  * displacement and the trapezoidal rule of its velocities, largest of these nodes. It is their
  * error up to a factor. 0 for other methods and for the implicit midpoint rule, which equals that

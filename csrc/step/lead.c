@@ -31,11 +31,11 @@ static sw_status leads_of(const sw_motion *m, double t, double h, double *at, sw
 /* Longest travel time of waves along a line that gets short parts; this value: any line. Friction
  * stretches a wire with longer travel times (3 m of cable, 0.2 m of a rubber hose) fifty times as
  * far as its touches give way in steps of 10 ms: it needs neither short parts nor stiff friction
- * (SW_STOP_TRAVEL). With a tolerance steps are short anyway, and all lines get short parts [s]. */
+ * (SW_STIFF_TRAVEL). With a tolerance steps are short anyway, and all lines get short parts [s]. */
 static const double ANY_LINE = 1e6;
 
 static double travel_of(const sw_ladder *p) {
-  return isfinite(p->args->tolerance) ? ANY_LINE : SW_STOP_TRAVEL;
+  return isfinite(p->args->tolerance) ? ANY_LINE : SW_STIFF_TRAVEL;
 }
 
 /* Wires that landed earlier than this no longer tremble [s]. */

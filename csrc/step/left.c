@@ -31,7 +31,8 @@ void sw_stop_note(sw_scene *s) {
   sw_system *system = sw_scene_system(s);
   for (size_t b = 0; b < system->body_count; b++) {
     sw_body *body = &system->bodies[b];
-    const sw_along sum = sw_stop_is_stiff(body, SW_STOP_TRAVEL) ? along_of(s, b) : (sw_along){0, 0};
+    const sw_along sum =
+        sw_body_is_stiff(body, SW_STIFF_TRAVEL) ? along_of(s, b) : (sw_along){0, 0};
     const int slides = sum.most > 0 && fabs(sum.along) > ALL * sum.most;
     body->watched = slides ? sw_scene_time(s) + TO : 0.0;
   }

@@ -231,11 +231,6 @@ sw_status sw_drives_first(const sw_scene *s, double h, sw_asked which, sw_when o
   return SW_OK;
 }
 
-int sw_stop_is_stiff(const sw_body *b, double most) {
-  const sw_plan *p = b->plan;
-  return !p->web && p->length * p->length * p->beam.mass < most * most * b->EA;
-}
-
 int sw_drives_slide(const sw_scene *s, double travel, double way) {
   const sw_contact *contact = sw_scene_contact(s);
   const sw_system *system = sw_scene_system(s);
@@ -245,7 +240,7 @@ int sw_drives_slide(const sw_scene *s, double travel, double way) {
     if (sw_contact_push_at(contact, system, k, &p) && p.friction > 0 && sw_norm(p.slip) > SLID &&
         p.slid < way &&
         (!(travel < HUGE_VAL) ||
-         sw_stop_is_stiff(&system->bodies[sw_system_body_of(system, p.node)], travel)))
+         sw_body_is_stiff(&system->bodies[sw_system_body_of(system, p.node)], travel)))
       return 1;
   const sw_mutual *pairs = sw_scene_pairs(s);
   return pairs && !(way < HUGE_VAL) && sw_presses_slide(sw_mutual_presses(pairs), SLID);

@@ -41,12 +41,6 @@ sw_status sw_drives_first(const sw_scene *scene, double h, sw_asked which, sw_wh
  * began to press; HUGE_VAL: also wires on wires [m]. travel: only lines along which waves travel in
  * less time; HUGE_VAL: all wires [s]. */
 int sw_drives_slide(const sw_scene *scene, double travel, double way);
-/* 1 for a line along which waves travel in less than `most` [s]. Below SW_STOP_TRAVEL a line is
- * stiff [s]. */
-#define SW_STOP_TRAVEL 1e-3
-struct sw_body;
-int sw_stop_is_stiff(const struct sw_body *body, double most);
-
 /* sw_stop_note, when a drive stops at once: notes the stiff lines that slide along themselves.
  * sw_stop_tell, before each part: reports those that do not keep their friction (step/left.c). */
 void sw_stop_note(sw_scene *scene);

@@ -94,6 +94,14 @@ static inline double sw_body_axial(const sw_body *b, size_t e) {
   return b->plan->web->link[e].k * b->plan->web->link[e].rest;
 }
 
+/* 1 for a line along which waves travel in less than `most` [s]. Below SW_STIFF_TRAVEL a line is
+ * stiff [s]. */
+#define SW_STIFF_TRAVEL 1e-3
+static inline int sw_body_is_stiff(const sw_body *b, double most) {
+  const sw_plan *p = b->plan;
+  return !p->web && p->length * p->length * p->beam.mass < most * most * b->EA;
+}
+
 /* Adds a term to its body's field. */
 static inline sw_status sw_term_eval(const sw_term *term, sw_field *field, sw_error *err) {
   field->history = term->history;
