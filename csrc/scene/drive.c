@@ -52,28 +52,86 @@ sw_status sw_drive_eval(sw_scene *s, const sw_drive *d, double t, sw_motion_stat
   return status;
 }
 
+/* --- inner stages ------------------------------------------------------------------ */
+
+/* Motion as one turn and shift of all space: what turns about a common centre goes on together. Of
+ * the point at the stage's start. */
+typedef struct screw {
+  sw_vec way, turn; /* [m], [rad]; or per time */
+} screw;
+
+/* Returns a + once turn x a + twice turn x (turn x a). */
+static sw_vec bent(sw_vec a, sw_vec turn, double once, double twice) {
+  const sw_vec across = sw_cross(turn, a);
+  return sw_add(sw_madd(a, across, once), sw_scale(sw_cross(turn, across), twice));
+}
+
+/* Below this angle series are exact to 1e-14 [rad]. */
+static const double SMALL_TURN = 0.05;
+
+/* Where a pose is after a screw. */
+static sw_pose go(sw_pose from, screw by) {
+  const double t = sw_norm(by.turn), u = t * t;
+  const double once = t < SMALL_TURN ? (1 - u / 12 * (1 - u / 30)) / 2 : (1 - cos(t)) / u;
+  const double twice =
+      t < SMALL_TURN ? (1 - u / 20 * (1 - u / 42 * (1 - u / 72))) / 6 : (1 - sin(t) / t) / u;
+  return (sw_pose){sw_add(from.p, bent(by.way, by.turn, once, twice)),
+                   sw_quat_unit(sw_quat_mul(sw_quat_exp(by.turn), from.q))};
+}
+
+/* Returns the screw between two poses, to fourth order of the turn. */
+static screw between(sw_pose from, sw_pose to) {
+  screw s = {.turn = sw_quat_log(sw_quat_mul(to.q, sw_quat_conj(from.q)))};
+  s.way = bent(sw_sub(to.p, from.p), s.turn, -0.5, (1 + sw_norm2(s.turn) / 60) / 12);
+  return s;
+}
+
+static screw mix(double a, screw x, double b, screw y) {
+  return (screw){sw_madd(sw_scale(x.way, a), y.way, b), sw_madd(sw_scale(x.turn, a), y.turn, b)};
+}
+
+/* A turn counts like the way that it makes over this arm [m]. */
+static const double ARM = 0.1;
+
+static double size(screw s) { return sw_norm(s.way) + ARM * sw_norm(s.turn); }
+
+static void screw_ahead(const sw_motion_state *from, sw_motion_state *at, double inner) {
+  const sw_vec arm = sw_sub(at->pose.p, from->pose.p);
+  const screw v0 = {from->v, from->omega};
+  const screw v1 = {sw_sub(at->v, sw_cross(at->omega, arm)), at->omega};
+  const screw next = mix(inner, v1, 0, v1), made = between(from->pose, at->pose);
+  const double off = size(mix(1, made, -0.5 * inner, mix(1, v0, 1, v1)));
+  if (sw_inner_goes_ahead(off, size(mix(1, next, -1, made)))) at->pose = go(from->pose, next);
+}
+
 /* Moves the pose at the stage's end to the stage's length times the velocity there. Around a stop
  * it stays: a shift of nanometres would reverse friction. A function's velocities are differences
- * over times on both sides of it. What turns stays too: a drum and a clamp on it would be shifted
- * apart, and stretch a cable in between. */
-static void go_ahead(const sw_motion_state *from, sw_motion_state *at, double inner) {
+ * over times on both sides of it. stays: 1 if holds keep to their paths, and so does what turns: a
+ * drum would be ahead of a clamp on it, and stretch a cable in between. */
+static void go_ahead(const sw_motion_state *from, sw_motion_state *at, double inner, int stays) {
+  if (sw_norm2(from->omega) + sw_norm2(at->omega) > 0) {
+    if (!stays) screw_ahead(from, at, inner);
+    return;
+  }
   const sw_vec next = sw_madd(from->pose.p, at->v, inner);
   const sw_vec way = sw_sub(at->pose.p, from->pose.p);
   const double off = sw_norm(sw_madd(way, sw_add(from->v, at->v), -0.5 * inner));
-  const int turns = sw_norm2(from->omega) + sw_norm2(at->omega) > 0;
-  if (!turns && sw_inner_goes_ahead(off, sw_dist(next, at->pose.p))) at->pose.p = next;
+  if (sw_inner_goes_ahead(off, sw_dist(next, at->pose.p))) at->pose.p = next;
 }
 
 sw_status sw_drive_place(sw_scene *s, const sw_drive *d, double t, sw_motion_state *out,
                          sw_error *err) {
-  const double inner = sw_scene_system(s)->inner;
+  const sw_system *system = sw_scene_system(s);
+  const double inner = system->inner;
   sw_motion_state from;
   SW_TRY(sw_drive_eval(s, d, t, out, err));
   if (!(inner > 0) || !(d->motion || d->tool)) return SW_OK;
   SW_TRY(sw_drive_eval(s, d, t - inner, &from, err));
-  go_ahead(&from, out, inner);
+  go_ahead(&from, out, inner, system->stays);
   return SW_OK;
 }
+
+/* --- orders ------------------------------------------------------------------------ */
 
 static sw_status check_free(sw_scene *s, const sw_drive *d, const char *object, sw_error *err) {
   if (!d->tool) return SW_OK;

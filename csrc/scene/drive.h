@@ -11,8 +11,8 @@
  * user's function. */
 sw_status sw_drive_eval(sw_scene *scene, const sw_drive *drive, double t, sw_motion_state *out,
                         sw_error *err);
-/* The same in a stage of the system: in an inner stage (sw_stage.inner) what moves without turning
- * is ahead of its path, by its length times the velocity at its end. */
+/* The same in a stage of the system: in an inner stage (sw_stage.inner) a drive is ahead of its
+ * path, by the stage's length times the velocity and angular velocity at its end. */
 sw_status sw_drive_place(sw_scene *scene, const sw_drive *drive, double t, sw_motion_state *out,
                          sw_error *err);
 /* Lets the drive follow the motion from the scene's time on. SW_EINVAL if it goes with a

@@ -10,6 +10,7 @@
 #include "scene/obstacle.h"
 #include "scene/parts.h"
 #include "step/corner.h"
+#include "system/axial.h"
 
 /* --- jerks ----------------------------------------------------------------------- */
 
@@ -64,7 +65,9 @@ sw_status sw_restart_at_jerk(sw_scene *s, double h, sw_error *err) {
   int corner = 0;
   if (!c->jerks) SW_TRY(sw_corner_now(s, &corner, err));
   if (sw_scene_contact(s)) corner |= sw_contact_turned(sw_scene_contact(s), sw_scene_system(s), h);
-  if (c->jerks || corner) c->stepper.restart = 1;
+  if (!c->jerks && !corner) return SW_OK;
+  c->stepper.restart = 1;
+  sw_system_uneven(sw_scene_system(s)); /* forces from before would be extrapolated past the jump */
   return SW_OK;
 }
 

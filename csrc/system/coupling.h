@@ -45,6 +45,7 @@ typedef struct sw_held_node {
   sw_vec reaction;  /* force on the wire that holds the node [N] */
   size_t kept;      /* its place in the system's strains; 0: none */
   sw_vec shift;     /* in an inner stage: of its place, by which it is ahead of its path [m] */
+  sw_pose exact;    /* in an inner stage: of its hold, on its path [m], [-] */
   size_t next;      /* number of its body's next held node + 1, or 0; set for each stage */
 } sw_held_node;
 

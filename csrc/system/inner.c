@@ -40,10 +40,12 @@ static sw_status find_shifts(sw_system *s, double t, sw_error *err) {
     SW_TRY(place_exactly(s, k, t, &exact, err));
     if (s->held[i].slides) /* back again */
       SW_TRY(s->coupling.place(s->coupling.user, k, t, &s->hold_states[k], err));
-    for (; i < s->held_count && s->held[i].hold == k; i++)
+    for (; i < s->held_count && s->held[i].hold == k; i++) {
+      s->held[i].exact = exact.pose;
       s->held[i].shift =
           sw_add(sw_sub(place_of(s, &s->held[i]), sw_pose_point(exact.pose, s->held[i].local)),
                  s->hold_states[k].ahead);
+    }
   }
   return SW_OK;
 }
@@ -58,8 +60,17 @@ static int is_slack(const sw_system *s, const sw_held_node *a, const sw_held_nod
   return sw_dist(place_of(s, a), place_of(s, b)) + apart < SLACK * fabs(to - from);
 }
 
+/* Returns the shift that b's place would have if it went with a's hold. */
+static sw_vec shift_with(const sw_system *s, const sw_held_node *a, const sw_held_node *b) {
+  const sw_hold_state *hold = &s->hold_states[a->hold];
+  if (!(sw_norm2(hold->omega) > 0)) return a->shift;
+  const sw_vec at = sw_pose_point(b->exact, b->local);
+  const sw_vec with = sw_pose_point(hold->pose, sw_pose_local(a->exact, at));
+  return sw_add(sw_sub(with, at), hold->ahead);
+}
+
 static int disagree(const sw_system *s, const sw_held_node *a, const sw_held_node *b) {
-  const double apart = sw_dist(a->shift, b->shift);
+  const double apart = sw_dist(shift_with(s, a, b), b->shift);
   const double most = fmax(sw_norm(a->shift), sw_norm(b->shift));
   return a->hold != b->hold && apart > SAME * most && !is_slack(s, a, b, apart);
 }
@@ -109,7 +120,10 @@ static sw_status stay(sw_system *s, const sw_body *body, double t, sw_error *err
 sw_status sw_inner_check(sw_system *s, double t, sw_error *err) {
   if (!s->hold_count) return SW_OK;
   SW_TRY(find_shifts(s, t, err));
-  SW_ITEMS(const sw_body, body, s->bodies, s->body_count)
-    if (body->held && (is_blocked(s, body) || any_disagree(s, body))) SW_TRY(stay(s, body, t, err));
+  SW_ITEMS(const sw_body, body, s->bodies, s->body_count) {
+    if (!body->held || !(is_blocked(s, body) || any_disagree(s, body))) continue;
+    SW_TRY(stay(s, body, t, err));
+    s->stays = 1;
+  }
   return SW_OK;
 }

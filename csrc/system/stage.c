@@ -380,7 +380,7 @@ sw_status sw_system_stage(sw_system *s, const sw_stage *stage, const sw_newton *
   *report = (sw_stage_report){0};
   s->loads_kept = 0, s->first.x = NULL;
   if (stage->strain_past) sw_strain_begin_stage(s, stage);
-  s->inner = stage->inner;
+  s->inner = stage->inner, s->stays = 0;
   const sw_status status = solve(s, stage, newton, report, err);
   s->inner = 0;
   sw_strain_end_stage(s);

@@ -48,6 +48,7 @@ struct sw_system {
   sw_hold_state *hold_states; /* (hold_count) at the last stage */
   sw_hold_load *loads;        /* (hold_count) of the last stage about the holds' places, */
   int loads_kept;             /* 1: these are read out (sw_system_keep_loads) */
+  int stays;                  /* 1: in this inner stage some holds keep to their paths */
   sw_standing *standing;      /* (hold_count) set by the coupling's owner when a step begins */
   size_t hold_count;
   double gravity[3];  /* [m/s2] */
