@@ -126,6 +126,11 @@ int sw_motion_is_function(const sw_motion *motion); /* a user's function: cannot
 sw_status sw_motion_smooth(const sw_motion *motion, double t, double h, int *smooth, sw_error *err);
 sw_status sw_motion_jump(const sw_motion *motion, double t, double h, double *at, sw_error *err);
 sw_status sw_motion_jumps(const sw_motion *motion, double t, double h, int *jumps, sw_error *err);
+/* Of a user's function: sw_motion_corner sets *at to the time after t, up to h, at which its
+ * acceleration jumps; left alone if there is none [s]. sw_motion_corners: *yes = 1 if it jumps at
+ * t, within a difference step. */
+sw_status sw_motion_corner(const sw_motion *motion, double t, double h, double *at, sw_error *err);
+sw_status sw_motion_corners(const sw_motion *motion, double t, int *yes, sw_error *err);
 double sw_motion_step(const sw_motion *motion); /* of a function's differences; else 0 [s] */
 /* Writes or reads a motion or NULL. Reading plans it anew, which gives the same bits. */
 void sw_tape_motion(sw_tape *tape, sw_motion **motion);

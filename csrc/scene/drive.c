@@ -104,10 +104,40 @@ static void screw_ahead(const sw_motion_state *from, sw_motion_state *at, double
   if (sw_inner_goes_ahead(off, size(mix(1, next, -1, made)))) at->pose = go(from->pose, next);
 }
 
+/* A function's velocities are differences over times on both sides, and so over a jump at the
+ * stage's start. These are derivatives at both ends of the cubic through four evenly spaced
+ * values, less the first, times h. */
+static void find_slopes(const sw_vec rest[3], double h, sw_vec *first, sw_vec *last) {
+  const sw_vec a = rest[0], b = rest[1], c = rest[2];
+  *first = sw_scale(sw_add(sw_madd(sw_scale(a, 18), b, -9), sw_scale(c, 2)), 0.5 / h);
+  *last = sw_scale(sw_add(sw_madd(sw_scale(c, 11), b, -18), sw_scale(a, 9)), 0.5 / h);
+}
+
+/* Sets the velocities at both ends of a stage to those by its poses alone. */
+static sw_status find_rates(sw_scene *s, const sw_drive *d, double t, double h,
+                            sw_motion_state *from, sw_motion_state *at, sw_error *err) {
+  sw_vec way[3], turn[3];
+  for (int k = 0; k < 3; k++) {
+    sw_motion_state m = *at;
+    if (k < 2) SW_TRY(sw_drive_eval(s, d, t - h * (2 - k) / 3, &m, err));
+    way[k] = sw_sub(m.pose.p, from->pose.p);
+    turn[k] = sw_quat_log(sw_quat_mul(m.pose.q, sw_quat_conj(from->pose.q)));
+  }
+  find_slopes(way, h, &from->v, &at->v);
+  if (sw_norm2(from->omega) + sw_norm2(at->omega) > 0)
+    find_slopes(turn, h, &from->omega, &at->omega);
+  return SW_OK;
+}
+
+static int is_function(const sw_scene *s, const sw_drive *d) {
+  const sw_motion *m = d->tool ? sw_scene_tool_in(s, d->tool - 1)->drive.motion : d->motion;
+  return m && sw_motion_is_function(m);
+}
+
 /* Moves the pose at the stage's end to the stage's length times the velocity there. Around a stop
- * it stays: a shift of nanometres would reverse friction. A function's velocities are differences
- * over times on both sides of it. stays: 1 if holds keep to their paths, and so does what turns: a
- * drum would be ahead of a clamp on it, and stretch a cable in between. */
+ * it stays: a shift of nanometres would reverse friction. stays: 1 if holds keep to their paths,
+ * and so does what turns: a drum would be ahead of a clamp on it, and stretch a cable in between.
+ */
 static void go_ahead(const sw_motion_state *from, sw_motion_state *at, double inner, int stays) {
   if (sw_norm2(from->omega) + sw_norm2(at->omega) > 0) {
     if (!stays) screw_ahead(from, at, inner);
@@ -123,11 +153,14 @@ sw_status sw_drive_place(sw_scene *s, const sw_drive *d, double t, sw_motion_sta
                          sw_error *err) {
   const sw_system *system = sw_scene_system(s);
   const double inner = system->inner;
-  sw_motion_state from;
+  sw_motion_state from, at;
   SW_TRY(sw_drive_eval(s, d, t, out, err));
   if (!(inner > 0) || !(d->motion || d->tool)) return SW_OK;
   SW_TRY(sw_drive_eval(s, d, t - inner, &from, err));
-  go_ahead(&from, out, inner, system->stays);
+  at = *out;
+  if (is_function(s, d)) SW_TRY(find_rates(s, d, t, inner, &from, &at, err));
+  go_ahead(&from, &at, inner, system->stays);
+  out->pose = at.pose;
   return SW_OK;
 }
 

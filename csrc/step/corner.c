@@ -32,6 +32,7 @@ static double change(const sw_motion_state *a, const sw_motion_state *b) {
 static sw_status corner_of(const sw_motion *m, double t, double h, double *at, sw_error *err) {
   sw_motion_state before, after, middle;
   double from = FOUND, to = h;
+  if (sw_motion_is_function(m)) return sw_motion_corner(m, t, h, at, err);
   if (!(h > 2 * FOUND)) return SW_OK;
   SW_TRY(sw_motion_eval(m, t + from, &before, err));
   SW_TRY(sw_motion_eval(m, t + to, &after, err));
@@ -55,6 +56,12 @@ static sw_status corner_of(const sw_motion *m, double t, double h, double *at, s
 static sw_status corner_at(const sw_motion *m, double t, double h, double *at, sw_error *err) {
   sw_motion_state before, after;
   (void)h;
+  if (sw_motion_is_function(m)) {
+    int yes;
+    SW_TRY(sw_motion_corners(m, t, &yes, err));
+    if (yes) *at = 0;
+    return SW_OK;
+  }
   SW_TRY(sw_motion_eval(m, t - 2 * FOUND, &before, err));
   SW_TRY(sw_motion_eval(m, t + 2 * FOUND, &after, err));
   const double all = change(&before, &after);
@@ -66,20 +73,44 @@ static sw_status corner_at(const sw_motion *m, double t, double h, double *at, s
   return SW_OK;
 }
 
+/* A function that is slower than this rests [m/s], [rad/s]. */
+static const double STILL = 1e-9;
+
+/* *rests: 1 if the motion rests after a corner at t. A function rests at all times that its
+ * differences reach, from a corner that is a difference step off. */
+static sw_status rests_after(const sw_motion *m, double t, int *rests, sw_error *err) {
+  sw_motion_state after;
+  const int function = sw_motion_is_function(m);
+  SW_TRY(sw_motion_eval(m, t + (function ? 3 * sw_motion_step(m) : 2 * FOUND), &after, err));
+  *rests = !(sw_stop_speed(&after) > (function ? STILL : 0));
+  return SW_OK;
+}
+
 /* The same, without corners at which the motion comes to rest. */
 static sw_status moving_corner_at(const sw_motion *m, double t, double h, double *at,
                                   sw_error *err) {
-  sw_motion_state after;
-  SW_TRY(sw_motion_eval(m, t + 2 * FOUND, &after, err));
-  return sw_stop_speed(&after) > 0 ? corner_at(m, t, h, at, err) : SW_OK;
+  int rests;
+  SW_TRY(rests_after(m, t, &rests, err));
+  return rests ? SW_OK : corner_at(m, t, h, at, err);
 }
 
-/* A function's accelerations are differences; its corners are not known. */
+/* As corner_of, without corners at which a function comes to rest: stop.c knows how near to a
+ * step's ends these may be. */
+static sw_status moving_corner_of(const sw_motion *m, double t, double h, double *at,
+                                  sw_error *err) {
+  double own = HUGE_VAL;
+  int rests = 0;
+  SW_TRY(corner_of(m, t, h, &own, err));
+  if (own < HUGE_VAL && sw_motion_is_function(m)) SW_TRY(rests_after(m, t + own, &rests, err));
+  if (!rests) *at = fmin(*at, own);
+  return SW_OK;
+}
+
 static sw_status ask(const sw_scene *s, const sw_drive *d, double h, sw_when of, double *at,
                      sw_error *err) {
   if (d->tool) d = &sw_scene_tool_in(s, d->tool - 1)->drive;
   double own = HUGE_VAL;
-  if (!d->motion || sw_motion_is_function(d->motion)) return SW_OK;
+  if (!d->motion) return SW_OK;
   SW_TRY(of(d->motion, sw_scene_time(s) - d->start, h, &own, err));
   *at = fmin(*at, own);
   return SW_OK;
@@ -92,8 +123,10 @@ static sw_status ask_all(const sw_scene *s, double h, sw_when of, double *at, sw
   const sw_contact *contact = sw_scene_contact(s);
   size_t count = 0;
   *at = HUGE_VAL;
-  /* explicit methods take short steps and begin each with the forces of its start */
-  if (!(sw_scene_course(s)->method->flags & SW_INTEGRATOR_IMPLICIT)) return SW_OK;
+  /* Explicit methods take short steps and begin each with the forces of its start. implicit-euler
+   * takes a path's chords for velocities: in a short step after a long one they jump. */
+  const sw_integrator *method = sw_scene_course(s)->method;
+  if (!(method->flags & SW_INTEGRATOR_IMPLICIT) || method->order < 2) return SW_OK;
   if (sw_scene_pairs(s) && sw_drives_slide(s, HUGE_VAL, HUGE_VAL)) return SW_OK;
   SW_EACH(hold, hold, s)
     if (hold->alive) SW_TRY(ask(s, &hold->drive, h, of, at, err));
@@ -104,7 +137,8 @@ static sw_status ask_all(const sw_scene *s, double h, sw_when of, double *at, sw
 }
 
 sw_status sw_corner_first(const sw_scene *s, double h, double *at, sw_error *err) {
-  return ask_all(s, h, corner_of, at, err);
+  const int slide = sw_drives_slide(s, HUGE_VAL, HUGE_VAL);
+  return ask_all(s, h, slide ? moving_corner_of : corner_of, at, err);
 }
 
 sw_status sw_corner_now(const sw_scene *s, int *yes, sw_error *err) {
