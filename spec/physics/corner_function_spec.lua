@@ -22,9 +22,9 @@ local function drawn(o)
     from = { -LENGTH * c, -LENGTH * s, 0 }, to = { 0, 0, 0 } }
   scene:force{ kind = "damping", mass = 0, stiffness = 1e-3 }
   local way = o.way or function(time) return WAY * share_at((time - o.wait) / TIME) end
-  scene:clamp(wire, { s = wire.length, name = "clamp" }):follow(function(time)
+  scene:clamp(wire, { s = wire.length, name = "clamp" }):follow{ step = o.step, func = function(time)
     return { c * way(time), s * way(time), 0 }
-  end, { relative = true, step = o.step })
+  end }
   local run = t.fine(scene:run{ dt = o.dt, duration = TIME + 0.15, integrator = o.integrator,
     tolerance = o.tolerance })
   local low, high = 0, 0
