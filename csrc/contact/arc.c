@@ -26,7 +26,8 @@ static const double FINE = 0.35, COARSE = 0.5;
 static const double BENT = 0.9;
 /* In time steps the shift of a chord is a mean over this many steps. Otherwise a cable that begins
  * to wind beside a clamp shakes, with pulls up to twice the brake's force
- * (spec/contact/winding_spec) [-]. */
+ * (spec/contact/winding_spec). At a clamp a growing shift is taken at once, because a clamp presses
+ * a chord that comes too late into the drum [-]. */
 static const double MEAN_STEPS = 4.0;
 
 static double from_clamp(const sw_plan *p, size_t e) {
@@ -36,6 +37,12 @@ static double from_clamp(const sw_plan *p, size_t e) {
     if (away < nearest) nearest = away;
   }
   return nearest < FAR ? FROM_CLAMP[nearest] : 1.0;
+}
+
+static int is_at_clamp(const sw_plan *p, size_t e) {
+  for (size_t i = 0; i < p->clamp_count; i++)
+    if (p->clamps[i].edge == e) return 1;
+  return 0;
 }
 
 /* Curvature at an inner node, towards its centre; 0 at the wire's ends [1/m]. */
@@ -58,13 +65,37 @@ static sw_vec round_on(const sw_body *b, size_t e, double R, const double *x) {
   return sw_scale(sw_add(one, two), first == last ? 0.5 * begun : begun);
 }
 
+/* Shift of the chord of an edge at a clamp, for a round side of radius R, as a curvature [1/m]. The
+ * wire leaves the clamp's direction slowly, but the chord leaves at once. A chord that has turned
+ * by an angle is inside a circle by R (1 - cos angle), although the wire is outside until its
+ * curvature is 1/R. Then the shift is that of an arc. Without this shift a clamp pressed the chord
+ * into a drum that began to wind, with about EI/(R h) (spec/contact/winding_clamp_spec). */
+static sw_vec leave(const sw_system *s, const sw_body *b, size_t e, double R, const double *x) {
+  const sw_plan *p = b->plan;
+  const double *at = x + 3 * (b->first_node + e), half = 0.5 * p->rest[e];
+  const sw_vec t = sw_unit_or(sw_sub(sw_load(at + 3), sw_load(at)), sw_v(0, 0, 0));
+  sw_vec most = sw_v(0, 0, 0);
+  for (size_t i = 0; i < p->clamp_count; i++) {
+    const sw_clamp_hinge *h = &p->clamps[i];
+    if (h->edge != e) continue;
+    const sw_vec change = sw_sub(t, sw_vec_at(s->directors_now, sw_clamp_place(h)));
+    const sw_vec bend = sw_scale(change, h->side / half);
+    const double round = R * sw_norm(bend), share = fmin(0.125 * round, OFF / fmax(round, OFF));
+    const sw_vec shift = sw_scale(bend, share);
+    if (sw_norm2(shift) > sw_norm2(most)) most = shift;
+  }
+  return most;
+}
+
 /* The shift of an edge's chord [m]. */
-static sw_vec shift_on(const sw_body *b, size_t e, double R, const double *x) {
+static sw_vec shift_on(const sw_system *s, const sw_body *b, size_t e, double R, const double *x) {
   const double edge = b->plan->rest[e];
   const double fine = sw_limit((COARSE - edge / R) / (COARSE - FINE), 0.0, 1.0);
   if (!(fine > 0)) return sw_v(0, 0, 0);
-  const double size = fine * from_clamp(b->plan, e) * OFF * edge * edge;
-  return sw_scale(round_on(b, e, R, x), -size);
+  const double size = from_clamp(b->plan, e) * OFF;
+  const sw_vec round = sw_scale(round_on(b, e, R, x), size);
+  const sw_vec left = leave(s, b, e, R, x);
+  return sw_scale(sw_norm2(left) > sw_norm2(round) ? left : round, -fine * edge * edge);
 }
 
 int sw_contact_arcs(const sw_contact *c, const sw_system *s, const sw_candidate *k) {
@@ -80,14 +111,17 @@ double sw_contact_arc_rise(const sw_contact *c, const sw_system *s, const sw_can
   const double R = c->round[k->obstacle] + k->skin, *x = still ? y : s->x;
   const double off = curved ? place->near.at - 0.5 : 0.0; /* from the middle of the edge */
   const size_t beside = off < 0 ? (e > 0 ? e - 1 : e) : e + 1 < b->plan->edges ? e + 1 : e;
-  sw_vec shift = shift_on(b, e, R, x);
-  if (off != 0) shift = sw_lerp(shift, shift_on(b, beside, R, x), fabs(off));
+  sw_vec shift = shift_on(s, b, e, R, x);
+  if (off != 0) shift = sw_lerp(shift, shift_on(s, b, beside, R, x), fabs(off));
   if (!still && c->broad.moves[k->obstacle])
     shift = sw_rotate(c->now[k->obstacle].pose.q, sw_unrotate(c->start[k->obstacle].pose.q, shift));
   return sw_dot(normal, shift);
 }
 
-double sw_contact_arc_mean(const sw_candidate *k, const sw_memory *m, double rise) {
+double sw_contact_arc_mean(const sw_system *s, const sw_candidate *k, const sw_memory *m,
+                           double rise) {
   if (!m || m->node != k->node || m->segment != k->segment) return rise;
+  const sw_body *b = &s->bodies[k->body];
+  if (rise > m->rise && is_at_clamp(b->plan, k->node - b->first_node)) return rise;
   return m->rise + (rise - m->rise) / MEAN_STEPS;
 }

@@ -18,6 +18,7 @@ int sw_contact_arcs(const sw_contact *c, const sw_system *s, const sw_candidate 
 double sw_contact_arc_rise(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                            const sw_place *place, const double *y, sw_vec normal);
 /* The same for the touch of a chord in a step, with the memory of the touch there, or NULL. */
-double sw_contact_arc_mean(const sw_candidate *k, const sw_memory *m, double rise);
+double sw_contact_arc_mean(const sw_system *s, const sw_candidate *k, const sw_memory *m,
+                           double rise);
 
 #endif

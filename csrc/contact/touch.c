@@ -357,7 +357,8 @@ static void rise(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                  const double *y, const sw_place *place, sw_touch *t) {
   if (!k->arcs || t->feature == SW_BEHIND_BARRIER) return;
   t->rise = sw_contact_arc_rise(c, s, k, place, y, t->press.normal);
-  if (c->regime == SW_CONTACT_IMPLICIT && !t->sharp) t->rise = sw_contact_arc_mean(k, m, t->rise);
+  if (c->regime == SW_CONTACT_IMPLICIT && !t->sharp)
+    t->rise = sw_contact_arc_mean(s, k, m, t->rise);
   if (m) t->fallen = sw_larger(0.0, m->rise - t->rise);
 }
 
