@@ -219,13 +219,21 @@ void sw_coarse_tell(sw_scene *s, double h) {
  * are right within a few percent (spec/link/slider_stops_spec) [-]. */
 static const double LEFT = 64.0;
 
+int sw_coarse_is_shock(double over) { return over > LEFT; }
+
 void sw_coarse_tell_left(sw_scene *s, double h, double dt, double left) {
-  if (!(left > LEFT) || !(dt > h)) return;
+  if (!sw_coarse_is_shock(left) || !(dt > h)) return;
   const double less = exp2(-ceil(log2(left) / power_of(s)));
   sw_scene_tell(s, "coarse", "", NAN, left,
                 "the motion of a wire is too fast for parts of %.3g ms, the shortest of a step of "
                 "%.3g ms: peaks may be wrong; run again with dt = %.2g s and compare the peaks",
                 1e3 * h, 1e3 * dt, dt * less);
+}
+
+void sw_coarse_tell_rough(sw_scene *s, double h) {
+  const double over = sw_coarse_of(s, HUGE_VAL);
+  if (sw_coarse_is_shock(over))
+    tell(s, h, over, "the motion of a wire, and shorter parts of it were as coarse");
 }
 
 double sw_coarse_shortest(double dt) { return fmax(SMALLEST * dt, SHORTEST); }

@@ -33,6 +33,10 @@ void sw_coarse_tell(sw_scene *scene, double h);
 /* The same for a part with the error `left` over the allowed one, taken because no part of a step
  * dt is shorter. */
 void sw_coarse_tell_left(sw_scene *scene, double h, double dt, double left);
+/* 1 if an error over the allowed one is that of a shock or jump. */
+int sw_coarse_is_shock(double over);
+/* Tells of a shock in a part that is taken because shorter parts were as coarse or failed. */
+void sw_coarse_tell_rough(sw_scene *scene, double h);
 /* Returns the part to take instead of one of size h, in a run of steps dt [s]. over: its error over
  * the allowed one [-]. */
 double sw_coarse_part(const sw_scene *scene, double h, double dt, double over);

@@ -126,7 +126,9 @@ static sw_status take(sw_ladder *p, parts *k, int may_grow, sw_error *err) {
   k->done += k->part;
   k->struck = 0, k->unfollowed = 0;
   k->longest = fmax(k->longest, k->part);
-  if (!k->rough || (p->args->parts && !sw_coarse_applies(p->s))) sw_coarse_tell(p->s, k->part);
+  const int applies = sw_coarse_applies(p->s);
+  if (!k->rough || (p->args->parts && !applies)) sw_coarse_tell(p->s, k->part);
+  if (k->rough && p->args->parts && applies) sw_coarse_tell_rough(p->s, k->part);
   if (!k->rough) sw_coarse_tell_left(p->s, k->part, p->args->dt, k->left);
   k->left = 0;
   sw_ladder_accept(p, k->part, k->done < k->h ? k->t0 + k->done : k->t1);
@@ -156,7 +158,12 @@ static sw_status refuse(sw_ladder *p, parts *k, sw_status status, const sw_error
   p->cuts += k->cut;
   if (!k->cut) sw_blow_refused(p->s, k->part);
   sw_restart_refused(p, k->cut);
-  const double went = part_that_went(p, k);
+  const double went = part_that_went(p, k), half = 0.5 * k->part;
+  const int shock = sw_coarse_is_shock(k->over); /* whole parts damp shocks, parts follow them */
+  if (k->doubted > 0 && went > 0 && !shock && half >= sw_coarse_shortest(p->args->dt)) {
+    k->part = half;
+    return SW_OK;
+  }
   if (went > 0) {
     k->rough = 1, k->unfollowed = 1;
     k->part = went, k->doubted = k->struck = 0;
