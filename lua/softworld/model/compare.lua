@@ -18,7 +18,7 @@ local HOPE = 4     -- a change shrinks at most by this factor from level to leve
 local FEIGNED = 16 -- change over the allowed one that coarse edges cause only if poses jump elsewhere [-]
 local HIDDEN = 4   -- coarse edges and steps that blur a change may hide this many times as much [-]
 local HIDES = 2 / 3 -- largest change with hidden part over the allowed one; the rest is for edges, steps [-]
-local SEEN = 0.1   -- least share of a swing that steps must show to accept a blurred change [-]
+local SEEN = 1 / HIDDEN -- least share of a swing that steps must show; less would hide more than HIDDEN [-]
 local TOILS = 8    -- wide steps over those of the rung above which they save nothing [-]
 local NONE = 0 / 0 -- value of a check's row that a computation lacks
 
@@ -51,6 +51,15 @@ end
 -- True if poses jumped. On coarse edges chance decides where to, which may cause any change.
 local function jumps(result) return (result.facts.motion.jumps or 0) > 0 end
 
+-- True if a quantity is the largest or least of many values. Neither wide steps nor the coarsest edges show
+-- the short event that may make it: a wire's end that falls off a wall.
+local function asks_for_peaks(context)
+  for _, q in ipairs(context.job.quantities) do
+    if q.plain then return true end
+  end
+  return false
+end
+
 -- True if the level tells too little of the next rung to decide. Else false; and the change together with
 -- what may be hidden, if that is still small enough.
 local function is_blurred(context, state, now, c)
@@ -58,6 +67,7 @@ local function is_blurred(context, state, now, c)
   if now.k > 1 then return false end
   if choice.rungs[state.rung].own then return true end -- the next rung's own error is unknown
   if c.worst > 1 then return c.worst <= FAR or jumps(now.here) or jumps(now.above) end
+  if choice.blurred and now.above.contact and asks_for_peaks(context) then return true end
   local above, share = now.above.facts[choice.name], change.tightest(context, now.above.values)
   if not choice.blurred or not choice.blurred(now.here.facts[choice.name], above, share) then return false end
   local all = change.hidden(c, HIDDEN)
@@ -94,7 +104,7 @@ end
 -- whether the next rung failed, or its steps were far too many.
 local function glance_at(context, state, rungs, above, k)
   local choice, here = state.choice, probe.of(context, rungs, k)
-  if not here.ok or here.work < compare.BRIEF or jumps(here) then return nil end
+  if not here.ok or here.work < compare.BRIEF or jumps(here) or asks_for_peaks(context) then return nil end
   if choice.toils and choice.toils(state.rung, here) then return nil end -- the full cost must be known
   local there = probe.glance(context, above, k, choice, TOILS * here.steps)
   if not there.ok then return nil, true end
