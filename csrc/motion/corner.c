@@ -11,6 +11,9 @@
 static const double LEAST = 0.1, SHARE = 0.25;
 /* Beside a jump accelerations differ by less than this share of it [-]. */
 static const double EVEN = 0.25;
+/* A change that is more than this share of itself off the slopes beside it is a jump. Where an
+ * acceleration crosses zero evenly, the slopes explain all of it [-]. */
+static const double SUDDEN = 1.0 / 3.0;
 /* A jump keeps more than this share of a change in one half of the time; an even change leaves half
  * of it in each [-]. */
 static const double AT_ONCE = 0.8;
@@ -31,15 +34,27 @@ static int is_jump(const sw_motion_state *a, const sw_motion_state *b) {
   return change(a, b) > fmax(LEAST, SHARE * fmax(rate(a), rate(b)));
 }
 
-/* *even: 1 if accelerations are even on both sides of a jump. before, after: in: beside it; out:
- * further away, at the times t and end [s]. */
-static sw_status is_even(const sw_motion *m, double t, sw_motion_state *before,
-                         sw_motion_state *after, double end, int *even, sw_error *err) {
-  const double most = EVEN * change(before, after);
-  const sw_motion_state first = *before, last = *after;
-  SW_TRY(sw_motion_eval(m, t, before, err));
-  SW_TRY(sw_motion_eval(m, end, after, err));
-  *even = change(&first, before) <= most && change(&last, after) <= most;
+/* What the slopes before and after do not explain of the change from b to c. u, v: their times over
+ * those of the slopes, a to b and c to d [m/s2], [rad/s2]. */
+static sw_vec sudden(sw_vec a, sw_vec b, sw_vec c, sw_vec d, double u, double v) {
+  return sw_madd(sw_madd(sw_sub(c, b), sw_sub(b, a), -u), sw_sub(d, c), -v);
+}
+
+/* *even: 1 if accelerations are even on both sides of a jump. t: times of `before` and `after`,
+ * which are beside it, between two times further away, at which both are set [s]. */
+static sw_status is_even(const sw_motion *m, const double t[4], sw_motion_state *before,
+                         sw_motion_state *after, int *even, sw_error *err) {
+  const double all = change(before, after), gap = t[2] - t[1];
+  const sw_motion_state b = *before, c = *after;
+  SW_TRY(sw_motion_eval(m, t[0], before, err));
+  SW_TRY(sw_motion_eval(m, t[3], after, err));
+  const int both = t[3] > t[2]; /* a step may end beside a jump */
+  const double u = (both ? 0.5 : 1.0) * gap / (t[1] - t[0]),
+               v = both ? 0.5 * gap / (t[3] - t[2]) : 0;
+  const double off = sw_norm(sudden(before->a, b.a, c.a, after->a, u, v)) +
+                     sw_norm(sudden(before->alpha, b.alpha, c.alpha, after->alpha, u, v));
+  const double uneven = fmax(change(&b, before), change(&c, after));
+  *even = uneven <= EVEN * all && off > SUDDEN * all;
   return SW_OK;
 }
 
@@ -90,8 +105,10 @@ static sw_status jump_in(const sw_motion *m, double t, double from, double to, d
     if (!good) return SW_OK;
   }
   if (!is_jump(&before, &after)) return SW_OK;
+  const double inner[2] = {t + from, t + to};
   from -= FURTHER * step, to = fmin(to + FURTHER * step, end);
-  SW_TRY(is_even(m, t + from, &before, &after, t + to, &good, err));
+  const double times[4] = {t + from, inner[0], inner[1], t + to};
+  SW_TRY(is_even(m, times, &before, &after, &good, err));
   if (good) *at = to - since(&before, &after, to - from);
   return SW_OK;
 }
@@ -115,5 +132,6 @@ sw_status sw_motion_corners(const sw_motion *m, double t, int *yes, sw_error *er
   SW_TRY(sw_motion_eval(m, t - beside, &before, err));
   SW_TRY(sw_motion_eval(m, t + beside, &after, err));
   if (!is_jump(&before, &after)) return SW_OK;
-  return is_even(m, t - all, &before, &after, t + all, yes, err);
+  const double times[4] = {t - all, t - beside, t + beside, t + all};
+  return is_even(m, times, &before, &after, yes, err);
 }
