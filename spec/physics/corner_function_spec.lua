@@ -109,12 +109,13 @@ describe("a function whose acceleration jumps", function()
     end
   end)
 
-  -- Where a smooth acceleration crosses zero, its change over a few difference steps is all of it; the slopes
-  -- beside it explain that. Taken for jumps, such places cut 78 of 1200 steps.
+  -- Where a smooth acceleration crosses zero, its change over a few difference steps is all of it; the
+  -- slopes beside it explain that. Taken for jumps, such places cut 78 of 1200 steps.
   it("is not seen in smooth motions, in steps as short as a few difference steps", function()
     for _, dt in ipairs { 2e-3, 5e-4 } do
       local scene = sw.scene {}
-      local wire = scene:wire { cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0, 0, -0.1 }, segments = 20 }
+      local wire = scene:wire { cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0, 0, -0.1 },
+        segments = 20 }
       scene:force { kind = "damping", on = wire, mass = 2, stiffness = 1e-3 }
       scene:clamp(wire, { s = 0 }):follow { duration = 0.4, func = function(t)
         return { 0.06 * math.sin(2.5 * math.pi * t) ^ 2 * math.sin(10 * math.pi * t), 0, 0 }
