@@ -117,8 +117,8 @@ describe("a function whose acceleration jumps", function()
       local wire = scene:wire { cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0, 0, -0.1 },
         segments = 20 }
       scene:force { kind = "damping", on = wire, mass = 2, stiffness = 1e-3 }
-      scene:clamp(wire, { s = 0 }):follow { duration = 0.4, func = function(t)
-        return { 0.06 * math.sin(2.5 * math.pi * t) ^ 2 * math.sin(10 * math.pi * t), 0, 0 }
+      scene:clamp(wire, { s = 0 }):follow { duration = 0.4, func = function(time)
+        return { 0.06 * math.sin(2.5 * math.pi * time) ^ 2 * math.sin(10 * math.pi * time), 0, 0 }
       end }
       local run = scene:run { duration = 0.6, dt = dt }
       assert.is_true(run.steps <= 1.01 * 0.6 / dt, ("%d steps of %g s"):format(run.steps, dt))
