@@ -127,11 +127,14 @@ double sw_contact_friction(const sw_contact *c) {
   return most;
 }
 
-double sw_contact_friction_moved(const sw_contact *c, size_t body) {
+double sw_contact_friction_moved(const sw_contact *c, const sw_body *b) {
+  size_t first, end;
   double most = 0;
-  for (size_t i = 0; i < c->touch_count; i++) {
+  if (!c->broad.mover_count) return 0;
+  sw_contact_touches_of(c, b->first_node, b->first_node + b->plan->nodes, &first, &end);
+  for (size_t i = first; i < end && i < c->touch_count; i++) { /* not those that wait */
     const sw_touch *t = &c->touches[i];
-    if (t->body == body && c->broad.moves[t->obstacle]) most += most_of(t);
+    if (c->broad.moves[t->obstacle]) most += most_of(t);
   }
   return most;
 }

@@ -30,7 +30,7 @@ double sw_contact_landed(const sw_contact *contact, const sw_system *system);
 /* Largest possible friction of all touches together; of those of one body on obstacles that may
  * move [N]. */
 double sw_contact_friction(const sw_contact *contact);
-double sw_contact_friction_moved(const sw_contact *contact, size_t body);
+double sw_contact_friction_moved(const sw_contact *contact, const sw_body *body);
 
 /* Friction of a wire's touches along the wire, from its start, and its largest possible value.
  * Touches with friction mostly across the wire are left out [N]. */

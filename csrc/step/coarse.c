@@ -129,7 +129,7 @@ static const double OF_STRETCH = 0.03;
  * 0: none does [N]. */
 static double pull_of(const sw_scene *s, const sw_body *b) {
   const sw_system *system = sw_scene_system(s);
-  double most = sw_contact_friction_moved(sw_scene_contact(s), (size_t)(b - system->bodies));
+  double most = sw_contact_friction_moved(sw_scene_contact(s), b);
   for (size_t e = 0; most > 0 && e + 1 < b->plan->nodes; e++)
     most = fmax(most, fabs(system->tension[b->first_edge + e]));
   return most;
