@@ -155,7 +155,7 @@ double sw_contact_landed(const sw_contact *c, const sw_system *s) {
 /* In steps of 10 ms, touches on cables are a thousand times softer than the cable. At rest their
  * springs moved by as much as the cable had stretched, and the hold pulled with 0.72 instead of
  * -0.44 of mu N. A tenth of the edge's stiffness, or ten times it, is as exact
- * (spec/contact/soft_landing_spec). If touches were always this stiff, a cable that sinks onto a
+ * (spec/contact/soft_landing_spec). If new touches were this stiff, a cable that sinks onto a
  * table beside a grip would keep a pull of 0.04 of its weight instead of 0
  * (spec/contact/first_step_pull_spec). */
 double sw_contact_softness(const sw_contact *c, const sw_system *s, const sw_memory *m,
@@ -164,10 +164,10 @@ double sw_contact_softness(const sw_contact *c, const sw_system *s, const sw_mem
   if (web) return web->per_ring ? 0.0 : fmin(SW_SOFTEST, (double)web->particles);
   /* pads turn; there stiff friction locks in tension */
   if (c->regime != SW_CONTACT_IMPLICIT || c->obstacles[t->obstacle].grips > 0) return 0.0;
-  const int sticks = m && m->kept.normal_force > 0 && !m->kept.sliding;
-  const double grip = c->brakes ? sw_contact_edge_stiffness(s, t->body, t->node)
-                      : sticks  ? m->kept.grip
-                                : 0.0;
+  if (!c->brakes && !m) return 0.0;
+  const double edge = sw_contact_edge_stiffness(s, t->body, t->node);
+  const double usual = sw_contact_usual_force(s, s->bodies[t->body].plan);
+  const double grip = c->brakes ? edge : m ? sw_kept_grip(&m->kept, edge, usual) : 0.0;
   return grip > t->press.k ? t->press.k / grip : 0.0;
 }
 

@@ -47,8 +47,8 @@ void sw_along_add(const sw_system *system, size_t body, size_t node, sw_vec fric
 sw_vec sw_contact_stretch(const sw_contact *contact, const struct sw_touch *touch,
                           const struct sw_kept *kept);
 /* As `soft` of sw_press; memory: the touch's, or NULL. On a rod whose drive comes to rest
- * (sw_contact_brake), friction's spring is as stiff as the rod's edge, and stays so while it sticks
- * [-]. */
+ * (sw_contact_brake), friction's spring is as stiff as the rod's edge, and stays so while it
+ * sticks; so it is where the touch holds with more than the wire's weight (sw_kept_grip) [-]. */
 double sw_contact_softness(const sw_contact *contact, const sw_system *system,
                            const struct sw_memory *memory, const struct sw_touch *touch);
 

@@ -121,13 +121,32 @@ static double first_force(const sw_meet *t) {
   return t->flies ? 0.0 : fmax(0.0, -t->press.gap) * t->press.k;
 }
 
+/* As `soft` of sw_press. Wires along each other have many touches and share their friction. */
+static double softness(const sw_mutual *m, const sw_system *s, const sw_meet *t,
+                       const sw_met *met) {
+  const uint32_t *of = t->of.body;
+  if (m->regime != SW_CONTACT_IMPLICIT || t->kind != SW_CROSSING || !met) return 0;
+  if (!is_line(s, of[0]) || !is_line(s, of[1])) return 0;
+  const double usual = fmax(sw_contact_usual_force(s, s->bodies[of[0]].plan),
+                            sw_contact_usual_force(s, s->bodies[of[1]].plan));
+  const double grip = sw_kept_grip(&met->kept, axial_of(s, t), usual);
+  return grip > t->press.k ? t->press.k / grip : 0.0;
+}
+
+/* Displacement of friction's spring from the memory [m]. Where it becomes or was stiff, its force
+ * stays. Otherwise its length: with its force a tight pair of cables would gain energy. */
+static sw_vec stretch(const sw_system *s, const sw_meet *t, const sw_met *met) {
+  const int stiff = t->press.soft > 0 || sw_kept_is_stiff(&met->kept, axial_of(s, t));
+  return stiff ? sw_press_stretch(&t->press, &met->kept, 0) : met->kept.elastic;
+}
+
 static void begin_friction(const sw_mutual *m, const sw_system *s, const double *y, sw_meet *t,
                            const sw_met *met, const sw_meet *last) {
   sw_press *press = &t->press;
   const int pressed = met && met->kept.normal_force > 0, went_on = last && last->press.active;
   sw_vec u = sw_sub(sw_bows_apart(y, t->bow), sw_bows_apart(s->x, t->bow));
   if (pressed)
-    u = sw_add(u, carry(met->kept.elastic, met->normal, press->normal));
+    u = sw_add(u, carry(stretch(s, t, met), met->normal, press->normal));
   else if (!press->active)
     u = sw_v(0, 0, 0);
   sw_press_aim(press, u, last ? &last->press : NULL, last && last->stage == m->stage, m->first);
@@ -154,6 +173,7 @@ void sw_meet_add(sw_mutual *m, const sw_system *s, const double *y, sw_meet *t, 
   press->gap = gap, press->normal = normal;
   if (!(sw_norm2(t->square) > 0)) t->square = normal;
   press->k = t->stiffer = stiffness_of(m, t, met, last);
+  press->soft = softness(m, s, t, met);
   forgive(m, s, met, t);
   press->gap += t->forgiven;
   press->gap_after = press->gap;

@@ -336,6 +336,13 @@ static double eased(const sw_press *p, double usual, double k, double deepest) {
   return sw_larger(usual, EASING * k);
 }
 
+double sw_kept_grip(const sw_kept *kept, double edge, double usual) {
+  const int pressed = kept->normal_force > usual;
+  if (!(kept->normal_force > 0)) return 0;
+  if (!kept->sliding) return pressed ? edge : kept->grip;
+  return pressed && sw_kept_is_stiff(kept, edge) ? kept->grip : 0;
+}
+
 sw_vec sw_press_stretch(const sw_press *p, const sw_kept *kept, int gives_way) {
   const double was = kept->depth > 0 ? kept->normal_force / kept->depth : p->k;
   const double share = gives_way && was > 0 ? p->k / was : 1.0;

@@ -83,6 +83,17 @@ static inline double sw_depth_for(double depth, double radius) {
  * from the next iterate on [N/m]. A touch keeps its stiffness, because a change would be a kick; a
  * stiffness higher than needed decreases slowly. */
 sw_kept sw_press_keep(const sw_press *press, double usual, double stiffer, double deepest);
+/* 1 if friction's spring is about as stiff as an edge of the wire. */
+static inline int sw_kept_is_stiff(const sw_kept *kept, double edge) {
+  return kept->grip > 0.5 * edge;
+}
+/* Stiffness of a line touch's friction spring, from its memory; 0: that of the touch [N/m]. Cables
+ * are a thousand times stiffer along themselves than touches in steps of 10 ms. The end of a cable
+ * pressed on a rod swung without tension: for each micrometre of the spring the cable needs newtons
+ * (spec/contact/stiff_friction_spec). So friction that holds with more than the `usual` force is as
+ * stiff as the edge. While it slides it stays so, because a softer spring would store energy from
+ * nowhere. */
+double sw_kept_grip(const sw_kept *kept, double edge, double usual);
 /* Displacement of friction's spring from the memory [m]. The force stays, at any new stiffness,
  * because a cable moves less than a spring would lose. Only on obstacles: a tight pair of cables
  * would gain energy. gives_way: 1 if the force changes with the stiffness of the touch. */

@@ -44,16 +44,17 @@ local function off_of(fine, ...)
   return off, steps
 end
 
--- Returns the median over three tolerances that lie close together [m]: which steps a strike falls into is
--- chance. GXL 0.5 on two pegs ends 0.3 to 4.4 mm off with 15 tolerances from 1e-4 to 1.5e-6 m.
+-- Returns the median over seven tolerances that lie close together [m]: which steps a strike falls into is
+-- chance. GXL 0.5 on two pegs ends 0.3 to 4.4 mm off with 15 tolerances from 1e-4 to 1.5e-6 m; H07V-K 10 on
+-- balls 0.2 to 5.1 mm, median 1.4 mm, with 20 from 2e-6 to 2e-7 m, and medians of three passed 3 mm.
 local function median_off(fine, what, name, tolerance)
   local list, total = {}, 0
-  for k, factor in ipairs{ 0.8, 1, 1.2 } do
+  for k, factor in ipairs{ 0.7, 0.8, 0.9, 1, 1.1, 1.2, 1.3 } do
     local off, steps = off_of(fine, what, name, { dt = 0.01, tolerance = factor * tolerance })
     list[k], total = off, total + steps
   end
   table.sort(list)
-  return list[2], total // 3
+  return list[4], total // #list
 end
 
 describe("a cable that falls, with steps chosen by their error,", function()
