@@ -8,8 +8,8 @@ local t = require "physics.tools"
 
 local MU = 0.3
 
--- Returns the least and largest pull of the clamp along the cable after the stop, the largest tension, and the
--- ridge's force upwards [N].
+-- Returns the least and largest pull of the clamp along the cable after the stop, the largest tension, and
+-- the clamp's force upwards at the end [N].
 local function swings(on, dt, o)
   local scene, r = sw.scene{}, sw.cable("H07V-K 4").outer_diameter.value / 2
   local c, s = math.cos(o.turn or 0), math.sin(o.turn or 0)
