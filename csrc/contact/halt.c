@@ -11,6 +11,7 @@
 #include <math.h>
 
 #include "contact/touch.h"
+#include "system/part.h"
 #include "touch/same.h"
 
 /* A place rests if its speed is below what it loses in this share of the step [-], or in LATE [s].
@@ -36,11 +37,52 @@ static void section_of(const sw_body *b, size_t node, size_t *first, size_t *end
   *first = b->first_node + web->first[ring], *end = b->first_node + web->first[ring + 1];
 }
 
+static double arc_of(const sw_system *s, const sw_touch *t) {
+  const sw_body *b = &s->bodies[t->body];
+  const double from = b->plan->s[t->node - b->first_node];
+  return from + t->at * (b->plan->s[t->other - b->first_node] - from);
+}
+
+/* Arc length to which a line's touch holds it on one side: half way to the next touch with friction
+ * or held node, or its end [m]. Touches are sorted along the line. */
+static double holds_to(const sw_contact *c, const sw_system *s, const sw_touch *t, int way) {
+  const sw_body *b = &s->bodies[t->body];
+  const sw_plan *p = b->plan;
+  const size_t number = (size_t)(t - c->touches), last = p->nodes - 1;
+  const double here = arc_of(s, t);
+  double to = p->s[way > 0 ? last : 0];
+  int rests = 0;
+  for (size_t i = number + (size_t)way; i < c->touch_count && c->touches[i].body == t->body;
+       i += (size_t)way) {
+    const sw_touch *other = &c->touches[i];
+    if (other->held || !(other->friction > 0) || !(other->press.normal_force > 0)) continue;
+    to = arc_of(s, other), rests = 1;
+    break;
+  }
+  for (size_t k = t->node - b->first_node + (way > 0); k <= last; k += (size_t)way) {
+    if ((p->s[k] - to) * way >= 0) break;
+    if (p->held[k] == SW_FREE) continue;
+    to = p->s[k], rests = 1;
+    break;
+  }
+  return rests ? 0.5 * (here + to) : to;
+}
+
+/* Mass that a line's touch holds at rest [kg]. Where the line also touches other lines, that of its
+ * nodes: those hold their part (mutual/halt.c). */
+static double mass_of_line(const sw_contact *c, const sw_system *s, const sw_touch *t) {
+  const sw_body *b = &s->bodies[t->body];
+  if (!(b->coupled & SW_TOUCHING))
+    return b->plan->beam.mass * fmax(0.0, holds_to(c, s, t, 1) - holds_to(c, s, t, -1));
+  return c->candidates[t->candidate].mass;
+}
+
 /* Mass held by a touch [kg]. In a mesh the touching particles also hold the other particles of
  * their section, in proportion to their pressing force. */
 static double mass_of(const sw_contact *c, const sw_system *s, const sw_touch *t) {
   const sw_body *b = &s->bodies[t->body];
-  if (!b->plan->web || !b->plan->web->per_ring) return c->candidates[t->candidate].mass;
+  if (!b->plan->web) return mass_of_line(c, s, t);
+  if (!b->plan->web->per_ring) return c->candidates[t->candidate].mass;
   size_t first, end;
   section_of(b, t->node, &first, &end);
   double force = 0, mass = 0;
@@ -50,6 +92,26 @@ static double mass_of(const sw_contact *c, const sw_system *s, const sw_touch *t
   }
   for (size_t i = first; i < end; i++) mass += b->plan->lumped[i - b->first_node];
   return mass * t->press.normal_force / force;
+}
+
+/* A touch that moves less in its step does not slide [m]. */
+static const double LANDS = 1e-9;
+
+/* Friction of a touch of a line before it halts [N]. If it slid through the step it is mu N against
+ * the slide: at the end the trial's own may have turned round. An error of a nanometre is enough,
+ * as friction near a stop is as stiff as the cable. */
+static sw_vec friction_before(const sw_contact *c, const sw_system *s, const sw_touch *t,
+                              double most, int *slid) {
+  const sw_press *p = &t->press;
+  *slid = 0;
+  if (s->bodies[t->body].plan->web) return p->tangential;
+  const sw_memory *m = sw_contact_remembered(c, &c->candidates[t->candidate], t->at);
+  if (!m || !m->kept.sliding || !(m->kept.normal_force > 0)) return p->tangential;
+  sw_vec f = sw_rotate(c->now[t->obstacle].pose.q, sw_neg(m->kept.elastic));
+  f = sw_unit_or(sw_madd(f, p->normal, -sw_dot(f, p->normal)), sw_v(0, 0, 0));
+  if (!(sw_dot(f, p->slip) < -LANDS)) return p->tangential;
+  *slid = 1;
+  return sw_scale(f, most);
 }
 
 /* Speed of a mesh's section along the surface [m/s]. Single particles always tremble. */
@@ -75,10 +137,13 @@ static double halt(const sw_contact *c, sw_system *s, sw_touch *t) {
   const sw_vec v = sliding_part(sw_sub(sw_mean_of(s->v, 0, &t->spot), o), p->normal, &l);
   const sw_vec a = sliding_part(sw_mean_of(s->a, 0, &t->spot), p->normal, &l);
   if (sw_norm(v) > fmax(RESTS * c->h, LATE) * sw_norm(a)) return sw_norm(v);
-  const sw_vec rest = sw_madd(p->tangential, a, -mass_of(c, s, t));
   const double most = t->friction * p->normal_force;
+  int slid;
+  const sw_vec before = friction_before(c, s, t, most, &slid);
+  const sw_vec rest = sw_madd(before, a, -mass_of(c, s, t));
   p->tangential = sw_scale(rest, fmin(1.0, most / fmax(sw_norm(rest), 1e-300)));
-  p->next_sliding = 0;
+  p->next_sliding = slid; /* softly for one part: so friction stays, and the strain follows it */
+  if (slid) p->soft = 0;
   if (t->spot.count == 1) sw_store(s->v + 3 * t->node, sw_sub(sw_load(s->v + 3 * t->node), v));
   return sw_norm(v);
 }
@@ -102,9 +167,6 @@ void sw_contact_against(const sw_contact *c, const sw_system *s, sw_against *sum
 static const double KEPT = 0.5;
 
 int sw_against_turned(const sw_against *sum) { return sum->against < KEPT * sum->most; }
-
-/* A touch that moves less in its first step does not slide [m]. */
-static const double LANDS = 1e-9;
 
 static double most_of(const sw_touch *t) {
   return t->held ? 0.0 : t->friction * fmax(0.0, t->press.normal_force);

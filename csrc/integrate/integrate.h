@@ -84,9 +84,10 @@ struct sw_stepper {
   double last_h;                /* of the last accepted step; 0 = none [s] */
   const sw_integrator *used;    /* method of the last trial, if implicit */
   double trial_h;               /* of the last trial [s] */
-  int restart;                  /* the next step starts anew: a_n is stale */
-  int plastic;    /* the next trials use implicit Euler, so that impacts do not bounce */
-  int booked;     /* 1: an evaluation of the explicit step was booked */
+  int restart; /* not 0: the next step starts anew: a_n is stale; bit SW_HALTED: wires have halted
+                */
+  int plastic; /* the next trials use implicit Euler, so that impacts do not bounce */
+  int booked;  /* 1: an evaluation of the explicit step was booked */
   double **extra; /* explicit methods' work arrays (SW_EXTRA of n) */
   void *outside;  /* an outside library's stepper */
   void (*free_outside)(void *outside);

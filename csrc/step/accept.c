@@ -8,6 +8,7 @@
 #include "mutual/halt.h"
 #include "scene/course.h"
 #include "scene/events.h"
+#include "scene/ledger.h"
 #include "scene/parts.h"
 #include "step/believe.h"
 #include "step/blow.h"
@@ -53,6 +54,15 @@ static double halt(sw_scene *s) {
   return moving;
 }
 
+/* As halt. Softer friction stores more energy at the same force: this is not made by the step. */
+static double halt_wires(sw_scene *s) {
+  sw_step_energy *step = &sw_scene_books(s)->step;
+  const double before = sw_ledger_contact(s), moving = halt(s);
+  const double more = sw_ledger_contact(s) - before;
+  step->contact += more, step->let_out += fmax(0.0, more);
+  return moving;
+}
+
 /* Friction of trembling wires is reported above this share of all friction [-]. */
 static const double TOLD = 0.1;
 
@@ -95,8 +105,8 @@ void sw_ladder_accept(sw_ladder *p, double h, double t) {
   system->judged = c->stepper.trial_x;
   double moving = p->turned ? friction_of(s) : 0.0;
   if (p->halts) {
-    moving = halt(s);
-    c->stepper.restart = 1;
+    moving = halt_wires(s);
+    c->stepper.restart |= 1 | SW_HALTED;
   }
   const int stopped = sw_scene_contact(s) && sw_scene_time(s) < c->stop_until;
   const double landed = stopped ? sw_contact_landed(sw_scene_contact(s), system) : 0.0;

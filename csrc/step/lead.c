@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "body/touching.h"
+#include "scene/course.h"
 #include "scene/parts.h"
 #include "step/coarse.h"
 #include "step/restart.h"
@@ -79,7 +80,7 @@ sw_status sw_restart_before_stop(sw_ladder *p, double *h, sw_error *err) {
   if (any < HUGE_VAL) SW_TRY(function_leads(p, *h, &later, err));
   at = fmin(at, later);
   if (!(at < *h * (1 - NO_PART))) return SW_OK;
-  p->brakes = at <= 0;
+  p->brakes = at <= 0 && !(sw_scene_course(s)->stepper.restart & SW_HALTED);
   if (at > 0) {
     *h = fmin(*h, fmax(at, SW_STOPS));
     return SW_OK;

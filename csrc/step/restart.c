@@ -66,7 +66,7 @@ sw_status sw_restart_at_jerk(sw_scene *s, double h, sw_error *err) {
   if (!c->jerks) SW_TRY(sw_corner_now(s, &corner, err));
   if (sw_scene_contact(s)) corner |= sw_contact_turned(sw_scene_contact(s), sw_scene_system(s), h);
   if (!c->jerks && !corner) return SW_OK;
-  c->stepper.restart = 1;
+  c->stepper.restart |= 1;
   sw_system_uneven(sw_scene_system(s)); /* forces from before would be extrapolated past the jump */
   return SW_OK;
 }
@@ -77,14 +77,14 @@ int sw_restart_changed(const sw_scene *s) { return sw_scene_course(s)->next > 0;
 
 void sw_restart_try(sw_ladder *p) {
   sw_stepper *stepper = &sw_scene_course(p->s)->stepper;
-  if (sw_restart_changed(p->s) || p->redo == SW_BY_START) stepper->restart = 1;
+  if (sw_restart_changed(p->s) || p->redo == SW_BY_START) stepper->restart |= 1;
   stepper->plastic = p->redo == SW_DULLY;
 }
 
 void sw_restart_struck(sw_scene *s, int dull) {
   sw_course *c = sw_scene_course(s);
   if (dull) c->stepper.plastic = 1;
-  c->stepper.restart = 1;
+  c->stepper.restart |= 1;
 }
 
 /* 1 if the accelerations at the step's end may come from a shock that is over. The next step then
@@ -98,7 +98,7 @@ static int is_shaken(const sw_scene *s) {
 
 void sw_restart_taken(sw_scene *s) {
   sw_course *c = sw_scene_course(s);
-  if (is_shaken(s)) c->stepper.restart = 1;
+  if (is_shaken(s)) c->stepper.restart |= 1;
   c->next = SW_AS_BEFORE;
 }
 
@@ -114,7 +114,7 @@ void sw_restart_stepper(sw_scene *s) {
 }
 
 int sw_restart_pending(const sw_scene *s) {
-  return sw_restart_changed(s) || sw_scene_course(s)->stepper.restart;
+  return sw_restart_changed(s) | sw_scene_course(s)->stepper.restart;
 }
 
 void sw_restart_resume(sw_scene *s, int pending) {

@@ -17,6 +17,9 @@ sw_status sw_restart_jerks(const sw_scene *scene, double time, double h, int *je
 sw_status sw_restart_at_jerk(sw_scene *scene, double h, sw_error *err);
 /* Call before a try: starts anew if the scene was changed or the referee asks for it. */
 void sw_restart_try(sw_ladder *p);
+/* Bit of the stepper's `restart`: in the last part a drive came to rest with a deceleration. Friction
+ * of the wires was set then, and the strain must follow it: friction is soft for one part. */
+enum { SW_HALTED = 2 };
 /* Call when the trial struck something; the velocities at the step's start have changed. dull:
  * impacts do not rebound, so the next try takes implicit Euler. */
 void sw_restart_struck(sw_scene *scene, int dull);

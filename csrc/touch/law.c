@@ -336,10 +336,12 @@ static double eased(const sw_press *p, double usual, double k, double deepest) {
   return sw_larger(usual, EASING * k);
 }
 
+static const double STIFFER = 4.0; /* of friction that holds, over the edge's stiffness [-] */
+
 double sw_kept_grip(const sw_kept *kept, double edge, double usual) {
   const int pressed = kept->normal_force > usual;
   if (!(kept->normal_force > 0)) return 0;
-  if (!kept->sliding) return pressed ? edge : kept->grip;
+  if (!kept->sliding) return pressed ? STIFFER * edge : kept->grip;
   return pressed && sw_kept_is_stiff(kept, edge) ? kept->grip : 0;
 }
 
