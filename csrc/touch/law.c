@@ -341,7 +341,7 @@ static const double STIFFER = 4.0; /* of friction that holds, over the edge's st
 double sw_kept_grip(const sw_kept *kept, double edge, double usual) {
   const int pressed = kept->normal_force > usual;
   if (!(kept->normal_force > 0)) return 0;
-  if (!kept->sliding) return pressed ? STIFFER * edge : kept->grip;
+  if (!kept->sliding) return pressed ? (kept->k < edge ? STIFFER : 1.0) * edge : kept->grip;
   return pressed && sw_kept_is_stiff(kept, edge) ? kept->grip : 0;
 }
 
