@@ -336,7 +336,7 @@ static double eased(const sw_press *p, double usual, double k, double deepest) {
   return sw_larger(usual, EASING * k);
 }
 
-static const double STIFFER = 4.0; /* of friction that holds, over the edge's stiffness [-] */
+static const double STIFFER = 2.0; /* of friction that holds, over the edge's stiffness [-] */
 
 double sw_kept_grip(const sw_kept *kept, double edge, double usual) {
   const int pressed = kept->normal_force > usual;

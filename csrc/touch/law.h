@@ -91,7 +91,7 @@ static inline int sw_kept_is_stiff(const sw_kept *kept, double edge) {
  * are a thousand times stiffer along themselves than touches in steps of 10 ms. The end of a cable
  * pressed on a rod swung without tension: for each micrometre of the spring the cable needs newtons
  * (spec/contact/stiff_friction_spec). So friction that holds with more than the `usual` force is
- * four times as stiff as the edge: the pull of a swinging cable is then 3 % off, as with 2 and 10
+ * twice as stiff as the edge: the pull of a swinging cable is then 3 % off, as with 4 and 10
  * times, and 13 % with once. A touch as stiff as the edge itself keeps to once: otherwise a tenth
  * of the steps of a taut cable is refused (spec/contact/taut_spec). While it slides it stays so,
  * because a softer spring would store energy from nowhere. */
