@@ -118,7 +118,7 @@ void sw_restart_stepper(sw_scene *s) {
 }
 
 int sw_restart_pending(const sw_scene *s) {
-  return sw_restart_changed(s) | sw_scene_course(s)->stepper.restart;
+  return sw_restart_changed(s) || sw_scene_course(s)->stepper.restart;
 }
 
 void sw_restart_resume(sw_scene *s, int pending) {
