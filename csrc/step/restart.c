@@ -76,13 +76,9 @@ sw_status sw_restart_at_jerk(sw_scene *s, double h, sw_error *err) {
 int sw_restart_changed(const sw_scene *s) { return sw_scene_course(s)->next > 0; }
 
 void sw_restart_try(sw_ladder *p) {
-  const sw_course *c = sw_scene_course(p->s);
   sw_stepper *stepper = &sw_scene_course(p->s)->stepper;
   if (sw_restart_changed(p->s) || p->redo == SW_BY_START) stepper->restart |= 1;
-  /* After a jump of a drive's velocity a method of second order gives a stiff cable up to 1.16
-   * times its momentum, and the next part takes it back (spec/physics/velocity_jump_spec). */
-  const int jumped = c->jerks && (c->method->flags & SW_INTEGRATOR_IMPLICIT);
-  stepper->plastic = p->redo == SW_DULLY || jumped;
+  stepper->plastic = p->redo == SW_DULLY;
 }
 
 void sw_restart_struck(sw_scene *s, int dull) {
