@@ -66,7 +66,7 @@ void sw_contact_forgive(const sw_contact *c, const sw_system *s, const sw_candid
  * weights: it is stiffened from step to step, with the same force. A touch that is stiffened within
  * a step comes out at once, and the force of a clamp that pressed a cable into a table jumped by
  * 7 % (spec/scene/hold_press_spec). With two weights a landing depends on rounding
- * (spec/scene/feed_energy_spec); with ten, clamps are the same and ends strike 3 % deeper [-]. */
+ * (spec/scene/feed_energy_spec); with five and ten clamps are the same [-]. */
 static const double IN_MOTION = 0.03;
 
 int sw_contact_is_squeezed(const sw_contact *c, const sw_system *s, const sw_candidate *k,

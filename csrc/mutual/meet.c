@@ -135,8 +135,8 @@ static double softness(const sw_mutual *m, const sw_system *s, const sw_meet *t,
 
 /* Displacement of friction's spring from the memory [m]. Where it becomes or was stiff, its force
  * stays. Otherwise its length: with its force a tight pair of cables would gain energy. */
-static sw_vec stretch(const sw_system *s, const sw_meet *t, const sw_met *met) {
-  const int stiff = t->press.soft > 0 || sw_kept_is_stiff(&met->kept, axial_of(s, t));
+static sw_vec stretch(const sw_meet *t, const sw_met *met) {
+  const int stiff = t->press.soft > 0 || sw_kept_is_stiff(&met->kept);
   return stiff ? sw_press_stretch(&t->press, &met->kept, 0) : met->kept.elastic;
 }
 
@@ -146,7 +146,7 @@ static void begin_friction(const sw_mutual *m, const sw_system *s, const double 
   const int pressed = met && met->kept.normal_force > 0, went_on = last && last->press.active;
   sw_vec u = sw_sub(sw_bows_apart(y, t->bow), sw_bows_apart(s->x, t->bow));
   if (pressed)
-    u = sw_add(u, carry(stretch(s, t, met), met->normal, press->normal));
+    u = sw_add(u, carry(stretch(t, met), met->normal, press->normal));
   else if (!press->active)
     u = sw_v(0, 0, 0);
   sw_press_aim(press, u, last ? &last->press : NULL, last && last->stage == m->stage, m->first);

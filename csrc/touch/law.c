@@ -342,7 +342,7 @@ double sw_kept_grip(const sw_kept *kept, double edge, double usual) {
   const int pressed = kept->normal_force > usual;
   if (!(kept->normal_force > 0)) return 0;
   if (!kept->sliding) return pressed ? (kept->k < edge ? STIFFER : 1.0) * edge : kept->grip;
-  return pressed && sw_kept_is_stiff(kept, edge) ? kept->grip : 0;
+  return pressed && sw_kept_is_stiff(kept) ? kept->grip : 0;
 }
 
 sw_vec sw_press_stretch(const sw_press *p, const sw_kept *kept, int gives_way) {

@@ -83,9 +83,9 @@ static inline double sw_depth_for(double depth, double radius) {
  * from the next iterate on [N/m]. A touch keeps its stiffness, because a change would be a kick; a
  * stiffness higher than needed decreases slowly. */
 sw_kept sw_press_keep(const sw_press *press, double usual, double stiffer, double deepest);
-/* 1 if friction's spring is about as stiff as an edge of the wire. */
-static inline int sw_kept_is_stiff(const sw_kept *kept, double edge) {
-  return kept->grip > 0.5 * edge;
+/* 1 if friction's spring was stiffer than its touch, by more than rounding. */
+static inline int sw_kept_is_stiff(const sw_kept *kept) {
+  return kept->grip * kept->depth > 1.01 * kept->normal_force;
 }
 /* Stiffness of a line touch's friction spring, from its memory; 0: that of the touch [N/m]. Cables
  * are a thousand times stiffer along themselves than touches in steps of 10 ms. The end of a cable
