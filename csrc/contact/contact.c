@@ -145,7 +145,7 @@ void sw_contact_force(const sw_contact *c, int id, sw_vec about, sw_vec *force, 
   }
 }
 
-static double place_of(const sw_system *s, const sw_touch *t) {
+double sw_touch_arc(const sw_system *s, const sw_touch *t) {
   const sw_body *b = &s->bodies[t->body];
   const sw_plan *p = b->plan;
   const size_t a = t->node - b->first_node, e = t->other - b->first_node;
@@ -211,7 +211,7 @@ int sw_contact_push_at(const sw_contact *c, const sw_system *s, size_t k, sw_con
                            .slides = p->next_sliding != 0,
                            .point = t->point,
                            .acts = t->acts,
-                           .place = place_of(s, t),
+                           .place = sw_touch_arc(s, t),
                            .slid = t->slid + sw_norm(p->slip),
                            .force = sw_madd(p->tangential, p->normal, p->normal_force)};
   return p->normal_force > 0;

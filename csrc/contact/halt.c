@@ -37,26 +37,20 @@ static void section_of(const sw_body *b, size_t node, size_t *first, size_t *end
   *first = b->first_node + web->first[ring], *end = b->first_node + web->first[ring + 1];
 }
 
-static double arc_of(const sw_system *s, const sw_touch *t) {
-  const sw_body *b = &s->bodies[t->body];
-  const double from = b->plan->s[t->node - b->first_node];
-  return from + t->at * (b->plan->s[t->other - b->first_node] - from);
-}
-
 /* Arc length to which a line's touch holds it on one side: half way to the next touch with friction
  * or held node, or its end [m]. Touches are sorted along the line. */
 static double holds_to(const sw_contact *c, const sw_system *s, const sw_touch *t, int way) {
   const sw_body *b = &s->bodies[t->body];
   const sw_plan *p = b->plan;
   const size_t number = (size_t)(t - c->touches), last = p->nodes - 1;
-  const double here = arc_of(s, t);
+  const double start = p->s[0], here = start + sw_touch_arc(s, t);
   double to = p->s[way > 0 ? last : 0];
   int rests = 0;
   for (size_t i = number + (size_t)way; i < c->touch_count && c->touches[i].body == t->body;
        i += (size_t)way) {
     const sw_touch *other = &c->touches[i];
     if (other->held || !(other->friction > 0) || !(other->press.normal_force > 0)) continue;
-    to = arc_of(s, other), rests = 1;
+    to = start + sw_touch_arc(s, other), rests = 1;
     break;
   }
   for (size_t k = t->node - b->first_node + (way > 0); k <= last; k += (size_t)way) {

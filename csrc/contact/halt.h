@@ -48,7 +48,7 @@ sw_vec sw_contact_stretch(const sw_contact *contact, const struct sw_touch *touc
                           const struct sw_kept *kept);
 /* As `soft` of sw_press; memory: the touch's, or NULL. On a rod whose drive comes to rest
  * (sw_contact_brake), friction's spring is as stiff as the rod's edge, and stays so while it
- * sticks; so it is where the touch holds with more than the wire's weight (sw_kept_grip) [-]. */
+ * sticks. Where a touch holds with more than the wire's weight see sw_kept_grip [-]. */
 double sw_contact_softness(const sw_contact *contact, const sw_system *system,
                            const struct sw_memory *memory, const struct sw_touch *touch);
 

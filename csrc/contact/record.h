@@ -73,6 +73,8 @@ typedef struct sw_touch {
   sw_press press;   /* its normal is the obstacle's outward normal in world coordinates */
 } sw_touch;
 
+/* Arc length of a touch's place, of a line from its start [m]. */
+double sw_touch_arc(const sw_system *system, const sw_touch *touch);
 /* 1 if the touch is softer in this iterate than it will be in the next. */
 static inline int sw_touch_is_softer(const sw_touch *t) {
   return t->press.k < t->share * t->stiffer;
