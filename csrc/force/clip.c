@@ -291,7 +291,7 @@ static void commit(const void *args, const sw_field *f, double *history) {
     return;
   }
   if (history[SW_CLIP_NEAR] > 0 || was_near) {
-    sw_clip_follow(&c, &m, f->time, history);
+    sw_clip_follow(&c, &m, f->time, f->statics, history);
     sw_clip_watch_edges(&c, &m, f->plan->beam.EI, history);
     history[SW_CLIP_LAST] = m.u;
     if (c.friction > 0) commit_friction(&c, f, history);

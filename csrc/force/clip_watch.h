@@ -37,6 +37,10 @@ enum {
   SW_CLIP_NEWS_S,
   SW_CLIP_PEAK_SLOPE, /* slope of the wire at the largest push in or pull out [-] */
   SW_CLIP_RUN_PEAK, /* as SW_CLIP_PEAK of a seated wire, in this run only; below 0: none yet [N] */
+  SW_CLIP_GOES_IN,  /* 1: the seated wire is not at rest yet since it passed the lips */
+  SW_CLIP_SINCE,    /* when such a wire last moved in [s] */
+  SW_CLIP_HELD,     /* largest pull on it since then [N] */
+  SW_CLIP_HELD_SLOPE, /* its slope at that pull [-] */
   SW_CLIP_HEAD
 };
 static const double SW_CLIP_GUESS = 0.5;
@@ -80,8 +84,9 @@ sw_clip_middle sw_clip_middle_of(const sw_clip *clip, const sw_field *field);
  * on. */
 int sw_clip_breaks(const sw_clip *clip, const sw_clip_middle *middle, double time, double *history);
 
-/* After a step: updates the wire's state on its way in or out. */
-void sw_clip_follow(const sw_clip *clip, const sw_clip_middle *middle, double time,
+/* After a step: updates the state of the wire on its way in or out. statics: 1 if it is in
+ * equilibrium. */
+void sw_clip_follow(const sw_clip *clip, const sw_clip_middle *middle, double time, int statics,
                     double *history);
 
 /* After that: notes if edges are too long for the bend that the clip makes. EI: the wire's [N m2].
