@@ -31,8 +31,8 @@ local function ratios(dt)
   return clips[1]:ratio(), clips[2]:ratio()
 end
 
--- Returns clip:ratio and the largest pull over the retention of a cable that is pressed past the lips and drawn
--- out again at once.
+-- Returns clip:ratio and the largest pull over the retention of a cable that is pressed past the lips and
+-- drawn out again at once.
 local function turned(dt, way)
   local scene = sw.scene{}
   local wire = scene:wire{ cable = "GXL 1.5", from = mm{ 0, 0, 16 }, to = mm{ 200, 0, 16 }, segments = 40 }
