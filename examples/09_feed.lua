@@ -23,7 +23,7 @@ scene:process(function(p)
   end
   gripper:grasp(wire, { s = wire.length - mm(10) })
   feeder:feed { length = mm(900), duration = 4 }
-  gripper:move { by = mm { 500, 0, -70 }, duration = 4 }
+  gripper:move { by = mm { 500, 40, -70 }, duration = 4 }
   p:wait(2)
 end)
 

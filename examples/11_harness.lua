@@ -28,8 +28,8 @@ for _, side in ipairs { { left, "left hand", 1 }, { right, "right hand", -1 } } 
   local hand = scene:gripper { name = name, pads = { width = mm(15) } }
   scene:process(function(p)
     hand:grasp(wire, { s = wire.length })
-    hand:move { by = { 0, 0, mm(120) }, duration = 1 }
-    hand:move { by = { mm(-60), way * mm(40), 0 }, duration = 1 }
+    hand:move { by = mm { -20, 0, 120 }, duration = 1 }
+    hand:move { by = mm { -40, way * 40, 0 }, duration = 1 }
     p:wait(1)
   end)
 end
@@ -42,4 +42,5 @@ for k, wire in ipairs { trunk, left, right } do
   print(("joint on %-5s  %8.4f %8.4f %8.4f N   tightest bend of the run %.1f mm (limit %.1f mm)"):format(
     wire.name, f[1], f[2], f[3], wire:min_bend_radius() * 1e3, wire:bend_limit().limit * 1e3))
 end
+for _, event in ipairs(run.events) do print(event.text) end
 print(("the joint is %.1f mm above the table"):format(left:position(0)[3] * 1e3))

@@ -39,7 +39,7 @@ scene:process(function(p)
   p:wait(0.3)
 end)
 
-local run = scene:run { dt = 0.01, progress = true }
+local run = scene:run { dt = 0.0025, progress = true }
 assert(run.ok, run.reason)
 print(("peak force %.4f N, peak moment %.3g N m about the tool centre; %s"):format(hand.peak_force,
   hand.peak_moment, hand.slip_event and "it slipped" or "no slip"))

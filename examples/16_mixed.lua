@@ -37,6 +37,7 @@ local function task(freeze)
   end)
   local run = scene:run { dt = 0.01 }
   assert(run.ok, run.reason)
+  for _, e in ipairs(run.events) do print(e.kind, e.text) end -- no peak is read here
   seen.events = hand.events
   return seen
 end

@@ -7,7 +7,7 @@ local mm, ms = sw.units.mm, sw.units.ms
 local scene = sw.scene { name = "clips" }
 scene:obstacle { name = "table", shape = "plane", friction = 0.3 }
 local wire = scene:wire { name = "cable", E = sw.units.MPa(60), density = 1500, radius = mm(4),
-  from = mm { 0, 0, 45 }, to = mm { 420, 0, 45 }, segments = 60 }
+  from = mm { 0, 0, 45 }, to = mm { 420, 0, 45 }, segments = 168 }
 scene:force { kind = "damping", on = wire, mass = 3, stiffness = ms(3) }
 
 local clips = {}

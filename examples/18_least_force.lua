@@ -11,7 +11,7 @@ local study = sw.study { name = "least force", constraints = { slips = { max = 0
     local scene = sw.scene { name = "least force" }
     scene:obstacle { name = "table", shape = "plane", friction = 0.3 }
     scene:force { kind = "damping", mass = 8 }
-    wire = scene:wire { cable = "GXL 1.5", from = mm { 0, 0, 1.2 }, to = mm { 300, 0, 1.2 } }
+    wire = scene:wire { cable = "GXL 1.5", from = mm { 0, 0, 1.5 }, to = mm { 300, 0, 1.5 } }
     hand = scene:gripper { name = "hand", slip_tolerance = mm(0.2),
       pads = { width = mm(15), friction = friction, opening = mm(4) } }
     return scene

@@ -11,7 +11,7 @@ local function build(friction)
   local scene = sw.scene { name = "lift" }
   scene:obstacle { name = "table", shape = "plane", friction = 0.3 }
   scene:force { kind = "damping", mass = 8 }
-  local wire = scene:wire { cable = "GXL 1.5", from = mm { 0, 0, 1.2 }, to = mm { 300, 0, 1.2 } }
+  local wire = scene:wire { cable = "GXL 1.5", from = mm { 0, 0, 1.5 }, to = mm { 300, 0, 1.5 } }
   local hand = scene:gripper { name = "hand", slip_tolerance = mm(0.2),
     pads = { width = mm(15), friction = friction, opening = mm(4) } }
   return scene, wire, hand

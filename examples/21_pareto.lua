@@ -10,7 +10,7 @@ local study = sw.study { name = "over the edge",
   parameters = { height = { 0.1, 0.5, unit = "m" }, duration = { 0.2, 1.5, unit = "s" } },
   setup = function()
     local scene = sw.scene { name = "over the edge" }
-    wire = scene:wire { cable = "GXL 1.5", from = { 0, 0, 0.4 }, to = { 0, 0, 0 }, segments = 10 }
+    wire = scene:wire { cable = "GXL 1.5", from = { 0, 0, 0.4 }, to = { 0.01, 0, 0 }, segments = 10 }
     hand = scene:gripper { name = "hand" }
     return scene
   end,

@@ -8,6 +8,7 @@ local examples = { program = program }
 function examples.run(name, ...)
   local out, err, code = program.run { "examples/" .. name .. ".lua", ... }
   assert(code == 0, name .. " failed: " .. err)
+  assert(not err:find("softworld: note:", 1, true), name .. " does not show its events: " .. err)
   local numbers = {}
   for word in out:gmatch "%f[%w+-][+-]?%d[%d.]*[eE]?[+-]?%d*" do
     numbers[#numbers + 1] = tonumber(word)

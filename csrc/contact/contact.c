@@ -225,6 +225,10 @@ double sw_contact_largest_push(const sw_contact *c, size_t first, size_t end) {
 
 /* --- for the energy ledger ------------------------------------------------------ */
 
+sw_status sw_contact_began(sw_contact *c, double t, sw_error *err) {
+  return c->time > t || c->time < t ? sw_broad_place(c, t, c->start, err) : SW_OK;
+}
+
 int sw_contact_poses(const sw_contact *c, int id, sw_pose *from, sw_pose *to) {
   const size_t o = sw_contact_index(c, id);
   if (o == c->count) return 0;

@@ -204,9 +204,9 @@ double sw_contact_squeezing_force(const sw_system *system, const sw_plan *plan);
 double sw_contact_edge_stiffness(const sw_system *system, size_t body, size_t node);
 
 /* --- for the energy ledger, after a trial ------------------------------------- */
-
-/* Poses of obstacle id (the owner's number) at the step's start and as last placed. Returns 0 if it
- * does not exist. */
+/* Call after a pose that began at t: its start is there, also if it was found in parts. */
+sw_status sw_contact_began(sw_contact *contact, double t, sw_error *err);
+/* Poses of obstacle id (of its owner) at the step's start and as last placed; 0: there is none. */
 int sw_contact_poses(const sw_contact *contact, int id, sw_pose *from, sw_pose *to);
 /* 1 if the same touches press as at the step's start, and nothing struck. */
 int sw_contact_steady(const sw_contact *contact);

@@ -91,21 +91,28 @@ static int push_arguments(lua_State *L, const host_options *o, int at) {
   return count;
 }
 
-/* At a script's end, reports failed runs whose results the script has not read. Returns
- * HOST_FAILED if there are any. */
+/* Prints the text at a stack index, if there is one. Returns 1 if there is. */
+static int tell_text(lua_State *L, int at) {
+  if (!lua_isstring(L, at)) return 0;
+  fflush(stdout);
+  fprintf(stderr, "%s\n", lua_tostring(L, at));
+  log_text(L, lua_tostring(L, at));
+  return 1;
+}
+
+/* At a script's end, reports failed runs, and events of other runs, that the script has not read.
+ * Returns HOST_FAILED if there are failed ones. */
 static int tell_unread(lua_State *L) {
   const int top = lua_gettop(L);
   int status = HOST_OK;
   luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
   if (lua_getfield(L, -1, "softworld.unread") == LUA_TTABLE &&
       lua_getfield(L, -1, "finish") == LUA_TFUNCTION) {
-    if (host_call(L, 0, 1) != LUA_OK) {
+    if (host_call(L, 0, 2) != LUA_OK) {
       status = host_report(L);
-    } else if (lua_isstring(L, -1)) {
-      fflush(stdout);
-      fprintf(stderr, "%s\n", lua_tostring(L, -1));
-      log_text(L, lua_tostring(L, -1));
-      status = HOST_FAILED;
+    } else {
+      if (tell_text(L, -2)) status = HOST_FAILED;
+      tell_text(L, -1);
     }
   }
   lua_settop(L, top);

@@ -240,7 +240,7 @@ sw_status sw_ledger_close(sw_scene *s) {
   return log_row(s);
 }
 
-sw_status sw_ledger_pose(sw_scene *s, int jumped, sw_error *err) {
+sw_status sw_ledger_pose(sw_scene *s, double t0, int jumped, sw_error *err) {
   sw_books *b = sw_scene_books(s);
   sw_step_energy *step = &b->step;
   *step = (sw_step_energy){.steady = 1};
@@ -248,6 +248,7 @@ sw_status sw_ledger_pose(sw_scene *s, int jumped, sw_error *err) {
   step->to.kinetic = 0;
   step->contact = sw_ledger_contact(s);
   step->friction += sw_scene_rubbed(s);
+  if (sw_scene_contact(s)) SW_TRY(sw_contact_began(sw_scene_contact(s), t0, err));
   sw_ledger_work(s, sw_scene_time(s), 0);
   step->forces = b->now.loads - step->to.loads;
   step->work = sw_ledger_effort(step);

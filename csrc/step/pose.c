@@ -88,8 +88,9 @@ static sw_status again(sw_scene *s, double t0, double t, int halvings, const sw_
   return pose(s, t, halvings, how, report, err);
 }
 
-static sw_status book(sw_scene *s, double t1, int jumped, sw_run_report *report, sw_error *err) {
-  SW_TRY(sw_ledger_pose(s, jumped, err));
+static sw_status book(sw_scene *s, double t0, double t1, int jumped, sw_run_report *report,
+                      sw_error *err) {
+  SW_TRY(sw_ledger_pose(s, t0, jumped, err));
   if (!jumped) return SW_OK;
   report->jumps++;
   report->last_jump = t1;
@@ -149,7 +150,7 @@ static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_ar
   if (passed && !shortest)
     return again(s, t0, t0 + fmax(part, how->passing), halvings, how, report, start, err);
   report->smallest_dt = fmin(report->smallest_dt, t1 - t0);
-  return book(s, t1, rest.jumped || passed, report, err);
+  return book(s, t0, t1, rest.jumped || passed, report, err);
 }
 
 static sw_status pose(sw_scene *s, double t1, int halvings, const sw_pose_args *how,

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Keeps track of failed runs that the script has not looked at, and of a script that runs nothing. The host
--- program reports them when the script is over.
+--- Keeps track of failed runs, and of events of other runs, that the script has not looked at, and of a
+-- script that runs nothing. The host program reports them when the script is over.
 -- @module softworld.unread
 local counted = require "softworld.output.number".count
 
@@ -9,6 +9,8 @@ local unread = {}
 local MOST = 20 -- texts kept and reported at most
 local texts, kept, last = {}, 0, 0
 local more = 0 -- failures beyond those kept
+local MOST_NOTES = 5 -- runs with events reported at most
+local notes, noted, others = {}, 0, 0 -- texts; runs with events so far; those beyond the texts
 local bad = 0  -- runs that failed or were stopped, looked at or not
 local verdicts = { PASS = 0, FAIL = 0, OPEN = 0 } -- of checks
 
@@ -43,10 +45,30 @@ function unread.add(text)
   return mark
 end
 
---- Marks a failure as looked at.
+--- Stores the events of a run that is ok and returns its mark. text: one line.
+function unread.note(text)
+  noted = noted + 1
+  local mark = { note = noted }
+  if #notes < MOST_NOTES then
+    notes[#notes + 1] = { number = noted, text = text }
+  else
+    others = others + 1
+  end
+  return mark
+end
+
+local function forget_note(number)
+  for k, note in ipairs(notes) do
+    if note.number == number then return table.remove(notes, k) end
+  end
+  others = math.max(0, others - 1)
+end
+
+--- Marks a failure, or the events of a run, as looked at.
 function unread.seen(mark)
   if mark.seen then return end
   mark.seen = true
+  if mark.note then return forget_note(mark.note) end
   if texts[mark.number] then
     texts[mark.number], kept = nil, kept - 1
   elseif more > 0 then
@@ -85,23 +107,37 @@ function unread.guard_exit()
   end
 end
 
---- Calls f and returns its results. Failures within it need no look, because f judges its runs by other
--- means; checks within it do not count either.
+--- Calls f and returns its results. Failures and events within it need no look, because f judges its runs by
+-- other means; checks within it do not count either.
 function unread.excused(f, ...)
-  local before, more_before, bad_before = last, more, bad
+  local before, more_before, bad_before, noted_before, others_before = last, more, bad, noted, others
   local verdicts_before = { PASS = verdicts.PASS, FAIL = verdicts.FAIL, OPEN = verdicts.OPEN }
   local function done(...)
     bad, verdicts = bad_before, verdicts_before
     for number in pairs(texts) do
       if number > before then texts[number], kept = nil, kept - 1 end
     end
-    more = math.min(more, more_before)
+    more, others = math.min(more, more_before), math.min(others, others_before)
+    for k = #notes, 1, -1 do
+      if notes[k].number > noted_before then table.remove(notes, k) end
+    end
     return ...
   end
   return done(f(...))
 end
 
---- Returns the report at the end of a script, or nil, and forgets it.
+local function notes_text()
+  local lines = {}
+  for k, note in ipairs(notes) do lines[k] = note.text end
+  if others > 0 then
+    lines[#lines + 1] = ("softworld: note: %s with events that the script did not look at"):format(
+      counted(others, "more run"))
+  end
+  notes, others = {}, 0
+  return #lines > 0 and table.concat(lines, "\n") or nil
+end
+
+--- Returns the reports at the end of a script, of failures and of events, each or nil, and forgets them.
 function unread.finish()
   tell_idle()
   local numbers, lines = {}, {}
@@ -110,7 +146,7 @@ function unread.finish()
   for i, number in ipairs(numbers) do lines[i] = texts[number] end
   if more > 0 then lines[#lines + 1] = ("softworld: and %d more"):format(more) end
   texts, kept, more = {}, 0, 0
-  return #lines > 0 and table.concat(lines, "\n") or nil
+  return #lines > 0 and table.concat(lines, "\n") or nil, notes_text()
 end
 
 return unread

@@ -28,10 +28,22 @@ local unread = require "softworld.unread"
 local Run = { __name = "run" }
 local readable = runfiles.readable
 
+-- Keeps in mind the events of a run that is ok until the script reads run.events, itself or by its summary, a
+-- check or a page.
+local function mark_events(run)
+  local events = sealed.fields(run).events
+  if not events or #events == 0 then return run end
+  local at = place.of_caller()
+  local text = "softworld: note: the run of '%s'%s is ok, but has %s; see run.events: %s: %s"
+  run.unseen = unread.note(text:format(run.name, at and " at " .. at or "", counted(#events, "event"),
+    events[1].kind, events[1].text))
+  return run
+end
+
 -- Hides ok and reason of a failed run, so that reading them counts as a look at the failure.
 local function hide_failure(run)
   if sealed.fields(run).cut == "stopped" then unread.cut() end
-  if sealed.fields(run).ok ~= false then return run end
+  if sealed.fields(run).ok ~= false then return mark_events(run) end
   local at = place.of_caller()
   local mark = unread.add(("softworld: run of '%s'%s FAILED %s; the script did not look at run.ok")
     :format(run.name, at and " at " .. at or "", run.reason))
@@ -154,7 +166,7 @@ Run.ledger = ledger.of
 
 -- Fields that may be nil.
 local may_lack = checks.set [[quantities levels met advice where asked refused last_jump failure
-  ok reason model]]
+  ok reason model unseen]]
 local fields = { "ok", "reason", "time", "steps", "rejected", "iterations", "evaluations", "jumps",
   "smallest_dt", "start", "wall", "cpu", "scene", "name", "events", "quantities", "met", "levels", "model" }
 
@@ -167,6 +179,7 @@ end
 
 function Run.__index(self, key)
   local own = sealed.fields(self)
+  if key == "events" and own.unseen then unread.seen(own.unseen) end
   local value = own[key]
   if value == nil then value = Run[key] end
   if value ~= nil then return value end
@@ -187,15 +200,21 @@ function Run:__newindex(key, value)
   rawset(sealed.fields(self), key, value)
 end
 
+-- Says how many events a run has.
+local function told(run)
+  local count = #(sealed.fields(run).events or {})
+  return count > 0 and (", %s (run.events)"):format(counted(count, "event")) or ""
+end
+
 function Run:__tostring()
   if self.ok and self.quantities then
     local unmet = trust.unmet(self)
-    return ("run of '%s': ok (%s)%s, t = %.6g s, %s, %.3g s of computing\n%s"):format(self.name,
+    return ("run of '%s': ok (%s)%s, t = %.6g s, %s, %.3g s of computing%s\n%s"):format(self.name,
       self.reason, unmet and ", " .. unmet or "", self.time, counted(#self.levels, "level"), self.cpu,
-      tostring(self:error_bars()))
+      told(self), tostring(self:error_bars()))
   end
-  return ("run of '%s': %s (%s), t = %.6g s, %s, %.3g s of computing"):format(
-    self.name, self.ok and "ok" or "FAILED", self.reason, self.time, counted(self.steps, "step"), self.cpu)
+  return ("run of '%s': %s (%s), t = %.6g s, %s, %.3g s of computing%s"):format(self.name,
+    self.ok and "ok" or "FAILED", self.reason, self.time, counted(self.steps, "step"), self.cpu, told(self))
 end
 
 return Run
