@@ -105,13 +105,13 @@ static void add_friction(const sw_clip *c, sw_field *f) {
 static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   if (sw_clip_is_broken(f->history)) return SW_OK;
   const sw_clip c = clip_of(args, f, f->history);
-  const int stiffness = (f->want & SW_WANT_STIFFNESS) != 0;
+  const int what = f->want & SW_WANT_STIFFNESS ? SW_CLIP_WANT_STIFFNESS : 0;
   (void)err;
   for (long e = sw_clip_find(&c, f, 0); e >= 0; e = sw_clip_find(&c, f, e + 1)) {
     sw_clip_walk walk;
     sw_clip_sum sum;
     if (!sw_clip_begin(&c, f, (size_t)e, &walk) || sw_clip_far(&c, &walk)) continue;
-    sw_clip_sum_of(&c, &walk, stiffness, &sum);
+    sw_clip_sum_of(&c, &walk, what, &sum);
     f->energy += f->want & SW_WANT_ENERGY ? sum.energy : 0.0;
     sw_clip_on_edge(&c, f, (size_t)e, &sum);
   }
@@ -123,7 +123,7 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
 static void measure_friction(const sw_clip *c, const sw_field *f, double *each) {
   for (long e = sw_clip_find(c, f, 0); e >= 0; e = sw_clip_find(c, f, e + 1)) {
     sw_clip_sum sum;
-    if (!sw_clip_edge(c, f, (size_t)e, &sum)) continue;
+    if (!sw_clip_edge(c, f, (size_t)e, SW_CLIP_WANT_PUSH, &sum)) continue;
     for (size_t end = 0; end < 2; end++)
       each[SW_CLIP_EACH * ((size_t)e + end) + SW_CLIP_MOST] += c->friction * sum.push[end];
   }
@@ -169,7 +169,7 @@ static void begin_history(const void *args, const sw_field *f, double *history) 
     each[SW_CLIP_EACH * i + SW_CLIP_PLACE] = place_of(&c, f, i);
   for (long e = sw_clip_find(&c, f, 0); e >= 0; e = sw_clip_find(&c, f, e + 1)) {
     sw_clip_sum sum;
-    if (!sw_clip_edge(&c, f, (size_t)e, &sum)) continue;
+    if (!sw_clip_edge(&c, f, (size_t)e, SW_CLIP_WANT_MIDDLE, &sum)) continue;
     const double half = 0.5 * sum.share;
     if (fabs(sum.u) > sum.share * (c.law.out + c.law.in)) continue;
     for (size_t end = 0; end < 2; end++)
@@ -270,7 +270,7 @@ static void give_up(const sw_clip *c, const sw_field *f, double *history) {
   sw_clip_sum sum;
   history[SW_CLIP_RUBS] = history[SW_CLIP_NEAR] = 0;
   for (long e = sw_clip_find(c, f, 0); e >= 0; e = sw_clip_find(c, f, e + 1))
-    if (sw_clip_edge(c, f, (size_t)e, &sum)) history[SW_CLIP_DISSIPATED] += sum.energy;
+    if (sw_clip_edge(c, f, (size_t)e, 0, &sum)) history[SW_CLIP_DISSIPATED] += sum.energy;
   for (size_t i = 0; i < sw_axis_points(f->plan); i++) {
     double *h = history + SW_CLIP_HEAD + SW_CLIP_EACH * i;
     if (h[SW_CLIP_MOST] > 0)

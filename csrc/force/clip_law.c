@@ -19,38 +19,38 @@ typedef struct curve {
   double f, d, dd;
 } curve;
 
-/* height sin^2(pi x / (2 length)): from 0 at x = 0 to its top at x = length. */
-static curve hump(double x, double length, double height) {
-  const double a = 0.5 * M_PI / length, s = sin(a * x), c = cos(a * x);
-  return (curve){height * s * s, 2.0 * height * a * s * c, 2.0 * height * a * a * (c * c - s * s)};
+/* Returns height sin^2(pi x / (2 length)): from 0 at x = 0 to its top at x = length. */
+static sw_clip_hump hump_of(double length, double height) {
+  const double a = 0.5 * M_PI / length;
+  return (sw_clip_hump){length, a, height, 2.0 * height * a, 2.0 * height * a * a};
+}
+
+static curve hump(const sw_clip_hump *h, double x) {
+  const double s = sin(h->rate * x), c = cos(h->rate * x);
+  return (curve){h->height * s * s, h->slope * s * c, h->curve * (c * c - s * s)};
 }
 
 /* Returns the function of -x. */
 static curve mirrored(curve c) { return (curve){c.f, -c.d, c.dd}; }
 
-/* Returns a curve that falls from 1 at x = 0 to 0 at x = length. */
-static curve fade(double x, double length) {
-  const curve c = hump(length - x, length, 1.0);
-  return mirrored(c);
-}
+/* Returns a curve that falls from 1 at x = 0 to 0 at x = length. h: of height 1. */
+static curve fade(const sw_clip_hump *h, double x) { return mirrored(hump(h, h->length - x)); }
 
 static const curve NOTHING = {0, 0, 0}, ONE = {1, 0, 0};
 
-/* A spring of stiffness k. Its force peaks at depth reach / 2, vanishes at reach, then pushes
- * towards the far side; it ends at twice reach. */
-static curve barrier(double depth, double reach, double k) {
-  const double a = 0.5 * M_PI / reach;
-  if (!(depth > 0) || depth >= 2.0 * reach) return NOTHING;
-  return hump(depth, reach, 0.5 * k / (a * a));
-}
+/* 1 if floor or wall acts at this depth. */
+static int acts(const sw_clip_law *l, double depth) { return depth > 0 && depth < 2.0 * l->reach; }
 
-/* Potential of floor or wall at this depth. */
-static curve side(const sw_clip_law *l, double depth) { return barrier(depth, l->reach, l->k); }
+/* Potential of floor or wall at this depth: a spring of stiffness k. Its force peaks at depth reach
+ * / 2, vanishes at reach, then pushes towards the far side; it ends at twice reach. */
+static curve side(const sw_clip_law *l, double depth) {
+  return acts(l, depth) ? hump(&l->side, depth) : NOTHING;
+}
 
 static curve lips(const sw_clip_law *l, double u) {
   if (!(u > 0) || u >= l->out + l->in) return NOTHING;
-  if (u < l->out) return hump(u, l->out, l->top);
-  return mirrored(hump(l->out + l->in - u, l->in, l->top));
+  if (u < l->out) return hump(&l->inner, u);
+  return mirrored(hump(&l->outer, l->out + l->in - u));
 }
 
 static curve floor_of(const sw_clip_law *l, double u) {
@@ -72,15 +72,15 @@ static curve widening(const sw_clip_law *l, double u) {
 static curve between(const sw_clip_law *l, double v) {
   const double depth = fabs(v) - l->clearance;
   if (depth <= 0) return ONE;
-  return depth < 2.0 * l->reach ? even(fade(depth, 2.0 * l->reach), v) : NOTHING;
+  return depth < 2.0 * l->reach ? even(fade(&l->ends, depth), v) : NOTHING;
 }
 
 /* Weight of the walls: 1 between floor and mouth. */
 static curve beside(const sw_clip_law *l, double u) {
   const double above = u - l->out, below = -l->clearance - u;
-  if (above > 0) return above < l->in ? fade(above, l->in) : NOTHING;
+  if (above > 0) return above < l->in ? fade(&l->mouth, above) : NOTHING;
   if (below <= 0 || l->caught) return ONE;
-  return below < 2.0 * l->reach ? mirrored(fade(below, 2.0 * l->reach)) : NOTHING;
+  return below < 2.0 * l->reach ? mirrored(fade(&l->ends, below)) : NOTHING;
 }
 
 sw_clip_law sw_clip_law_of(double wire, double seat, double insertion, double retention, double way,
@@ -97,14 +97,19 @@ sw_clip_law sw_clip_law_of(double wire, double seat, double insertion, double re
   if (!isnan(strength)) l.reach = M_PI * strength / l.k;
   l.strength = l.k * l.reach / M_PI;
   l.caught = 0;
+  const double a = 0.5 * M_PI / l.reach;
+  l.inner = hump_of(l.out, l.top), l.outer = hump_of(l.in, l.top);
+  l.side = hump_of(l.reach, 0.5 * l.k / (a * a));
+  l.ends = hump_of(2.0 * l.reach, 1.0), l.mouth = hump_of(l.in, 1.0);
   return l;
 }
 
 /* Adds the walls: their potential at their depth times their weight at u. */
 static void add_walls(const sw_clip_law *l, double u, double v, sw_clip_point *p) {
-  const curve z = widening(l, u), g = beside(l, u);
-  const curve w = side(l, fabs(v) - l->clearance - z.f);
-  const double sign = v < 0 ? -1.0 : 1.0;
+  const curve z = widening(l, u);
+  const double depth = fabs(v) - l->clearance - z.f, sign = v < 0 ? -1.0 : 1.0;
+  if (!acts(l, depth)) return;
+  const curve g = beside(l, u), w = side(l, depth);
   p->energy += w.f * g.f;
   p->u += w.f * g.d - w.d * z.d * g.f;
   p->v += sign * w.d * g.f;

@@ -20,14 +20,24 @@
 #ifndef SW_FORCE_CLIP_LAW_H
 #define SW_FORCE_CLIP_LAW_H
 
+/* Constants of a curve height sin^2(rate x): derivatives are slope sin cos, curve (cos^2 - sin^2).
+ */
+typedef struct sw_clip_hump {
+  double length, rate;         /* x of its top [m], [rad/m] */
+  double height, slope, curve; /* the curve's unit, over [m], over [m2] */
+} sw_clip_hump;
+
 typedef struct sw_clip_law {
-  double in, out;   /* lengths of the lips' outer (in) and inner (out) flank [m] */
-  double top;       /* H [J] */
-  double clearance; /* between wire and seat [m] */
-  double k;         /* of floor and walls [N/m] */
-  double reach;     /* depth from which floor and walls no longer push back [m] */
-  double strength;  /* largest force of floor and walls, at half that depth [N] */
-  int caught;       /* 1: the wire came over the mouth */
+  double in, out;            /* lengths of the lips' outer (in) and inner (out) flank [m] */
+  double top;                /* H [J] */
+  double clearance;          /* between wire and seat [m] */
+  double k;                  /* of floor and walls [N/m] */
+  double reach;              /* depth from which floor and walls no longer push back [m] */
+  double strength;           /* largest force of floor and walls, at half that depth [N] */
+  int caught;                /* 1: the wire came over the mouth */
+  sw_clip_hump outer, inner; /* flanks of the lips [J] */
+  sw_clip_hump side;         /* floor or wall, up to the depth `reach` [J] */
+  sw_clip_hump ends, mouth;  /* weights that fade beyond walls and floor, and over the mouth [-] */
 } sw_clip_law;
 
 /* Returns the law for a wire of this radius [m]. NAN chooses a default. seat: radius of the seat

@@ -54,29 +54,41 @@ static void second(const sw_clip_point *p, const double chi[3], double w, double
   H[3] = w * chi[0] * p->vv, H[4] = w * chi[1] * p->v, H[5] = w * chi[2] * p->energy;
 }
 
+/* Adds second derivatives at a place of an edge; part: shares of its ends; next: the coupling's
+ * upper half [N/m]. */
+static void add_stiffness(const sw_clip_point *p, const double part[2], const double chi[3],
+                          double w, sw_clip_sum *out, double next[6]) {
+  double H[6];
+  second(p, chi, w, H);
+  for (int k = 0; k < 6; k++) {
+    out->own[0][k] += part[0] * part[0] * H[k];
+    out->own[1][k] += part[1] * part[1] * H[k];
+    next[k] += part[0] * part[1] * H[k];
+  }
+}
+
+/* Adds a place of weight w to where the wire is in the clip. */
+static void add_middle(const sw_clip *c, const double x[3], double w, double s, sw_clip_sum *out) {
+  const double in = w * sw_clip_between(&c->law, x[1]);
+  out->all[0] += w, out->all[1] += w * x[0], out->all[2] += w * x[1];
+  out->share += in, out->u += in * x[0], out->v += in * x[1], out->s += in * s;
+}
+
 /* Adds one place at t along the edge, of weight w. */
 static void add_place(const sw_clip *c, const double x[3], double t, const double chi[3], double w,
-                      double s, int stiffness, sw_clip_sum *out) {
+                      double s, int what, sw_clip_sum *out, double next[6]) {
   const double part[2] = {1.0 - t, t};
-  double H[6];
-  const double in = w * chi[0] * sw_clip_between(&c->law, x[1]);
-  out->all[0] += w * chi[0], out->all[1] += w * chi[0] * x[0], out->all[2] += w * chi[0] * x[1];
-  out->share += in, out->u += in * x[0], out->v += in * x[1], out->s += in * s;
+  if (what & SW_CLIP_WANT_MIDDLE) add_middle(c, x, w * chi[0], s, out);
   const sw_clip_point p = sw_clip_at(&c->law, x[0], x[1]);
+  const double push = what & SW_CLIP_WANT_PUSH ? hypot(p.u, p.v) : 0.0;
   out->energy += w * chi[0] * p.energy;
   for (int end = 0; end < 2; end++) {
     out->g[end][0] += part[end] * w * chi[0] * p.u;
     out->g[end][1] += part[end] * w * chi[0] * p.v;
     out->g[end][2] += part[end] * w * chi[1] * p.energy;
-    out->push[end] += part[end] * w * chi[0] * hypot(p.u, p.v);
+    out->push[end] += part[end] * w * chi[0] * push;
   }
-  if (!stiffness) return;
-  second(&p, chi, w, H);
-  for (int k = 0; k < 6; k++) {
-    out->own[0][k] += part[0] * part[0] * H[k];
-    out->own[1][k] += part[1] * part[1] * H[k];
-  }
-  for (int k = 0; k < 9; k++) out->next[k] += part[0] * part[1] * H[WHOLE[k]];
+  if (what & SW_CLIP_WANT_STIFFNESS) add_stiffness(&p, part, chi, w, out, next);
 }
 
 /* Adds the derivatives of the weight, which changes with the edge's way along the axis. */
@@ -161,35 +173,12 @@ int sw_clip_begin(const sw_clip *c, const sw_field *f, size_t e, sw_clip_walk *w
   return 1;
 }
 
-/* Sets the window's phase at the first place. */
-static void begin_window(sw_clip_walk *w) {
+void sw_clip_begin_window(sw_clip_walk *w) {
   const double part = (w->b[2] - w->a[2]) / (double)w->count; /* way from place to place [m] */
   const double first = w->a[2] + ((double)w->k + 0.5) * part;
   w->rate = M_PI / w->half, w->begun = 1;
   w->now[0] = cos(w->rate * first), w->now[1] = sin(w->rate * first);
   w->turn[0] = cos(w->rate * part), w->turn[1] = sin(w->rate * part);
-}
-
-/* Turns the window's phase to the next place: four products instead of a sine and a cosine. */
-static void advance_window(sw_clip_walk *w) {
-  const double cosine = w->now[0], sine = w->now[1];
-  w->now[0] = cosine * w->turn[0] - sine * w->turn[1];
-  w->now[1] = sine * w->turn[0] + cosine * w->turn[1];
-}
-
-int sw_clip_next(sw_clip_walk *w, double x[3], double *along, double chi[3]) {
-  if (!w->begun) begin_window(w);
-  while (w->k <= w->last) {
-    const double t = ((double)w->k++ + 0.5) / (double)w->count;
-    for (int i = 0; i < 3; i++) x[i] = w->a[i] + t * (w->b[i] - w->a[i]);
-    *along = t;
-    chi[0] = 1.0 + w->now[0];
-    chi[1] = -w->rate * w->now[1];
-    chi[2] = -w->rate * w->rate * w->now[0];
-    advance_window(w);
-    if (fabs(x[2]) < w->half) return 1;
-  }
-  return 0;
 }
 
 int sw_clip_far(const sw_clip *c, const sw_clip_walk *w) {
@@ -201,18 +190,19 @@ int sw_clip_far(const sw_clip *c, const sw_clip_walk *w) {
          fmin(w->a[1], w->b[1]) >= side || fmax(w->a[1], w->b[1]) <= -side;
 }
 
-void sw_clip_sum_of(const sw_clip *c, sw_clip_walk *w, int stiffness, sw_clip_sum *out) {
-  double x[3], t, chi[3];
+void sw_clip_sum_of(const sw_clip *c, sw_clip_walk *w, int what, sw_clip_sum *out) {
+  double x[3], t, chi[3], next[6] = {0};
   memset(out, 0, sizeof *out);
   while (sw_clip_next(w, x, &t, chi))
-    add_place(c, x, t, chi, w->weight, w->s + t * w->length, stiffness, out);
-  add_weight(w, stiffness, out);
+    add_place(c, x, t, chi, w->weight, w->s + t * w->length, what, out, next);
+  for (int k = 0; k < 9; k++) out->next[k] = next[WHOLE[k]];
+  add_weight(w, what & SW_CLIP_WANT_STIFFNESS, out);
 }
 
-int sw_clip_edge(const sw_clip *c, const sw_field *f, size_t e, sw_clip_sum *out) {
+int sw_clip_edge(const sw_clip *c, const sw_field *f, size_t e, int what, sw_clip_sum *out) {
   sw_clip_walk w;
   if (!sw_clip_begin(c, f, e, &w)) return 0;
-  sw_clip_sum_of(c, &w, 0, out);
+  sw_clip_sum_of(c, &w, what, out);
   return 1;
 }
 

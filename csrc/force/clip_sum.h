@@ -3,6 +3,7 @@
 #ifndef SW_FORCE_CLIP_SUM_H
 #define SW_FORCE_CLIP_SUM_H
 
+#include <math.h>
 #include <stddef.h>
 
 #include "base/param.h"
@@ -55,15 +56,20 @@ sw_status sw_clip_check_lips(const sw_clip_args *args, const char *kind, sw_erro
 
 sw_clip sw_clip_of(const sw_clip_args *args, const sw_beam *beam);
 
-/* Contribution of one edge; vectors and matrices in the clip's axes u, v, a. */
+/* What to sum beside energy and forces: they take the most time of a run with a clip. */
+enum { SW_CLIP_WANT_STIFFNESS = 1, SW_CLIP_WANT_PUSH = 2, SW_CLIP_WANT_MIDDLE = 4 };
+
+/* Contribution of one edge; vectors and matrices in the clip's axes u, v, a. What was not asked for
+ * is 0. */
 typedef struct sw_clip_sum {
   double energy;         /* [J] */
   double g[2][3];        /* derivatives with respect to the two ends [N] */
-  double own[2][6];      /* second derivatives for each end, upper half [N/m] */
-  double next[9];        /* coupling of both ends, rows of the first one [N/m] */
-  double push[2];        /* |grad U| across the axis, shared between the ends [N] */
-  double share, u, v, s; /* share of the window between the walls; its u, v, arc length [-], [m] */
-  double all[3];         /* share of the whole window; its u, v (weighted) [-], [m] */
+  double own[2][6];      /* stiffness: second derivatives for each end, upper half [N/m] */
+  double next[9];        /* stiffness: coupling of both ends, rows of the first one [N/m] */
+  double push[2];        /* push: |grad U| across the axis, shared between the ends [N] */
+  double share, u, v, s; /* middle: share of the window between the walls; its u, v, arc length [-],
+                            [m] */
+  double all[3];         /* middle: share of the whole window; its u, v (weighted) [-], [m] */
 } sw_clip_sum;
 
 /* Steps through the integration places of one edge. */
@@ -86,20 +92,36 @@ long sw_clip_find(const sw_clip *clip, const sw_field *field, long from);
 /* Starts a walk along the edge from place e to the next; 0: the edge is outside the clip's
  * width. */
 int sw_clip_begin(const sw_clip *clip, const sw_field *field, size_t e, sw_clip_walk *walk);
+/* Sets the window's phase at the first place. */
+void sw_clip_begin_window(sw_clip_walk *walk);
 /* Returns the next place: u, v, a [m] and its share of the way along the edge [-]; the window chi
  * there, with its first and second derivative [-], [1/m], [1/m2]. 0: no more places. */
-int sw_clip_next(sw_clip_walk *walk, double x[3], double *along, double chi[3]);
+static inline int sw_clip_next(sw_clip_walk *w, double x[3], double *along, double chi[3]) {
+  if (!w->begun) sw_clip_begin_window(w);
+  while (w->k <= w->last) {
+    const double t = ((double)w->k++ + 0.5) / (double)w->count;
+    const double cosine = w->now[0], sine = w->now[1];
+    for (int i = 0; i < 3; i++) x[i] = w->a[i] + t * (w->b[i] - w->a[i]);
+    *along = t;
+    chi[0] = 1.0 + cosine;
+    chi[1] = -w->rate * sine;
+    chi[2] = -w->rate * w->rate * cosine;
+    /* four products instead of a sine and a cosine */
+    w->now[0] = cosine * w->turn[0] - sine * w->turn[1];
+    w->now[1] = sine * w->turn[0] + cosine * w->turn[1];
+    if (fabs(x[2]) < w->half) return 1;
+  }
+  return 0;
+}
 
 /* 1 if the clip does not act on any part of the edge. */
 int sw_clip_far(const sw_clip *clip, const sw_clip_walk *walk);
 
-/* Sums along the edge of a walk that was just begun. stiffness: 1 to fill second derivatives too.
- */
-void sw_clip_sum_of(const sw_clip *clip, sw_clip_walk *walk, int stiffness, sw_clip_sum *out);
+/* Sums along the edge of a walk that was just begun. */
+void sw_clip_sum_of(const sw_clip *clip, sw_clip_walk *walk, int what, sw_clip_sum *out);
 
-/* The same, without second derivatives, along edge e, from place e to the next; 0: the edge is
- * outside the clip's width. */
-int sw_clip_edge(const sw_clip *clip, const sw_field *field, size_t e, sw_clip_sum *out);
+/* The same along edge e, from place e to the next; 0: the edge is outside the clip's width. */
+int sw_clip_edge(const sw_clip *clip, const sw_field *field, size_t e, int what, sw_clip_sum *out);
 
 /* Turns (u, v, a) into world axes. */
 sw_vec sw_clip_world(const sw_clip *clip, const double local[3]);

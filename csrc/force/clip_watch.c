@@ -22,7 +22,7 @@ sw_clip_middle sw_clip_middle_of(const sw_clip *c, const sw_field *f) {
   sw_clip_middle m = {0};
   for (long e = sw_clip_find(c, f, 0); e >= 0; e = sw_clip_find(c, f, e + 1)) {
     sw_clip_sum sum;
-    if (!sw_clip_edge(c, f, (size_t)e, &sum)) continue;
+    if (!sw_clip_edge(c, f, (size_t)e, SW_CLIP_WANT_MIDDLE, &sum)) continue;
     m.share += sum.share;
     m.u += sum.u, m.v += sum.v, m.s += sum.s;
     m.passes += sum.all[0], m.at[0] += sum.all[1], m.at[1] += sum.all[2];

@@ -29,25 +29,51 @@ static double share_at(const sw_clip_law *l, double u) {
   return x <= 0 ? 0.0 : x >= 1 ? 1.0 : x * x * (3.0 - 2.0 * x);
 }
 
+/* An edge's part of the dashpot; it acts along the clip's direction alone. */
+typedef struct snap_sum {
+  double force[2];     /* on the ends, against the direction [N] */
+  double own[2], next; /* stiffness of each end, coupling of both [N/m] */
+} snap_sum;
+
+/* Fills the stiffness k along a unit vector. */
+static void stiffness_along(sw_vec d, double k, double K[9]) {
+  const double axis[3] = {d.x, d.y, d.z};
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) K[3 * i + j] = axis[i] * (k * axis[j]);
+}
+
+/* Adds the sum to the wire. A mesh's coupling is lumped into each ring's own stiffness. */
+static void put(const sw_clip *c, sw_field *f, size_t e, const snap_sum *sum) {
+  const int stiffness = (f->want & SW_WANT_STIFFNESS) != 0, mesh = f->plan->web != NULL;
+  double K[9];
+  for (size_t end = 0; end < 2; end++) {
+    if (stiffness) stiffness_along(c->direction, sum->own[end] + (mesh ? sum->next : 0.0), K);
+    sw_axis_put(f, e + end, sw_scale(c->direction, -sum->force[end]), stiffness ? K : NULL);
+  }
+  if (!stiffness || mesh) return;
+  stiffness_along(c->direction, sum->next, K);
+  for (int k = 0; k < 9; k++) f->rows[SW_FIELD_ROW * e + 6 + (size_t)k] += K[k];
+}
+
 static void add_edge(const sw_clip *c, double damping, sw_field *f, size_t e) {
   const double va = sw_dot(c->direction, sw_axis_velocity(f, e));
   const double vb = sw_dot(c->direction, sw_axis_velocity(f, e + 1));
   sw_clip_walk w;
-  sw_clip_sum sum = {0};
+  snap_sum sum = {0};
   double x[3], t, chi[3];
   if (!(va < 0 || vb < 0)) return;
   if (!sw_clip_begin(c, f, e, &w) || sw_clip_far(c, &w)) return;
+  if (fmin(w.a[0], w.b[0]) >= c->law.out) return; /* on the outer flank or above */
   while (sw_clip_next(&w, x, &t, chi)) {
-    const double speed = va + t * (vb - va);
-    if (!(speed < 0) || x[0] < -c->law.clearance - 2.0 * c->law.reach) continue;
-    const double here =
-        damping * w.weight * chi[0] * share_at(&c->law, x[0]) * sw_clip_between(&c->law, x[1]);
-    sum.g[0][0] += (1.0 - t) * here * speed, sum.g[1][0] += t * here * speed;
-    sum.own[0][0] += (1.0 - t) * (1.0 - t) * here * f->velocity_rate;
-    sum.own[1][0] += t * t * here * f->velocity_rate;
-    sum.next[0] += t * (1.0 - t) * here * f->velocity_rate;
+    const double speed = va + t * (vb - va), share = share_at(&c->law, x[0]);
+    if (!(speed < 0 && share > 0) || x[0] < -c->law.clearance - 2.0 * c->law.reach) continue;
+    const double here = damping * w.weight * chi[0] * share * sw_clip_between(&c->law, x[1]);
+    sum.force[0] += (1.0 - t) * here * speed, sum.force[1] += t * here * speed;
+    sum.own[0] += (1.0 - t) * (1.0 - t) * here * f->velocity_rate;
+    sum.own[1] += t * t * here * f->velocity_rate;
+    sum.next += t * (1.0 - t) * here * f->velocity_rate;
   }
-  sw_clip_on_edge(c, f, e, &sum);
+  put(c, f, e, &sum);
 }
 
 static sw_status eval(const void *args, sw_field *f, sw_error *err) {
