@@ -4,6 +4,34 @@
 
 #include "bind/child.h"
 
+/* Key of this Lua state's recent meshes in the registry. */
+static const char recent_key;
+
+static int recent_free(lua_State *L) {
+  struct sw_strand_recent **recent = lua_touserdata(L, 1);
+  sw_wire_recent_free(*recent);
+  *recent = NULL;
+  return 0;
+}
+
+/* Returns this Lua state's recent meshes. */
+static struct sw_strand_recent *recent_of(lua_State *L) {
+  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &recent_key) != LUA_TUSERDATA) {
+    struct sw_strand_recent **made = lua_newuserdatauv(L, sizeof *made, 0);
+    *made = NULL;
+    lua_createtable(L, 0, 1);
+    lua_pushcfunction(L, recent_free);
+    lua_setfield(L, -2, "__gc");
+    lua_setmetatable(L, -2);
+    *made = sw_wire_recent_new();
+    lua_pushvalue(L, -1);
+    lua_rawsetp(L, LUA_REGISTRYINDEX, &recent_key);
+  }
+  struct sw_strand_recent *recent = *(struct sw_strand_recent **)lua_touserdata(L, -1);
+  lua_settop(L, 2);
+  return recent;
+}
+
 /* Reads the table of arguments and returns the model. Values that the wire keeps have no keys;
  * `model` is required. */
 static int read_arguments(lua_State *L, sw_wire_args *args, sw_wire_mesh_args *mesh,
@@ -34,7 +62,7 @@ static int read_arguments(lua_State *L, sw_wire_args *args, sw_wire_mesh_args *m
  * after = momentum { linear [N s], angular about the point `about` [N m s] } } */
 int lsw_wire_remodel(lua_State *L) {
   sw_wire_args args = {0};
-  sw_wire_mesh_args mesh;
+  sw_wire_mesh_args mesh = {0}; /* its bytes are compared */
   sw_remodel_report r;
   double region[2];
   lua_settop(L, 2);
@@ -44,6 +72,7 @@ int lsw_wire_remodel(lua_State *L) {
     return luaL_error(L, "wire:remodel: segments = 1 is not allowed; it must be 2 or more");
   sw_params_default(&sw_section_params, &mesh.section);
   mesh.section.EI2 = (double)NAN;
+  mesh.recent = recent_of(L);
   LSW_DO(L, sw_scene_watch_holds, w.scene, w.id);
   LSW_DO(L, sw_scene_remodel, w.scene, w.id, &args, &mesh, isnan(region[0]) ? NULL : region, &r);
   lua_createtable(L, 0, 6);

@@ -51,6 +51,7 @@ size_t lsw_mesh_sections(const sw_wire_class *cls, sw_wire_mesh_args *mesh, lsw_
   sw_params_default(&sw_radial_params, &mesh->lattice.radial);
   sw_params_default(&sw_cubic_params, &mesh->lattice.cubic);
   sw_params_default(&sw_composite_params, &mesh->lattice.composite);
+  mesh->recent = NULL;
   if (!cls->mesh) return 0;
   const int kind = sw_calibrate_mesh(cls->mesh);
   out[0] = (lsw_section){&sw_wire_mesh_params, mesh};

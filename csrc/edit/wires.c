@@ -166,6 +166,9 @@ static sw_status keep_drawing(sw_scene_wire *w, const sw_wire_args *args, const 
   return SW_OK;
 }
 
+sw_strand_recent *sw_wire_recent_new(void) { return sw_strand_recent_new(); }
+void sw_wire_recent_free(sw_strand_recent *recent) { sw_strand_recent_free(recent); }
+
 sw_strand_plan sw_scene_strand_plan(const sw_scene_wire *w, const sw_wire_class *cls,
                                     const sw_wire_mesh_args *mesh) {
   return (sw_strand_plan){.name = w->name,
@@ -178,7 +181,8 @@ sw_strand_plan sw_scene_strand_plan(const sw_scene_wire *w, const sw_wire_class 
                           .section = mesh->section,
                           .normal = w->drawing.normal,
                           .curved = w->drawing.rest == SW_REST_PATH,
-                          .rest_twist = w->drawing.rest_twist};
+                          .rest_twist = w->drawing.rest_twist,
+                          .recent = mesh->recent};
 }
 
 /* Makes the particles of a wire that is a mesh, along its drawing. */

@@ -31,9 +31,15 @@ typedef struct sw_wire_mesh_args {
   int body;       /* SW_BODY_SPRINGS, SW_BODY_SOLID */
   double wall;    /* bending stiffness of a tube's wall, per length; NAN = none [N m] */
   sw_lattice_args lattice;
-  sw_section section; /* as given */
+  sw_section section;              /* as given */
+  struct sw_strand_recent *recent; /* calibrations to take over and to keep; or NULL */
 } sw_wire_mesh_args;
 extern const sw_params sw_wire_mesh_params; /* without those of the lattice and the section */
+
+/* Returns room for the calibrations of recent meshes, for sw_wire_mesh_args, or NULL without
+ * memory. Only one thread may use it. */
+struct sw_strand_recent *sw_wire_recent_new(void);
+void sw_wire_recent_free(struct sw_strand_recent *recent); /* NULL is allowed */
 
 /* Adds a wire. points (count x 3): the polyline it lies along; NULL takes from and to. mesh: for
  * models that are meshes, else NULL. SW_EINVAL for fewer than two different points. */

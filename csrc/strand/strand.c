@@ -77,35 +77,42 @@ double sw_strand_wall_along(const sw_strand_plan *p, const sw_beam *beam) {
 
 /* --- calibration -------------------------------------------------------------------- */
 
-static sw_status calibrate(const sw_strand_plan *p, const sw_beam *beam, double spacing,
-                           double tolerance, sw_calibration *out, sw_error *err) {
-  const sw_calibrate_args args = {.mesh = sw_calibrate_mesh(p->mesh),
-                                  .squeeze = p->squeeze,
-                                  .spacing = spacing,
-                                  .tolerance = tolerance,
-                                  .body = p->body};
-  sw_lattice_args lattice = p->lattice;
+/* Fills what the calibration of a mesh depends on. */
+static sw_status need_of(const sw_strand_plan *p, const sw_beam *beam, double spacing,
+                         double tolerance, sw_strand_need *out, sw_error *err) {
+  memset(out, 0, sizeof *out);
+  out->args.mesh = sw_calibrate_mesh(p->mesh), out->args.body = p->body;
+  out->args.squeeze = p->squeeze, out->args.spacing = spacing, out->args.tolerance = tolerance;
+  memcpy(&out->lattice, &p->lattice, sizeof out->lattice);
+  sw_lattice_args *lattice = &out->lattice;
   sw_section section = p->section;
-  sw_error why = {""};
   section.density = section.spin_inertia = (double)NAN;
   /* with the beam's values given, E only sets the ratio of a composite's materials */
-  if (p->body == SW_BODY_SPRINGS || args.mesh != SW_LATTICE_COMPOSITE) section.E = (double)NAN;
+  if (p->body == SW_BODY_SPRINGS || out->args.mesh != SW_LATTICE_COMPOSITE) section.E = (double)NAN;
   if (p->body == SW_BODY_SPRINGS) section.nu = (double)NAN;
   section.EA = beam->EA, section.GJ = beam->GJ;
   section.EI = beam->EI_axis[0] - sw_strand_wall_along(p, beam) * round_of(beam);
   section.mass_per_length = beam->mass;
   section.radius = (1.0 - inset(p)) * beam->radius;
-  if (section.EI2 > 0) lattice.cubic.EI2 = section.EI2;
+  if (section.EI2 > 0) lattice->cubic.EI2 = section.EI2;
   section.EI2 = (double)NAN;
-  if (!isnan(p->wall) && (args.mesh != SW_LATTICE_TUBE || lattice.tube.core))
+  out->section = section;
+  if (!isnan(p->wall) && (out->args.mesh != SW_LATTICE_TUBE || lattice->tube.core))
     return sw_fail(err, SW_EINVAL,
                    "wire '%s': wall_bending = %.6g N m goes with model = 'tube' and core = false",
                    p->name, p->wall);
   if (!isnan(p->wall)) { /* chords and wide diagonals would also keep the ring round */
-    if (lattice.tube.brace < 0) lattice.tube.brace = 0;
-    if (lattice.tube.reach == 0) lattice.tube.reach = 1;
+    if (lattice->tube.brace < 0) lattice->tube.brace = 0;
+    if (lattice->tube.reach == 0) lattice->tube.reach = 1;
   }
-  const sw_status status = sw_calibrate(&args, &section, &lattice, out, &why);
+  return SW_OK;
+}
+
+static sw_status calibrate(const sw_strand_plan *p, const sw_strand_need *need, sw_calibration *out,
+                           sw_error *err) {
+  sw_lattice_args lattice = need->lattice;
+  sw_error why = {""};
+  const sw_status status = sw_calibrate(&need->args, &need->section, &lattice, out, &why);
   if (status == SW_OK) return SW_OK;
   const char *text = strncmp(why.text, "calibrate: ", 11) == 0 ? why.text + 11 : why.text;
   return sw_fail(err, status, "wire '%s' as %s: %.400s", p->name, p->mesh, text);
@@ -116,7 +123,9 @@ sw_status sw_strand_slices(const sw_strand_plan *p, const sw_beam *beam, double 
   double spacing = p->spacing;
   if (isnan(spacing)) {
     sw_calibration any = {0};
-    const sw_status status = calibrate(p, beam, spacing, 1.0, &any, err);
+    sw_strand_need need;
+    SW_TRY(need_of(p, beam, spacing, 1.0, &need, err));
+    const sw_status status = calibrate(p, &need, &any, err);
     spacing = any.lattice.spacing;
     sw_calibration_free(&any);
     SW_TRY(status);
@@ -238,17 +247,29 @@ static sw_status check_bent(const sw_strand_plan *p, const sw_calibration *c, do
              : sw_fail(err, status, "wire '%s' as %s: %.400s", p->name, p->mesh, why.text);
 }
 
+/* Makes the calibration of a mesh, or takes over a recent one. */
+static sw_status calibrated_of(const sw_strand_plan *p, const sw_beam *beam, double spacing,
+                               sw_strand_calibrated **out, sw_error *err) {
+  sw_strand_need need;
+  SW_TRY(need_of(p, beam, spacing, 1e-6, &need, err));
+  *out = sw_strand_recent_find(p->recent, &need);
+  if (*out) return SW_OK;
+  *out = sw_alloc(1, sizeof **out);
+  if (!*out) return sw_fail(err, SW_ENOMEM, "wire '%s': out of memory", p->name);
+  (*out)->references = 1;
+  SW_TRY(calibrate(p, &need, &(*out)->calibration, err));
+  sw_strand_recent_keep(p->recent, &need, *out);
+  return SW_OK;
+}
+
 sw_status sw_strand_new(const sw_strand_plan *plan, const sw_beam *beam, const sw_mesh *mesh,
                         const sw_strand_lie *lie, sw_strand *out, sw_error *err) {
   const double even = (mesh->s[mesh->n - 1] - mesh->s[0]) / (double)(mesh->n - 1);
   const double spacing = lie && lie->ring ? lie->spacing : even;
   memset(out, 0, sizeof *out);
   SW_TRY(sw_strand_check_count(plan, mesh->n, 1, err));
-  out->calibrated = sw_alloc(1, sizeof *out->calibrated);
-  if (!out->calibrated) return sw_fail(err, SW_ENOMEM, "wire '%s': out of memory", plan->name);
-  out->calibrated->references = 1;
-  sw_calibration *c = &out->calibrated->calibration;
-  SW_TRY(calibrate(plan, beam, spacing, 1e-6, c, err));
+  SW_TRY(calibrated_of(plan, beam, spacing, &out->calibrated, err));
+  const sw_calibration *c = &out->calibrated->calibration;
   SW_TRY(sw_strand_check_count(plan, mesh->n, c->lattice.particles, err));
   SW_TRY(check_rest(plan, &c->lattice, err));
   SW_TRY(check_bent(plan, c, mesh->s[mesh->n - 1] - mesh->s[0], beam->radius, err));
@@ -271,17 +292,6 @@ sw_status sw_strand_new(const sw_strand_plan *plan, const sw_beam *beam, const s
   out->web->line_skin = beam->radius;
   out->web->wall = isnan(plan->wall) ? 0.0 : plan->wall;
   return SW_OK;
-}
-
-void sw_strand_calibrated_retain(void *calibrated) {
-  ((sw_strand_calibrated *)calibrated)->references++;
-}
-
-void sw_strand_calibrated_release(void *calibrated) {
-  sw_strand_calibrated *k = calibrated;
-  if (!k || --k->references > 0) return;
-  sw_calibration_free(&k->calibration);
-  sw_free(k);
 }
 
 void sw_strand_free(sw_strand *s) {

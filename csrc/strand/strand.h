@@ -7,12 +7,7 @@
 #include "calibrate/calibrate.h"
 #include "state/mesh.h"
 #include "state/web.h"
-
-/* The calibration of a mesh, shared by all strands that have its web. */
-typedef struct sw_strand_calibrated {
-  int references;
-  sw_calibration calibration;
-} sw_strand_calibrated;
+#include "strand/calibrated.h"
 
 /* Particles of a wire; they define its state while the scene is not built. */
 typedef struct sw_strand {
@@ -31,10 +26,11 @@ typedef struct sw_strand_plan {
   int body;                /* see sw_calibrate_args */
   double wall;             /* bending stiffness of a tube's wall per length; NAN: none [N m] */
   sw_lattice_args lattice;
-  sw_section section; /* the user's values */
-  sw_vec normal;      /* direction of the lattice's x; NAN = any [-] */
-  int curved;         /* 1: the drawn shape is unstressed */
-  double rest_twist;  /* [rad/m] */
+  sw_section section;       /* the user's values */
+  sw_vec normal;            /* direction of the lattice's x; NAN = any [-] */
+  int curved;               /* 1: the drawn shape is unstressed */
+  double rest_twist;        /* [rad/m] */
+  sw_strand_recent *recent; /* calibrations to take over and to keep; or NULL */
 } sw_strand_plan;
 
 /* SW_EINVAL if this many rings of this many particles are too many. */
@@ -57,8 +53,6 @@ typedef struct sw_strand_lie {
 sw_status sw_strand_new(const sw_strand_plan *plan, const sw_beam *beam, const sw_mesh *mesh,
                         const sw_strand_lie *lie, sw_strand *out, sw_error *err);
 void sw_strand_free(sw_strand *strand);
-void sw_strand_calibrated_retain(void *calibrated);
-void sw_strand_calibrated_release(void *calibrated); /* NULL is allowed */
 /* Copies a strand; the copy shares constant data. A strand without a web gives an empty copy.
  * SW_ENOMEM. */
 sw_status sw_strand_copy(const sw_strand *from, sw_strand *to);
