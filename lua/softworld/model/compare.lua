@@ -109,7 +109,7 @@ local function glance_at(context, state, rungs, above, k)
   local there = probe.glance(context, above, k, choice, TOILS * here.steps)
   if not there.ok then return nil, true end
   if jumps(there) then return nil end
-  local now = { k = k, here = here, above = there, wide = true }
+  local now = { k = k, here = here, above = there, rungs = rungs, wide = true }
   local c, f = change.between(context, state, now, change.left_by_others), there.facts[choice.name]
   local all = change.hidden(c, HIDDEN)
   if all.worst >= HIDES or choice.shows(f) <= SEEN then return nil end
@@ -167,7 +167,7 @@ function compare.rungs(context, state, rungs, above, begin)
     if again and not doubtful and saves_nothing(context, before, again, k) then return c end
     local here, there = probe.of(context, rungs, k), probe.of(context, above, k)
     if k > 1 and not (here.ok and there.ok) then return c, not there.ok and rung.own and there.reason end
-    local now = { k = k, here = here, above = there, before = before }
+    local now = { k = k, here = here, above = there, rungs = rungs, before = before }
     local last = c
     c, before, state.compared = change.between(context, state, now, change.left_by_others), now, now
     now.worst, now.coarser = c.worst, last and now.before or level_before(context, state, rungs, above, k)

@@ -80,6 +80,16 @@ local function needs_finer(context, result)
   return false
 end
 
+-- Returns the level of a choice's next comparison: a finer one; or the same again if the last one was of
+-- another mesh than the finest run's, as meshes have edges of their own.
+local function next_level(context, state)
+  local k, was = state.compared.k, state.compared.rungs
+  for _, other in ipairs(context.states) do
+    if other.choice.steady and was[other.choice.name] ~= other.rung then return k end
+  end
+  return k + 1
+end
+
 -- Compares a choice on finer edges as long as the edges it was compared on show another state than the finest
 -- run. Nothing is compared if its rung cannot meet the tolerance there: then the next rung is taken. Returns
 -- true if another rung is chosen, or the run needs finer edges.
@@ -92,9 +102,11 @@ local function compared_finer(context, state, fine, result)
         .. "the tolerance"):format(as, finest.HOPELESS))
       return moved_on(context, state, as)
     end
-    state.from, state.by = state.compared.k + 1, nil
+    local before = state.compared
+    state.from, state.by = next_level(context, state), nil
     repeat until decide.look(context, state)
     if state.rung ~= rung then return moved_on(context, state, as) end
+    if state.compared == before then break end -- the next rung cannot be computed any more
   end
   return state.compared ~= nil and state.compared.k ~= k and needs_finer(context, result)
 end
