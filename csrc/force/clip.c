@@ -119,19 +119,10 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   return SW_OK;
 }
 
-/* Sets the largest friction of the next step from the normal force on each node. */
-static void measure_friction(const sw_clip *c, const sw_field *f, double *each) {
-  for (long e = sw_clip_find(c, f, 0); e >= 0; e = sw_clip_find(c, f, e + 1)) {
-    sw_clip_sum sum;
-    if (!sw_clip_edge(c, f, (size_t)e, SW_CLIP_WANT_PUSH, &sum)) continue;
-    for (size_t end = 0; end < 2; end++)
-      each[SW_CLIP_EACH * ((size_t)e + end) + SW_CLIP_MOST] += c->friction * sum.push[end];
-  }
-}
-
 /* Updates the friction springs after slipping, the dissipated work, and the largest friction of the
  * next step. A sticking node keeps its friction force as long as the new limit allows it. */
-static void commit_friction(const sw_clip *c, const sw_field *f, double *history) {
+static void commit_friction(const sw_clip *c, const sw_field *f, const sw_clip_pushes *known,
+                            double *history) {
   const double slip = SLIP * c->width;
   const size_t points = sw_axis_points(f->plan);
   const int begun = history[SW_CLIP_BEGUN] > 0;
@@ -146,7 +137,7 @@ static void commit_friction(const sw_clip *c, const sw_field *f, double *history
     h[SW_CLIP_STRETCH] = fabs(kept) < slip ? kept * h[SW_CLIP_MOST] : copysign(HUGE_VAL, kept);
     h[SW_CLIP_PLACE] = place_of(c, f, i), h[SW_CLIP_MOST] = 0;
   }
-  measure_friction(c, f, each);
+  sw_clip_measure_friction(c, f, known, each);
   history[SW_CLIP_RUBS] = 0;
   for (size_t i = 0; i < points; i++) {
     double *h = each + SW_CLIP_EACH * i;
@@ -200,7 +191,7 @@ static double catch_up(const void *args, const sw_field *f, int guesses, double 
   double most, now;
   if (sw_clip_is_broken(history) || !(c.friction > 0) || (guesses && !guessed)) return 0;
   const double before = friction_of(&c, f, history, &most);
-  commit_friction(&c, f, history);
+  commit_friction(&c, f, NULL, history);
   const double change = fabs(friction_of(&c, f, history, &now) - before);
   if (!(fmax(now, most) > 0)) return 0;
   return guessed ? HUGE_VAL : change / fmax(now, most);
@@ -285,7 +276,8 @@ static void commit(const void *args, const sw_field *f, double *history) {
   if (sw_clip_is_broken(history)) return;
   const int was_near = history[SW_CLIP_NEAR] > 0 || !(history[SW_CLIP_BEGUN] > 0);
   history[SW_CLIP_NEAR] = near_by(&c, f);
-  const sw_clip_middle m = sw_clip_middle_of(&c, f);
+  sw_clip_pushes pushes;
+  const sw_clip_middle m = sw_clip_middle_of(&c, f, c.friction > 0 ? &pushes : NULL);
   if (sw_clip_breaks(&c, &m, f->time, history)) { /* also from far to far within one step */
     give_up(&c, f, history);
     return;
@@ -294,7 +286,7 @@ static void commit(const void *args, const sw_field *f, double *history) {
     sw_clip_follow(&c, &m, f->time, f->statics, history);
     sw_clip_watch_edges(&c, &m, f->plan->beam.EI, history);
     history[SW_CLIP_LAST] = m.u;
-    if (c.friction > 0) commit_friction(&c, f, history);
+    if (c.friction > 0) commit_friction(&c, f, &pushes, history);
   }
   /* a wire that was above the mouth and left may come back from anywhere */
   if (!(history[SW_CLIP_NEAR] > 0) && history[SW_CLIP_STATE] == SW_CLIP_ABOVE)
@@ -331,7 +323,7 @@ static const char *const outputs[] = {
 
 static void read(const void *args, const sw_field *f, const double *history, double *out) {
   const sw_clip c = clip_of(args, f, history);
-  sw_clip_middle m = sw_clip_middle_of(&c, f);
+  sw_clip_middle m = sw_clip_middle_of(&c, f, NULL);
   if (sw_clip_is_broken(history)) m.force = sw_v(0, 0, 0), m.share = 0;
   double most;
   m.force = sw_madd(m.force, c.axis, friction_of(&c, f, history, &most));

@@ -18,11 +18,39 @@ static double slope(const sw_clip *c, const sw_field *f, size_t e) {
   return fabs(along) > fabs(up) ? up / along : 1.0;
 }
 
-sw_clip_middle sw_clip_middle_of(const sw_clip *c, const sw_field *f) {
-  sw_clip_middle m = {0};
+static void note_push(sw_clip_pushes *p, size_t edge, const double push[2]) {
+  const size_t i = p->count++;
+  if (i >= SW_CLIP_KNOWN) return;
+  p->edge[i] = edge;
+  for (int end = 0; end < 2; end++) p->push[i][end] = push[end];
+}
+
+static void add_friction(const sw_clip *c, size_t edge, const double push[2], double *each) {
+  for (size_t end = 0; end < 2; end++)
+    each[SW_CLIP_EACH * (edge + end) + SW_CLIP_MOST] += c->friction * push[end];
+}
+
+void sw_clip_measure_friction(const sw_clip *c, const sw_field *f, const sw_clip_pushes *known,
+                              double *each) {
+  if (known && known->count <= SW_CLIP_KNOWN) {
+    for (size_t i = 0; i < known->count; i++) add_friction(c, known->edge[i], known->push[i], each);
+    return;
+  }
   for (long e = sw_clip_find(c, f, 0); e >= 0; e = sw_clip_find(c, f, e + 1)) {
     sw_clip_sum sum;
-    if (!sw_clip_edge(c, f, (size_t)e, SW_CLIP_WANT_MIDDLE, &sum)) continue;
+    if (sw_clip_edge(c, f, (size_t)e, SW_CLIP_WANT_PUSH, &sum))
+      add_friction(c, (size_t)e, sum.push, each);
+  }
+}
+
+sw_clip_middle sw_clip_middle_of(const sw_clip *c, const sw_field *f, sw_clip_pushes *pushes) {
+  const int what = SW_CLIP_WANT_MIDDLE | (pushes ? SW_CLIP_WANT_PUSH : 0);
+  sw_clip_middle m = {0};
+  if (pushes) pushes->count = 0;
+  for (long e = sw_clip_find(c, f, 0); e >= 0; e = sw_clip_find(c, f, e + 1)) {
+    sw_clip_sum sum;
+    if (!sw_clip_edge(c, f, (size_t)e, what, &sum)) continue;
+    if (pushes) note_push(pushes, (size_t)e, sum.push);
     m.share += sum.share;
     m.u += sum.u, m.v += sum.v, m.s += sum.s;
     m.passes += sum.all[0], m.at[0] += sum.all[1], m.at[1] += sum.all[2];

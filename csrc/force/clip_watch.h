@@ -78,7 +78,23 @@ typedef struct sw_clip_middle {
   double edge;    /* length of the longest edge in the clip [m] */
 } sw_clip_middle;
 
-sw_clip_middle sw_clip_middle_of(const sw_clip *clip, const sw_field *field);
+/* Pushes of lips, floor and walls on the ends of the edges in the clip (sw_clip_sum). With more
+ * edges than KNOWN they are not complete: then they are summed again. */
+enum { SW_CLIP_KNOWN = 16 };
+typedef struct sw_clip_pushes {
+  size_t count; /* of edges, also of those that have no room */
+  size_t edge[SW_CLIP_KNOWN];
+  double push[SW_CLIP_KNOWN][2]; /* [N] */
+} sw_clip_pushes;
+
+/* pushes: filled, or NULL. */
+sw_clip_middle sw_clip_middle_of(const sw_clip *clip, const sw_field *field,
+                                 sw_clip_pushes *pushes);
+
+/* Adds the largest friction of the next step to each place. known: the pushes in this state, or
+ * NULL. */
+void sw_clip_measure_friction(const sw_clip *clip, const sw_field *field,
+                              const sw_clip_pushes *known, double *each);
 
 /* After a step: 1 if the wire has broken the clip. The clip does not act on this wire from then
  * on. */
