@@ -13,15 +13,11 @@ size_t sw_axis_points(const sw_plan *p) {
 
 double sw_axis_s(const sw_plan *p, size_t i) { return p->s[p->web ? p->web->first[i] : i]; }
 
-static sw_vec middle_of(const sw_field *f, const double *values, size_t i) {
+sw_vec sw_axis_middle(const sw_field *f, const double *values, size_t i) {
   double middle[3];
-  if (!f->plan->web) return sw_load(values + 3 * i);
   sw_web_middle(f->plan->web, values, i, middle);
   return sw_load(middle);
 }
-
-sw_vec sw_axis_at(const sw_field *f, size_t i) { return middle_of(f, f->x, i); }
-sw_vec sw_axis_velocity(const sw_field *f, size_t i) { return middle_of(f, f->v, i); }
 
 double sw_axis_stable_dt(const sw_plan *p, double stiffness) {
   double least = HUGE_VAL;

@@ -10,9 +10,19 @@
 #include "state/field.h"
 
 size_t sw_axis_points(const sw_plan *plan);
-double sw_axis_s(const sw_plan *plan, size_t i);          /* arc length of place i [m] */
-sw_vec sw_axis_at(const sw_field *field, size_t i);       /* [m] */
-sw_vec sw_axis_velocity(const sw_field *field, size_t i); /* [m/s] */
+double sw_axis_s(const sw_plan *plan, size_t i); /* arc length of place i [m] */
+/* Returns the middle of ring i of these values, three for each particle of a mesh. */
+sw_vec sw_axis_middle(const sw_field *field, const double *values, size_t i);
+
+/* Returns place i [m]. */
+static inline sw_vec sw_axis_at(const sw_field *f, size_t i) {
+  return f->plan->web ? sw_axis_middle(f, f->x, i) : sw_load(f->x + 3 * i);
+}
+
+/* Returns its velocity [m/s]. */
+static inline sw_vec sw_axis_velocity(const sw_field *f, size_t i) {
+  return f->plan->web ? sw_axis_middle(f, f->v, i) : sw_load(f->v + 3 * i);
+}
 
 /* Returns leapfrog's largest stable step 2 / omega [s] for a spring of this stiffness [N/m]. The
  * spring moves at least the mass of half the shortest edge. */
