@@ -95,7 +95,7 @@ end
 -- true if another rung is chosen, or the run needs finer edges.
 local function compared_finer(context, state, fine, result)
   local rung, as = state.rung, state.choice.rungs[state.rung].as
-  local last, k = compare.last(context, state.choice), state.compared and state.compared.k
+  local last, first = compare.last(context, state.choice), state.compared
   while change.is_elsewhere(context, state, fine) and state.compared.k < last do
     if state.rung < state.last and is_lost(context, result) then
       decide.raise(context, state, ("%s jump on fine edges, which leaves an error bar of more than %d times "
@@ -108,7 +108,7 @@ local function compared_finer(context, state, fine, result)
     if state.rung ~= rung then return moved_on(context, state, as) end
     if state.compared == before then break end -- the next rung cannot be computed any more
   end
-  return state.compared ~= nil and state.compared.k ~= k and needs_finer(context, result)
+  return state.compared ~= first and needs_finer(context, result)
 end
 
 -- Settles a choice anew if the finest run shows that its free check tells nothing, nor would the next rung.
