@@ -114,6 +114,7 @@ static void rail(const sw_hold *h, sw_rail *out) {
                    .from = x->from,
                    .to = x->to,
                    .friction = x->friction,
+                   .left = HUGE_VAL,
                    .p = x->p,
                    .v = x->v,
                    .a = x->a,

@@ -31,6 +31,9 @@ typedef struct sw_rail {
   double way;         /* direction of motion, +1 or -1 [-] */
   double step;        /* change of p in the last update [m] */
   int open;           /* 1: the stage needs another update */
+  double left;        /* share of the stiffness along the curve that friction leaves as the node
+                         slides, in the last update. Below 0 friction grows faster than what drives
+                         the node; infinite without friction [-] */
   double own[9];      /* the node's own block [N/m] */
   sw_vec along, bend; /* at the iterate, world axes [-], [1/m] */
   sw_vec before;      /* reaction after the update of the other unknowns alone [N] */

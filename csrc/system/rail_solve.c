@@ -171,6 +171,13 @@ static int is_given(const sw_rail *r, const sw_stage *stage, size_t at, double *
 
 static double *shift_of(const sw_system *s, size_t k) { return s->rail_room + 4 * s->nodes * k; }
 
+/* A shift of the node by 1 along the curve changes its reaction by f. In steps this contains the
+ * wire's inertia. */
+static double share_left(const sw_rail *r, sw_vec test, sw_vec f) {
+  const double without = sw_dot(r->along, f);
+  return r->friction > 0 && without > 0 ? sw_dot(test, f) / without : HUGE_VAL;
+}
+
 /* Sets up the rails' equations in A and b. Rails of other parts do not move. */
 static void set_up(sw_system *s, const sw_stage *stage, double *A, double *b) {
   const size_t m = s->rail_count;
@@ -185,16 +192,18 @@ static void set_up(sw_system *s, const sw_stage *stage, double *A, double *b) {
     r->before = reaction_now(s, r, sw_v(0, 0, 0));
   }
   for (size_t k = 0; k < m; k++) {
-    const sw_rail *r = &s->rails[k];
+    sw_rail *r = &s->rails[k];
+    r->left = HUGE_VAL;
     if (!sw_rail_is_part(s, r) || is_given(r, stage, sw_rail_freedom(s, k), &b[k])) continue;
     const sw_vec test = test_of(r);
     const size_t first = s->bodies[sw_rail_node(s, r)->body].first_node;
     for (size_t j = 0; j < m; j++) {
       const double *nodes = shift_of(s, j), *spins = nodes + 3 * s->nodes + first;
+      if (!sw_rail_is_part(s, &s->rails[j])) continue; /* its column stays 0 */
       const sw_vec own = j == k ? r->along : sw_v(0, 0, 0);
-      A[m * k + j] = sw_rail_is_part(s, &s->rails[j])
-                         ? sw_dot(test, reaction_of(s, r, nodes, spins, 1, own))
-                         : 0.0;
+      const sw_vec f = reaction_of(s, r, nodes, spins, 1, own);
+      A[m * k + j] = sw_dot(test, f);
+      if (j == k) r->left = share_left(r, test, f);
     }
     A[m * k + k] += sw_dot(r->bend, r->before);
     b[k] = -sw_dot(test, r->before);

@@ -62,6 +62,7 @@ static sw_status log_holds(sw_scene *s, sw_error *err) {
     const int at_end = obeys_at_end(h);
     if (at_end) h->force = h->end_force, h->moment = h->end_moment;
     SW_TRY(sw_hold_look_out(s, h, err));
+    if (h->cls->hold->rail) sw_hold_watch_jam(s, h);
     row[SW_LOG_TIME] = sw_scene_time(s);
     sw_vec force = h->force, moment = h->moment;
     const int mean = !at_end && sw_hold_jerked(s, h, &force, &moment);

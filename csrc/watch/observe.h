@@ -61,6 +61,8 @@ int sw_hold_watch_press(sw_scene *scene, const sw_hold *hold, size_t obstacle, d
 /* The same for a hold whose direction leads the wire's next edge more than `noticed` [m] deeper
  * into an obstacle than the held place is. */
 sw_status sw_hold_watch_tilt(sw_scene *scene, const sw_hold *hold, double noticed, sw_error *err);
+/* Reports a slider whose friction locks, or nearly locks, as it slides. */
+void sw_hold_watch_jam(sw_scene *scene, const sw_hold *hold);
 /* 1 if a hold was driven into an obstacle after `since`, the step's start. */
 int sw_hold_crashed(const sw_scene *scene, double since);
 

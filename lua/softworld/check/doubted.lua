@@ -18,6 +18,7 @@ local kinds = {
   threshold = { "an end is near the limit of friction: small differences decide its peaks", own = true,
     places = true },
   rebound = { "an end strikes again: small differences decide its peaks", own = true, places = true },
+  jam = { "friction of a slider locks: small differences decide forces and places", places = true },
   energy = { "steps made energy: take smaller steps", only = "^steps made .* from nowhere" },
   buckling = { "a straight or plane wire should have buckled", own = true, places = true, always = true },
   integrator = { "the integrator gains energy in contact: take tr-bdf2", always = true },
