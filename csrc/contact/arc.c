@@ -125,3 +125,43 @@ double sw_contact_arc_mean(const sw_system *s, const sw_candidate *k, const sw_m
   if (rise > m->rise && is_at_clamp(b->plan, k->node - b->first_node)) return rise;
   return m->rise + (rise - m->rise) / MEAN_STEPS;
 }
+
+/* MOST_ARC: largest sine of a turn between chords that represent an arc. A neighbouring chord
+ * counts fully from 1/BESIDE of the force on, and gradually below; otherwise friction would jump
+ * with it [-]. */
+static const double MOST_ARC = 0.8, BESIDE = 10.0;
+
+/* Normal force of the candidate's obstacle on the segment before (by -1) or after (by 1) [N]. */
+static double force_beside(const sw_contact *c, const sw_candidate *k, int by) {
+  const int id = c->obstacles[k->obstacle].id;
+  const size_t node = k->node + (size_t)by;
+  double sum = 0;
+  for (size_t i = by < 0 ? k->memory : k->memory_end;
+       by < 0 ? i-- > 0 : i<c->memory_count; i += by> 0) {
+    const sw_memory *m = &c->memory[i];
+    if (by < 0 ? m->node < node : m->node > node) break;
+    if (m->node == node && m->obstacle == id && m->segment) sum += m->kept.steady;
+  }
+  return sum;
+}
+
+double sw_contact_arc_friction(const sw_contact *c, const sw_system *s, const sw_memory *m,
+                               const sw_touch *t, double mu) {
+  const sw_candidate *k = &c->candidates[t->candidate];
+  const sw_body *b = &s->bodies[t->body];
+  const size_t i = k->node - b->first_node;
+  if (!m || !(m->kept.steady > 0) || !k->segment || (k->smooth && !k->round) || k->samples ||
+      b->plan->web)
+    return mu;
+  const sw_vec zero = sw_v(0, 0, 0);
+  double turn = 0;
+  for (int by = -1; by <= 1; by += 2) {
+    if (by < 0 ? i == 0 : i + 1 >= b->plan->edges) continue;
+    const size_t n = k->node + (size_t)by;
+    const sw_vec edge = sw_sub(sw_vec_at(s->x, n + 1), sw_vec_at(s->x, n));
+    const double in = -by * sw_dot(t->press.normal, sw_unit_or(edge, zero));
+    const double share = sw_smaller(1.0, BESIDE * force_beside(c, k, by) / m->kept.steady);
+    turn += 0.5 * share * asin(sw_smaller(sw_larger(in, 0.0), MOST_ARC));
+  }
+  return turn > 0 && mu > 0 ? sinh(mu * turn) / sin(turn) : mu;
+}

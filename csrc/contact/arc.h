@@ -21,4 +21,11 @@ double sw_contact_arc_rise(const sw_contact *c, const sw_system *s, const sw_can
 double sw_contact_arc_mean(const sw_system *s, const sw_candidate *k, const sw_memory *m,
                            double rise);
 
+/* Coefficient of friction on chords round an obstacle [-]. Chords touch in their middles and
+ * friction turns with them, while on a wire it follows the arc. If a chord and its pressing
+ * neighbours turn by phi from middle to middle, ln(T2/T1) = mu phi needs the coefficient sinh(mu
+ * phi)/sin(phi) instead of mu (balance of a polygon's corners). */
+double sw_contact_arc_friction(const sw_contact *c, const sw_system *s, const sw_memory *m,
+                               const sw_touch *t, double mu);
+
 #endif

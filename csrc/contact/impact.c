@@ -215,7 +215,7 @@ static int strike(sw_contact *c, sw_system *s, const sw_pressed *t, double h) {
   sw_vec v = e.speed;
   if (levers.count) v = sw_add(v, sw_levers_shift(&levers, s->v + 3 * s->nodes + b->first_roll, 1));
   const sw_vec along = sw_madd(v, t->normal, -sw_dot(v, t->normal));
-  const sw_vec brake = sw_levers_brake(&b->plan->beam, &levers, along, o->friction * change);
+  const sw_vec brake = sw_levers_brake(&b->plan->beam, &levers, along, o->kinetic * change);
   const sw_vec dv = sw_madd(brake, t->normal, change);
   for (size_t k = 0; k < t->spot.count; k++) {
     if (!(w[k] > 0)) continue;

@@ -21,11 +21,6 @@ static const double STILL_NEAR = 0.5, SAME_SIDE = 0.7;
  * have had too many touches at once; without them nothing would hold the mesh. */
 enum { SPARE_PULLS = 1 };
 
-/* MOST_ARC: largest sine of a turn between chords that represent an arc. A neighbouring chord
- * counts fully from 1/BESIDE of the force on, and gradually below; otherwise friction would jump
- * with it [-]. */
-static const double MOST_ARC = 0.8, BESIDE = 10.0;
-
 enum { LINE = 64 }; /* cache line [B] */
 
 /* Returns a new touch, all zero, at the end of the list; NULL: out of memory. The next place is
@@ -185,45 +180,6 @@ static double felt_stiffness(const sw_contact *c, const sw_system *s, const sw_t
   return NEIGHBOURS * c->candidates[t->candidate].mass / (c->h * c->h);
 }
 
-/* Normal force of the candidate's obstacle on the segment before (by -1) or after (by 1) [N]. */
-static double force_beside(const sw_contact *c, const sw_candidate *k, int by) {
-  const int id = c->obstacles[k->obstacle].id;
-  const size_t node = k->node + (size_t)by;
-  double sum = 0;
-  for (size_t i = by < 0 ? k->memory : k->memory_end;
-       by < 0 ? i-- > 0 : i<c->memory_count; i += by> 0) {
-    const sw_memory *m = &c->memory[i];
-    if (by < 0 ? m->node < node : m->node > node) break;
-    if (m->node == node && m->obstacle == id && m->segment) sum += m->kept.steady;
-  }
-  return sum;
-}
-
-/* Coefficient of friction on chords round an obstacle [-]. Chords touch in their middles and
- * friction turns with them, while on a wire it follows the arc. If a chord and its pressing
- * neighbours turn by phi from middle to middle, ln(T2/T1) = mu phi needs the coefficient sinh(mu
- * phi)/sin(phi) instead of mu (balance of a polygon's corners). */
-static double of_arc(const sw_contact *c, const sw_system *s, const sw_memory *m, const sw_touch *t,
-                     double mu) {
-  const sw_candidate *k = &c->candidates[t->candidate];
-  const sw_body *b = &s->bodies[t->body];
-  const size_t i = k->node - b->first_node;
-  if (!m || !(m->kept.steady > 0) || !k->segment || (k->smooth && !k->round) || k->samples ||
-      b->plan->web)
-    return mu;
-  const sw_vec zero = sw_v(0, 0, 0);
-  double turn = 0;
-  for (int by = -1; by <= 1; by += 2) {
-    if (by < 0 ? i == 0 : i + 1 >= b->plan->edges) continue;
-    const size_t n = k->node + (size_t)by;
-    const sw_vec edge = sw_sub(sw_vec_at(s->x, n + 1), sw_vec_at(s->x, n));
-    const double in = -by * sw_dot(t->press.normal, sw_unit_or(edge, zero));
-    const double share = sw_smaller(1.0, BESIDE * force_beside(c, k, by) / m->kept.steady);
-    turn += 0.5 * share * asin(sw_smaller(sw_larger(in, 0.0), MOST_ARC));
-  }
-  return turn > 0 && mu > 0 ? sinh(mu * turn) / sin(turn) : mu;
-}
-
 /* Where nothing touched before, a shift along the surface of up to this many roundings of the
  * position counts as zero. It would give friction a random direction, different for each touch
  * [-]. */
@@ -250,6 +206,32 @@ static int counts_reversals(const sw_contact *c, const sw_system *s, const sw_to
   return (web && web->solid_rate2 > 0) || sw_contact_moves(c);
 }
 
+/* A touch without memory slides if its speed along the surface at the step's start would carry it
+ * farther than this in the step: friction's spring holds up to about as far [m]. */
+static const double CARRIED = 5e-6;
+
+/* 1 if a touch without memory slides already at the step's start. */
+static int comes_sliding(const sw_contact *c, const sw_system *s, const sw_touch *t) {
+  const sw_body *b = &s->bodies[t->body];
+  const sw_vec wall = sw_obstacle_velocity(&c->start[t->obstacle], t->point);
+  sw_vec v = sw_sub(sw_mean_of(s->v, 0, &t->spot), wall);
+  if (b->roll_block) {
+    const sw_levers levers = sw_touch_levers(s, t);
+    v = sw_add(v, sw_levers_shift(&levers, s->v + 3 * s->nodes + b->first_roll, 1));
+  }
+  v = sw_madd(v, t->press.normal, -sw_dot(v, t->press.normal));
+  return sw_norm(v) * c->h > CARRIED;
+}
+
+/* Coefficient of a touch [-]. */
+static double coefficient(const sw_contact *c, const sw_system *s, const sw_memory *m,
+                          const sw_touch *t) {
+  const sw_contact_obstacle *o = &c->obstacles[t->obstacle];
+  if (o->kinetic == o->friction) return o->friction;
+  if (m) return m->kept.sliding ? o->kinetic : o->friction;
+  return c->regime != SW_CONTACT_STATIC && comes_sliding(c, s, t) ? o->kinetic : o->friction;
+}
+
 /* Begins friction of a touch. A new touch has moved freely, so it slides first. For a rolling wire
  * a long spring does not mean a slide: on a curved surface its shift and its turn are predicted
  * less exactly than that. */
@@ -266,9 +248,8 @@ static void begin_friction(const sw_contact *c, const sw_system *s, const sw_mem
   sw_press_aim(press, u, last ? &last->press : NULL, last && last->stage == c->stage, c->first);
   if (last && last->press.reversals > 0 && counts_reversals(c, s, t))
     press->reversals = last->press.reversals;
-  const sw_contact_obstacle *o = &c->obstacles[t->obstacle];
   const int went_on = last && last->press.active, searches = last && c->ahead_count;
-  t->friction = of_arc(c, s, m, t, m && m->kept.sliding ? o->kinetic : o->friction);
+  t->friction = sw_contact_arc_friction(c, s, m, t, coefficient(c, s, m, t));
   t->slid = m ? m->slid : 0.0;
   if (searches) press->ahead = last->press.ahead;
   sw_press_resume(press, m ? &m->kept : NULL, last ? &last->press : NULL, went_on || searches,
