@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Mean loads of holds over a step with a jerk. A hold that starts or stops abruptly gives its wire
- * an impulse. The stages' forces add up to this impulse as the stages add up to the velocity. Each
- * of these forces grows without bound as steps get shorter, and the force at the step's end does
- * not give the impulse. */
+/* Mean loads of holds over a step with a jerk, or after a jump of acceleration, whose start has
+ * another force than the end of the step before. A hold that starts or stops abruptly gives its
+ * wire an impulse. The stages' forces add up to this impulse as the stages add up to the velocity.
+ * Each of these forces grows without bound as steps get shorter, and the force at the step's end
+ * does not give the impulse. */
 #include <math.h>
 
 #include "body/hold.h"

@@ -16,7 +16,7 @@ typedef struct sw_course {
   int next;        /* SW_AS_BEFORE, ...: how the next step begins */
   int has_stepper; /* 1: the stepper exists */
   int jerks;       /* 1: a drive starts or stops abruptly at the present step's start, see
-                      step/restart.h */
+                      step/restart.h; 2: its acceleration jumps there, see step/corner.h */
   int smooth;      /* 1: no velocity of a script's function jumps within the present step */
   const sw_integrator *method; /* of the stepper */
   sw_stepper stepper;

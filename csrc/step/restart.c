@@ -62,10 +62,11 @@ sw_status sw_restart_jerks(const sw_scene *s, double time, double h, int *jerks,
 sw_status sw_restart_at_jerk(sw_scene *s, double h, sw_error *err) {
   sw_course *c = sw_scene_course(s);
   SW_TRY(sw_restart_jerks(s, sw_scene_time(s), h, &c->jerks, err));
-  int corner = 0;
+  int corner = 0, turned = 0;
   if (!c->jerks) SW_TRY(sw_corner_now(s, &corner, err));
-  if (sw_scene_contact(s)) corner |= sw_contact_turned(sw_scene_contact(s), sw_scene_system(s), h);
-  if (!c->jerks && !corner) return SW_OK;
+  if (corner) c->jerks = 2;
+  if (sw_scene_contact(s)) turned = sw_contact_turned(sw_scene_contact(s), sw_scene_system(s), h);
+  if (!c->jerks && !turned) return SW_OK;
   c->stepper.restart |= 1;
   sw_system_uneven(sw_scene_system(s)); /* forces from before would be extrapolated past the jump */
   return SW_OK;

@@ -9,7 +9,8 @@ rows.calls{
   { "obstacle.present", nil, "whether it is still in its scene", "true or false" },
   { "obstacle:force", "", "force of wires on it: mean over the last step, impacts included",
     "{x, y, z} [N]" },
-  { "obstacle:moment", "", "moment of wires on it, about its origin", "{x, y, z} [N m]" },
+  { "obstacle:moment", "{ at = }", "moment of wires on it, about a point [m] (default: the world's origin, "
+    .. "not its own)", "{x, y, z} [N m]" },
   { "obstacle:over", "t1, t2, { window = }", "its loads between two times; without times, of the whole "
     .. "series",
     "see help 'peaks'" },
