@@ -76,6 +76,9 @@ void sw_scene_watch_sinking(sw_scene *scene, size_t wire);
 /* Reports a wire or object whose solid elements a damping's stiffness does not damp. */
 void sw_scene_watch_undamped(sw_scene *scene, size_t wire);
 
+/* Reports a wire that breaks loose within a step, where friction of sliding is less. */
+void sw_scene_watch_loose(sw_scene *scene, size_t wire);
+
 /* Reports an end of a rod that is pushed onto an obstacle and nearly slips, or hardly does. */
 void sw_scene_watch_poke(sw_scene *scene, size_t wire);
 
