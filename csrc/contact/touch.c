@@ -206,11 +206,13 @@ static int counts_reversals(const sw_contact *c, const sw_system *s, const sw_to
   return (web && web->solid_rate2 > 0) || sw_contact_moves(c);
 }
 
-/* A touch without memory slides if its speed along the surface at the step's start would carry it
- * farther than this in the step: friction's spring holds up to about as far [m]. */
+/* A touch that did not slide before slides at once if its speed along the surface at the step's
+ * start would carry it farther than this in the step: friction's spring holds up to about as far
+ * [m]. */
 static const double CARRIED = 5e-6;
 
-/* 1 if a touch without memory slides already at the step's start. */
+/* 1 if a touch that did not slide before slides already at the step's start: the wire lands, was
+ * thrown, or lies on something that has jumped to a speed. */
 static int comes_sliding(const sw_contact *c, const sw_system *s, const sw_touch *t) {
   const sw_body *b = &s->bodies[t->body];
   const sw_vec wall = sw_obstacle_velocity(&c->start[t->obstacle], t->point);
@@ -228,7 +230,7 @@ static double coefficient(const sw_contact *c, const sw_system *s, const sw_memo
                           const sw_touch *t) {
   const sw_contact_obstacle *o = &c->obstacles[t->obstacle];
   if (o->kinetic == o->friction) return o->friction;
-  if (m) return m->kept.sliding ? o->kinetic : o->friction;
+  if (m && m->kept.sliding) return o->kinetic;
   return c->regime != SW_CONTACT_STATIC && comes_sliding(c, s, t) ? o->kinetic : o->friction;
 }
 
