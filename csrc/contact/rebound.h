@@ -39,5 +39,7 @@ double sw_rebound_limit(sw_contact *c, const sw_system *s, const sw_pressed *t,
 /* 1 if a free wire's slip on a moving obstacle turns round within a step that ends with velocities
  * v1; c->soonest is then the time at which the step should end (turn.c). */
 int sw_contact_turns(sw_contact *c, const sw_system *s, const double *v1, double h);
+/* 1 if a wire breaks loose within a step of h; c->soonest is then half of it (loose.c). */
+int sw_contact_breaks_loose(sw_contact *contact, const sw_system *system, double h);
 
 #endif

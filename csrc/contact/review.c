@@ -233,7 +233,8 @@ sw_contact_verdict sw_contact_review(sw_contact *c, sw_system *s, const double *
   const int smaller = bars_too_hard(c, s, h) || cuts_deep(c, s, x1, h) || slips_off(c, s, x1, h) ||
                       brushes(c, s, x1, h);
   if (smaller) return SW_CONTACT_SMALLER;
-  return sw_contact_turns(c, s, v1, h) ? SW_CONTACT_SOONER : SW_CONTACT_ACCEPT;
+  const int sooner = sw_contact_turns(c, s, v1, h) || sw_contact_breaks_loose(c, s, h);
+  return sooner ? SW_CONTACT_SOONER : SW_CONTACT_ACCEPT;
 }
 
 int sw_contact_review_static(sw_contact *c, sw_system *s, const double *x1) {
