@@ -24,8 +24,13 @@ static double place_of(const sw_touch *t) {
   return (double)t->node + (t->other != t->node ? fmin(fmax(t->at, 0.0), 1.0) : 0.0);
 }
 
+static int is_pad(const sw_contact *c, const sw_touch *t) {
+  return c->obstacles[t->obstacle].grips > 0;
+}
+
 /* A facing touch on one side only is no pinch: the wire turns between both, as an end that pokes at
- * one wall behind a corner of the other. */
+ * one wall behind a corner of the other. Pads are made to pinch; the outermost touch of one pad may
+ * lie beyond those of the other (spec/contact/round_pad_spec). */
 int sw_contact_is_pinched(const sw_contact *c, const sw_touch *t) {
   const sw_touch *const first = c->touches, *const end = first + c->touch_count;
   int before = 0, after = 0;
@@ -34,6 +39,7 @@ int sw_contact_is_pinched(const sw_contact *c, const sw_touch *t) {
   while (to < end && is_near(t, to)) to++;
   for (const sw_touch *other = from; other < to; other++) {
     if (other == t || !faces(t, other)) continue;
+    if (is_pad(c, t) && is_pad(c, other)) return 1;
     const double way = place_of(other) - place_of(t);
     if (way < ONE_PLACE) before = 1;
     if (way > -ONE_PLACE) after = 1;
