@@ -207,9 +207,10 @@ static int counts_reversals(const sw_contact *c, const sw_system *s, const sw_to
 }
 
 /* A touch that did not slide before slides at once if its speed along the surface at the step's
- * start would carry it farther than this in the step: friction's spring holds up to about as far
- * [m]. */
-static const double CARRIED = 5e-6;
+ * start would carry it farther than CARRIED in the step (friction's spring holds up to about as
+ * far), or is above SLIDES: in the short parts of a blow a wire that lands slides less far [m],
+ * [m/s]. */
+static const double CARRIED = 5e-6, SLIDES = 1e-3;
 
 /* 1 if a touch that did not slide before slides already at the step's start: the wire lands, was
  * thrown, or lies on something that has jumped to a speed. */
@@ -222,7 +223,7 @@ static int comes_sliding(const sw_contact *c, const sw_system *s, const sw_touch
     v = sw_add(v, sw_levers_shift(&levers, s->v + 3 * s->nodes + b->first_roll, 1));
   }
   v = sw_madd(v, t->press.normal, -sw_dot(v, t->press.normal));
-  return sw_norm(v) * c->h > CARRIED;
+  return sw_norm(v) > fmin(CARRIED / c->h, SLIDES);
 }
 
 /* Coefficient of a touch [-]. */
