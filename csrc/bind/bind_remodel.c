@@ -17,6 +17,7 @@ static int recent_free(lua_State *L) {
 /* Returns this Lua state's recent meshes. */
 static struct sw_strand_recent *recent_of(lua_State *L) {
   if (lua_rawgetp(L, LUA_REGISTRYINDEX, &recent_key) != LUA_TUSERDATA) {
+    /* NOLINTNEXTLINE(bugprone-sizeof-expression): it holds a pointer */
     struct sw_strand_recent **made = lua_newuserdatauv(L, sizeof *made, 0);
     *made = NULL;
     lua_createtable(L, 0, 1);

@@ -26,6 +26,7 @@ void sw_strand_calibrated_release(void *calibrated) {
 
 sw_strand_calibrated *sw_strand_recent_find(const sw_strand_recent *r, const sw_strand_need *need) {
   for (size_t i = 0; r && i < KEPT; i++) {
+    /* NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): see sw_strand_need */
     if (!r->made[i] || memcmp(&r->need[i], need, sizeof *need) != 0) continue;
     sw_strand_calibrated_retain(r->made[i]);
     return r->made[i];
