@@ -37,6 +37,10 @@ double sw_contact_push_part(const sw_contact *contact, const sw_system *system);
 /* Length from an end of the wire (0: its start) to the next held node, or to its other end [m]. */
 double sw_contact_free_length(const sw_plan *plan, int last);
 
+/* Friction that a body's touches lose as they begin to slide in the last step, where friction of
+ * sliding is less than that of sticking (loose.c) [N]. */
+double sw_contact_lost(const sw_contact *contact, const sw_body *body);
+
 /* 1 if a slip turns round now, before a step of size h: friction of the last step is over (turn.c).
  */
 int sw_contact_turned(const sw_contact *contact, const sw_system *system, double h);

@@ -5,6 +5,7 @@
  * shortly before that moment. */
 #include <math.h>
 
+#include "contact/jolt.h"
 #include "contact/rebound.h"
 #include "contact/touch.h"
 
@@ -21,6 +22,15 @@ static double lost_by(const sw_contact *c, const sw_touch *t) {
   return (o->friction - o->kinetic) * t->press.normal_force;
 }
 
+double sw_contact_lost(const sw_contact *c, const sw_body *b) {
+  size_t i, end;
+  double sum = 0;
+  sw_contact_touches_of(c, b->first_node, b->first_node + b->plan->nodes, &i, &end);
+  for (; i < end && i < c->touch_count; i++) /* not those that wait */
+    sum += lost_by(c, &c->touches[i]);
+  return sum;
+}
+
 int sw_contact_breaks_loose(sw_contact *c, const sw_system *s, double h) {
   if (c->regime != SW_CONTACT_IMPLICIT || !isfinite(c->least)) return 0;
   for (size_t i = 0; i < c->touch_count;) { /* sorted by body */
@@ -28,7 +38,7 @@ int sw_contact_breaks_loose(sw_contact *c, const sw_system *s, double h) {
     double lost = 0;
     for (; i < c->touch_count && c->touches[i].body == body; i++)
       lost += lost_by(c, &c->touches[i]);
-    if (lost * h > LATE * sw_contact_usual_force(s, s->bodies[body].plan))
+    if (lost > 0 && lost * h > LATE * sw_contact_usual_force(s, s->bodies[body].plan))
       c->soonest = fmin(c->soonest, 0.5 * h);
   }
   return c->soonest < h;

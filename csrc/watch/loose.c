@@ -5,9 +5,9 @@
 #include <math.h>
 
 #include "contact/contact.h"
+#include "contact/jolt.h"
 #include "scene/course.h"
 #include "scene/events.h"
-#include "scene/obstacle.h"
 #include "scene/parts.h"
 #include "scene/wire.h"
 #include "system/system.h"
@@ -20,29 +20,13 @@ static const double LATE = 0.03;
 /* Shorter parts, as those of a blow, resolve it [s]. */
 static const double SHORT = 3e-4;
 
-/* Friction that the wire's touches lose as they begin to slide in the last step [N]. */
-static double lost_by(const sw_scene *s, const sw_body *b) {
-  const sw_contact *c = sw_scene_contact(s);
-  size_t k = 0, stop = 0;
-  double sum = 0;
-  sw_contact_touches_of(c, b->first_node, b->first_node + b->plan->nodes, &k, &stop);
-  for (; k < stop; k++) {
-    sw_contact_push p;
-    if (!sw_contact_push_at(c, sw_scene_system(s), k, &p) || p.obstacle < 0 || !p.slides) continue;
-    const sw_scene_obstacle *o = sw_scene_obstacle_in(s, (size_t)p.obstacle);
-    if (o->kinetic < o->friction && p.friction >= o->friction)
-      sum += (o->friction - o->kinetic) * p.normal_force;
-  }
-  return sum;
-}
-
 void sw_scene_watch_loose(sw_scene *s, size_t wire) {
   const sw_course *course = sw_scene_course(s);
   const sw_system *system = sw_scene_system(s);
   if (!sw_scene_contact(s) || !(course->span > SHORT)) return;
   const sw_body *b = &system->bodies[wire];
   const double share = course->window > course->span ? course->span / course->window : 1.0;
-  const double lost = share * lost_by(s, b);
+  const double lost = share * sw_contact_lost(sw_scene_contact(s), b);
   if (!(lost > LATE * sw_contact_usual_force(system, b->plan))) return;
   const char *name = sw_scene_wire_in(s, wire)->name;
   sw_events_go_on(sw_scene_events_of(s), "coarse", name, sw_scene_time(s)); /* one in a run */

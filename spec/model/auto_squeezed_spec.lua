@@ -3,6 +3,7 @@
 -- dynamics becomes one of elements, which has another force.
 local mesh = require "softworld.model.mesh"
 local probe = require "softworld.model.probe"
+local squeeze = require "spec.model.plates"
 local sw = require "softworld"
 
 local R, E, DEPTH = 0.01, 5e5, 0.2
@@ -12,13 +13,7 @@ local function squeezed()
   local scene = sw.scene { gravity = { 0, 0, 0 } }
   local w = scene:wire { name = "w", model = "auto", E = E, nu = 0.3, density = 1200, radius = R,
     from = { 0, 0, 0 }, to = { R, 0, 0 }, segments = 4 }
-  scene:force { kind = "plane_strain", on = w, direction = { 1, 0, 0 } }
-  for k, name in ipairs { "low", "top" } do
-    local side = 2 * k - 3
-    scene:obstacle { name = name, shape = "box", size = { 10 * R, 10 * R, 2 * R }, friction = 2,
-      at = { R / 2, 0, 2 * side * R } }:follow { relative = true, duration = 0.4,
-      points = { { 0, 0, 0 }, { 0, 0, -side * DEPTH * R } } }
-  end
+  squeeze(scene, w, R, DEPTH, 2)
   scene:force { kind = "damping", mass = 50 }
   return scene:run { duration = 0.4, tolerance = { ["top.force"] = { relative = 0.1 } } }
 end

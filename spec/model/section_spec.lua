@@ -4,6 +4,7 @@ local sw = require "softworld"
 local flat = require "softworld.model.flat"
 local mesh = require "softworld.model.mesh"
 local probe = require "softworld.model.probe"
+local squeeze = require "spec.model.plates"
 
 local R, E = 0.01, 1e6
 
@@ -32,13 +33,7 @@ local function body(args) return flat.body(wire_of(sw.scene {}, args)) end
 local function plates(args, share, more)
   local scene = sw.scene { gravity = { 0, 0, 0 } }
   local w = wire_of(scene, args, { model = "auto" })
-  scene:force { kind = "plane_strain", on = w, direction = { 1, 0, 0 } }
-  for k, name in ipairs { "low", "top" } do
-    local side = 2 * k - 3
-    scene:obstacle { name = name, shape = "box", size = { 10 * R, 10 * R, 2 * R }, friction = 0.3,
-      at = { R / 2, 0, 2 * side * R } }:follow { relative = true, duration = 0.4,
-      points = { { 0, 0, 0 }, { 0, 0, -side * share * R } } }
-  end
+  squeeze(scene, w, R, share, 0.3)
   local all = { duration = 0.4, quasistatic = true, tolerance = { ["top.force"] = { relative = 0.1 } } }
   for key, value in pairs(more or {}) do all[key] = value end
   return scene, w, all
