@@ -45,8 +45,10 @@ void sw_frozen_release(sw_frozen *frozen);
  * load is a force on the wire and its moment about the tool's centre, in the tool's axes. */
 double sw_frozen_margin(const sw_frozen *frozen, sw_vec force, sw_vec moment);
 /* The same of touches that press with the forces that they have, and of their friction on the wire
- * and its moment about the origin. */
-double sw_touches_margin(const sw_frozen_touch *touch, size_t touches, sw_vec force, sw_vec moment);
+ * and its moment about the origin. axle: along a rod whose touches lie on its axis, as long as
+ * their distance from its surface; else 0 [m]. */
+double sw_touches_margin(const sw_frozen_touch *touch, size_t touches, sw_vec axle, sw_vec force,
+                         sw_vec moment);
 void sw_tape_frozen(sw_tape *tape, sw_frozen **frozen); /* *frozen may be NULL */
 int sw_frozen_fits(const sw_frozen *frozen, const sw_scene *scene);
 

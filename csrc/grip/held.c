@@ -15,6 +15,7 @@
 typedef struct list {
   sw_frozen_touch *touch;
   sw_vec *friction, *slip; /* on the wire [N]; in the last step [m] */
+  sw_vec *axle;            /* see sw_touches_margin [m] */
   size_t *body;
   size_t count;
 } list;
@@ -34,16 +35,28 @@ static sw_status make_list(const sw_contact *c, sw_tool *t, list *l) {
   *l = (list){0};
   for (size_t k = 0; k < touches; k++) most += finger_at(c, t, k) >= 0;
   if (!most) return SW_OK;
-  const size_t each = sizeof *l->touch + 2 * sizeof(sw_vec) + sizeof(size_t);
+  const size_t each = sizeof *l->touch + 3 * sizeof(sw_vec) + sizeof(size_t);
   SW_TRY(sw_grow_empty(&t->room, &t->room_size, most * each, 1));
   l->touch = t->room;
   l->friction = (sw_vec *)(void *)(l->touch + most);
   l->slip = l->friction + most;
-  l->body = (size_t *)(void *)(l->slip + most);
+  l->axle = l->slip + most;
+  l->body = (size_t *)(void *)(l->axle + most);
   return SW_OK;
 }
 
-static void add(list *l, const sw_tool *t, const sw_contact_push *p, size_t body) {
+/* Returns the axle of a touch, see sw_touches_margin. */
+static sw_vec axle_at(const sw_system *system, const sw_contact_push *p, const sw_body *b) {
+  if (b->plan->web) return sw_v(0, 0, 0);
+  const size_t last = b->first_node + b->plan->nodes - 1;
+  const size_t one = p->node < p->other ? p->node : p->other;
+  const size_t first = one < last ? one : last - 1;
+  const sw_vec edge = sw_sub(sw_vec_at(system->x, first + 1), sw_vec_at(system->x, first));
+  return sw_scale(sw_unit_or(edge, sw_v(0, 0, 0)), sw_norm(sw_sub(p->point, p->acts)));
+}
+
+static void add(list *l, const sw_tool *t, const sw_contact_push *p, const sw_system *system) {
+  const size_t body = sw_system_body_of(system, p->node);
   const sw_quat q = t->now.q;
   const sw_vec friction = sw_madd(p->force, p->normal, -p->normal_force);
   const size_t k = l->count++;
@@ -53,6 +66,7 @@ static void add(list *l, const sw_tool *t, const sw_contact_push *p, size_t body
                                   .friction = p->friction};
   l->friction[k] = sw_unrotate(q, friction);
   l->slip[k] = sw_unrotate(q, p->slip);
+  l->axle[k] = sw_unrotate(q, axle_at(system, p, &system->bodies[body]));
   l->body[k] = body;
 }
 
@@ -69,7 +83,7 @@ static void collect(sw_scene *s, const sw_tool *t, list *l, sw_held *out) {
     out->most += p.friction * p.normal_force;
     out->sliding += p.slides ? p.normal_force : 0.0;
     out->place += p.normal_force * p.place;
-    add(l, t, &p, sw_system_body_of(system, p.node));
+    add(l, t, &p, system);
   }
   if (out->normal > 0) out->place /= out->normal;
 }
@@ -91,20 +105,21 @@ static void add_turn(turning *w, double N, sw_vec arm, sw_vec slip) {
 
 /* Looks at the touches from first to end, of one wire: its margin, its slip and turn. */
 static void look_at_wire(const list *l, size_t first, size_t end, sw_held *out, turning *w) {
-  sw_vec force = sw_v(0, 0, 0), moment = force, middle = force;
+  sw_vec force = sw_v(0, 0, 0), moment = force, middle = force, axle = force;
   double normal = 0;
   for (size_t k = first; k < end; k++) {
     const sw_frozen_touch *t = &l->touch[k];
     force = sw_add(force, l->friction[k]);
     moment = sw_add(moment, sw_cross(t->at, l->friction[k]));
-    middle = sw_madd(middle, t->at, t->force);
+    middle = sw_madd(middle, t->at, t->force), axle = sw_madd(axle, l->axle[k], t->force);
     out->slip = sw_madd(out->slip, l->slip[k], t->force / out->normal);
     normal += t->force;
   }
-  middle = sw_scale(middle, 1.0 / normal);
+  middle = sw_scale(middle, 1.0 / normal), axle = sw_scale(axle, 1.0 / normal);
   for (size_t k = first; k < end; k++)
     add_turn(w, l->touch[k].force, sw_sub(l->touch[k].at, middle), l->slip[k]);
-  out->margin = fmax(out->margin, sw_touches_margin(l->touch + first, end - first, force, moment));
+  out->margin =
+      fmax(out->margin, sw_touches_margin(l->touch + first, end - first, axle, force, moment));
   for (size_t k = first; k < end; k++) l->touch[k].at = sw_sub(l->touch[k].at, middle);
 }
 

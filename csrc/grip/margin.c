@@ -14,6 +14,10 @@
  * friction, and they resist sum_i mu_i N_i |velocity|. So the margin is 1 at most, and it is 1 if
  * all touches slide as a rigid wire does. Without a moment it is |sum of friction| / sum mu N.
  *
+ * Friction of a rod acts at its axis. Turning about the axis moves such touches by nothing but the
+ * nanometres that they lie off one line, and power over resistance would be that of two roundings.
+ * Such a turn w slides the wire's surface by r w, so this counts as velocity too.
+ *
  * For motions in the pads' plane this is the limit surface of Goyal, Ruina and Papadopoulos (Wear
  * 143, 1991, 307), which Howe and Cutkosky's ellipsoid (1996) approximates. The best motion is
  * found by iterated least squares: the weights come from the previous motion, and the value only
@@ -123,16 +127,19 @@ static void add(form *o, sw_vec arm, sw_vec normal, double all, double more) {
   o->second[3] += y * arm.y, o->second[4] += y * arm.z, o->second[5] += z * arm.z;
 }
 
-/* Completes the lower half of the matrix; velocities are v + turn x arm. */
-static void close_form(form *o) {
+/* Completes the lower half of the matrix; velocities are v + turn x arm and, across it, turn .
+ * axle. */
+static void close_form(form *o, sw_vec axle) {
   const double *p = o->arm, *q = o->second;
+  double roll[3];
+  sw_store(roll, axle);
   const double turns[3][3] = {
       {q[3] + q[5], 0, 0}, {-q[1], q[0] + q[5], 0}, {-q[2], -q[4], q[0] + q[3]}};
   const double mixed[3][3] = {{0, -p[2], p[1]}, {p[2], 0, -p[0]}, {-p[1], p[0], 0}};
   for (int i = 0; i < 3; i++) {
     o->A[i][i] += o->sum;
     for (int j = 0; j < 3; j++) o->A[3 + i][j] += mixed[i][j];
-    for (int j = 0; j <= i; j++) o->A[3 + i][3 + j] += turns[i][j];
+    for (int j = 0; j <= i; j++) o->A[3 + i][3 + j] += turns[i][j] + o->sum * roll[i] * roll[j];
   }
 }
 
@@ -141,6 +148,7 @@ typedef struct hold {
   const sw_frozen_touch *touch;
   size_t touches;
   sw_vec middle; /* [m] */
+  sw_vec axle;   /* along the wire, as long as the lever of its surface; 0: touches lie there */
   double size;   /* [m] */
   int fixed;
 } hold;
@@ -151,17 +159,17 @@ static double resistance(const hold *h, const double v[SIX], double A[SIX][SIX])
   form o = {0};
   double sum = 0;
   const sw_vec way = sw_load(v), turn = sw_load(v + 3);
-  const double still = STILL * (sw_norm(way) + sw_norm(turn));
+  const double still = STILL * (sw_norm(way) + sw_norm(turn)), roll = sw_dot(turn, h->axle);
   SW_ITEMS(const sw_frozen_touch, t, h->touch, h->touches) {
     const sw_vec arm = sw_scale(sw_sub(t->at, h->middle), 1.0 / h->size);
     const sw_vec u = sw_add(way, sw_cross(turn, arm));
     const double across = h->fixed ? 0.0 : sw_dot(u, t->normal);
-    const double along = sw_norm(sw_madd(u, t->normal, -across));
+    const double along = hypot(sw_norm(sw_madd(u, t->normal, -across)), roll);
     const double rub = t->friction * t->force / fmax(along, still);
     sum += t->force * (t->friction * along + fabs(across));
     add(&o, arm, t->normal, rub, h->fixed ? 0.0 : t->force / fmax(fabs(across), still) - rub);
   }
-  close_form(&o);
+  close_form(&o, h->axle);
   memcpy(A, o.A, sizeof o.A);
   return sum;
 }
@@ -200,22 +208,26 @@ double sw_frozen_margin(const sw_frozen *f, sw_vec force, sw_vec moment) {
   if (!f->touches) return 0;
   const patch p = patch_of(f->touch, f->touches);
   if (!(p.size > 0)) return 0;
-  const hold h = {f->touch, f->touches, p.middle, p.size, 0};
+  const hold h = {f->touch, f->touches, p.middle, {0, 0, 0}, p.size, 0};
   const sw_vec about = sw_sub(moment, sw_cross(p.middle, force));
   sw_store(load, sw_sub(force, p.force));
   sw_store(load + 3, sw_scale(sw_sub(about, p.moment), 1.0 / p.size));
   return search(&h, load);
 }
 
-double sw_touches_margin(const sw_frozen_touch *touch, size_t touches, sw_vec force,
+/* Touches of a rod closer than this share of its lever are at one place: their moment about their
+ * middle is rounding [-]. */
+static const double POINT = 1e-6;
+
+double sw_touches_margin(const sw_frozen_touch *touch, size_t touches, sw_vec axle, sw_vec force,
                          sw_vec moment) {
   double load[SIX], most = 0;
   for (size_t k = 0; k < touches; k++) most += touch[k].friction * touch[k].force;
   if (!(most > 0)) return 0;
   const double straight = sw_norm(force) / most; /* of pure sliding: exact, and no search */
   const patch p = patch_of(touch, touches);
-  if (!(p.size > 0)) return straight;
-  const hold h = {touch, touches, p.middle, p.size, 1};
+  if (!(p.size > POINT * sw_norm(axle))) return straight;
+  const hold h = {touch, touches, p.middle, sw_scale(axle, 1.0 / p.size), p.size, 1};
   const sw_vec about = sw_sub(moment, sw_cross(p.middle, force));
   sw_store(load, force);
   sw_store(load + 3, sw_scale(about, 1.0 / p.size));
