@@ -177,12 +177,14 @@ static int follow(sw_hold *h, const sw_link_wire *w) {
   /* If the wire yields as little as a wall, its speed oscillates about the right one: with constant
    * amplitude if the last stage's force is obeyed, with a growing one if a mix of both stages is
    * (tr-bdf2 with equal shares: 1.8 times from step to step). Half the change damps the mix (0.9
-   * times). Where the last stage's force is obeyed, half the change makes the oscillation of wires
-   * with dashpots grow, by up to 1.2 times from step to step; three quarters damp it. Wire that
-   * stood and now begins to slip does not oscillate. */
+   * times) and the swing after a blow. In wires with dashpots half the change makes the oscillation
+   * grow where the last stage's force is obeyed, by up to 1.2 times from step to step: if it does
+   * not fall to a half by itself, three quarters damp it. Wire that stood and now begins to slip
+   * does not oscillate. */
   const int slides = isfinite(slip->push) ? slip->evened : slip->way != 0 && slip->way_before != 0;
   const int swings = slides && slip->growth * slip->growth_before < 0;
-  slip->speed += (!swings ? 1.0 : slip->evened ? 0.5 : 0.75) * slip->growth * u;
+  const int stays = fabs(slip->growth) > 0.5 * fabs(slip->growth_before) && !slip->evened;
+  slip->speed += (!swings ? 1.0 : stays ? 0.75 : 0.5) * slip->growth * u;
   slip->since = w->time;
   sw_slip_taken(slip);
   const double arc = arc_at(&h->feed.guide, feed_at(h, w->time).fed);

@@ -165,6 +165,29 @@ static double disobeys(const sw_scene *s, const sw_hold *h, const sw_slip *f, do
   return !f->anew && fabs(read) > fmax(most, READ * scale) ? read : 0.0;
 }
 
+/* The usual window of peaks [s], and the excess of a drive's mean force over the asked one that is
+ * told, as its part in such a peak, over the scale of forces [-]. */
+static const double WINDOW = 0.01, UNEVEN = 0.1;
+
+/* Tells a drive that slips, whose force is the asked one at the ends of steps only: a wire that is
+ * as stiff as a wall feels each micrometre by which its slip within the step is not that of a
+ * steady force. */
+static void tell_uneven(sw_scene *s, sw_hold *h, const sw_slip *f, double want, double step) {
+  sw_vec force = h->force, moment;
+  const double *x = sw_scene_system(s)->x, scale = sw_slip_scale(s, h, want);
+  if (f->anew || !(isfinite(f->push) || f->way != 0)) return;
+  if (!sw_hold_jerked(s, h, &force, &moment)) return;
+  const sw_vec way = sw_hold_way_of(s, h, sw_scene_time(s), x).direction;
+  const double more = fabs(want + sw_dot(sw_sub(force, h->force), way)) - fabs(want);
+  if (!(more * fmin(1.0, step / WINDOW) > UNEVEN * scale)) return;
+  sw_events_go_on(sw_scene_events_of(s), "coarse", h->name, sw_scene_time(s)); /* one in a run */
+  sw_scene_tell(s, "coarse", h->name, NAN, more,
+                "feed '%s': in a step of %.3g ms the drive's force is %.4g N as a mean instead of "
+                "%.4g N, because the wire slips unevenly: peaks may be wrong; compare with smaller "
+                "steps",
+                h->name, 1e3 * step, fabs(want) + more, fabs(want));
+}
+
 void sw_slip_tell(sw_scene *s, double step) {
   SW_EACH(hold, h, s) {
     const sw_slip *f = sw_slip_of(h);
@@ -173,6 +196,7 @@ void sw_slip_tell(sw_scene *s, double step) {
     const double drive = h->feed.guide.drive;
     const double want = isfinite(f->push) ? f->push : copysign(f->limit, f->way ? f->way : drive);
     const double off = disobeys(s, h, f, want, step);
+    tell_uneven(s, h, f, want, step);
     if (off == 0) continue;
     sw_events_go_on(sw_scene_events_of(s), "jump", h->name, sw_scene_time(s)); /* one in a run */
     sw_scene_tell(s, "jump", h->name, h->s1 - wire->mesh.s[0], off,
