@@ -287,7 +287,7 @@ static sw_status place_hold(void *user, int hold, double t, sw_hold_state *out, 
   sw_motion_state m;
   sw_hold *h = &s->holds[s->hold_slot[hold]];
   SW_TRY(sw_drive_place(s, &h->drive, t, &m, err));
-  *out = (sw_hold_state){m.pose, m.v, m.a, m.omega, m.alpha, {0, 0, 0}};
+  *out = (sw_hold_state){m.pose, m.v, m.a, m.omega, m.alpha, {0, 0, 0}, 0};
   if (h->cls->hold->place) {
     const sw_link_wire w = sw_scene_link_wire(s, h->wire);
     h->cls->hold->place(h, &w, t, s->system.inner, out);

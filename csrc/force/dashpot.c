@@ -3,6 +3,8 @@
  * length. */
 #include "force/dashpot.h"
 
+#include <math.h>
+
 #include "base/simd.h"
 #include "state/clamp.h"
 
@@ -94,8 +96,21 @@ void sw_dashpot_hinges(double eta, sw_field *f) {
                  x[5], x[6], x[7], x[8]);
 }
 
+/* Returns the speed at which a clamp's first edge grows: wire leaves a feed [m/s]. */
+static double flow_of(const sw_field *f, const sw_clamp_hinge *h) {
+  return h->side * f->hold_flows[h->hold];
+}
+
+/* Returns the rate at which a clamp's hinge grows, over its length [1/s]. */
+static double growth_of(const sw_field *f, const sw_clamp_hinge *h) {
+  const double flow = flow_of(f, h);
+  return flow != 0 ? flow * sw_plan_clamp_growth(f->plan, h) : 0.0;
+}
+
 /* Returns the rotation rate of the hold relative to the edge, about axes across the edge
- * [rad/s]. */
+ * [rad/s]. Length that the hinge of a feed gains turns with its curvature, without any moment. By
+ * velocities the edge turns like wire that flows along the bend, and so does the wire in the hold.
+ */
 static sw_vec clamp_rate(const sw_field *f, const sw_clamp_hinge *h) {
   const size_t c = (size_t)(h - f->plan->clamps);
   const sw_vec d = sw_vec_at(f->hold_directors, sw_clamp_place(h)),
@@ -106,9 +121,11 @@ static sw_vec clamp_rate(const sw_field *f, const sw_clamp_hinge *h) {
     const sw_vec away = f->clamp_past
                             ? sw_scale(sw_sub(t, sw_vec_at(f->clamp_past, c)), f->velocity_rate)
                             : sw_vec_at(f->clamp_rate, c);
-    return sw_cross(sw_madd(away, sw_cross(d, t), spin), t);
+    return sw_madd(sw_cross(sw_madd(away, sw_cross(d, t), spin), t), sw_cross(t, d),
+                   -growth_of(f, h));
   }
-  const sw_vec rate = sw_sub(sw_madd(turn, d, -spin), rotation_of(f, h->edge));
+  const sw_vec flows = sw_scale(sw_cross(d, t), flow_of(f, h) / h->length);
+  const sw_vec rate = sw_sub(sw_add(sw_madd(turn, d, -spin), flows), rotation_of(f, h->edge));
   return sw_madd(rate, t, -sw_dot(rate, t));
 }
 
@@ -123,5 +140,6 @@ void sw_dashpot_clamp(double eta, sw_field *f, const sw_clamp_hinge *h) {
     const sw_vec m = sw_scale(clamp_rate(f, h), k);
     sw_field_add_gradient(f, h->edge, sw_scale(sw_cross(sw_field_tangent(f, h->edge), m), r));
   }
-  if (f->want & SW_WANT_STIFFNESS) add_own(f, h->edge, k * f->velocity_rate * r * r);
+  if (f->want & SW_WANT_STIFFNESS)
+    add_own(f, h->edge, k * fmax(0.0, f->velocity_rate - growth_of(f, h)) * r * r);
 }

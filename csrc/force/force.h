@@ -80,6 +80,10 @@ typedef struct sw_force_class {
   /* Moment that a clamp hinge puts on the wire [N m]; NULL = none. */
   sw_vec (*clamp_moment)(const void *args, const sw_field *field, const sw_clamp_hinge *hinge);
 
+  /* Energy of a clamp hinge beside that of the wire's own bend; it is 1 / length at given angles
+   * [J]; NULL = none. */
+  double (*clamp_energy)(const void *args, const sw_field *field, const sw_clamp_hinge *hinge);
+
   /* SW_EINVAL with a text if the force cannot act on a wire of these values; NULL = it always
    * can. */
   sw_status (*check)(const void *args, const sw_beam *beam, sw_error *err);

@@ -103,16 +103,28 @@ void sw_memory_commit(const sw_memory_law *law, const sw_field *f, double *histo
   }
 }
 
-/* Returns the couple that the hinge's gradient exerts on its edge. */
-sw_vec sw_memory_clamp_moment(const sw_memory_law *law, const sw_field *f,
-                              const sw_clamp_hinge *c) {
+static void eval_clamp(const sw_memory_law *law, const sw_field *f, const sw_clamp_hinge *c,
+                       sw_slip_answer *out) {
   const sw_slip_law one = law_of(law, c->length);
   const sw_slip_memory m = load(f->history, f->plan->nodes + (size_t)(c - f->plan->clamps));
   const sw_slip_hinge h = clamp_hinge(f, c);
+  sw_slip_eval(&one, &m, &h, SW_WANT_FORCE, 1.0, out);
+}
+
+/* Returns the couple that the hinge's gradient exerts on its edge. */
+sw_vec sw_memory_clamp_moment(const sw_memory_law *law, const sw_field *f,
+                              const sw_clamp_hinge *c) {
   sw_slip_answer a;
-  sw_slip_eval(&one, &m, &h, SW_WANT_FORCE, 1.0, &a);
+  eval_clamp(law, f, c, &a);
   const sw_vec edge = sw_scale(sw_field_tangent(f, c->edge), f->length[c->edge]);
   return sw_cross(a.gradient[c->side > 0], edge);
+}
+
+double sw_memory_clamp_energy(const sw_memory_law *law, const sw_field *f,
+                              const sw_clamp_hinge *c) {
+  sw_slip_answer a;
+  eval_clamp(law, f, c, &a);
+  return a.energy;
 }
 
 /* --- another plan ------------------------------------------------------------ */

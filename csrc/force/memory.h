@@ -21,12 +21,15 @@ void sw_memory_eval(const sw_memory_law *law, sw_field *field);
 void sw_memory_commit(const sw_memory_law *law, const sw_field *field, double *history);
 sw_vec sw_memory_clamp_moment(const sw_memory_law *law, const sw_field *field,
                               const sw_clamp_hinge *hinge);
+double sw_memory_clamp_energy(const sw_memory_law *law, const sw_field *field,
+                              const sw_clamp_hinge *hinge); /* [J] */
 /* Fills the history for field's plan from the history of an older plan of the same wire. The
  * slipped angle per length is kept at its arc lengths, so the total slip stays. */
 void sw_memory_inherit(const sw_plan *old, const double *from, const sw_field *field,
                        double *history);
 
-/* Defines eval, commit and clamp_moment of such a force; law_of(args, plan) gives its law. */
+/* Defines eval, commit, clamp_moment and clamp_energy of such a force; law_of(args, plan) gives its
+ * law. */
 #define SW_MEMORY_FORCE(law_of)                                                                  \
   static sw_status eval(const void *args, sw_field *f, sw_error *err) {                          \
     const sw_memory_law law = law_of(args, f->plan);                                             \
@@ -41,6 +44,10 @@ void sw_memory_inherit(const sw_plan *old, const double *from, const sw_field *f
   static sw_vec clamp_moment(const void *args, const sw_field *f, const sw_clamp_hinge *hinge) { \
     const sw_memory_law law = law_of(args, f->plan);                                             \
     return sw_memory_clamp_moment(&law, f, hinge);                                               \
+  }                                                                                              \
+  static double clamp_energy(const void *args, const sw_field *f, const sw_clamp_hinge *hinge) { \
+    const sw_memory_law law = law_of(args, f->plan);                                             \
+    return sw_memory_clamp_energy(&law, f, hinge);                                               \
   }
 
 #endif

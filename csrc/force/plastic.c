@@ -39,6 +39,7 @@ const sw_force_class sw_force_plastic = {
     .params = SW_PARAMS("force plastic", rows),
     .eval = eval,
     .clamp_moment = clamp_moment,
+    .clamp_energy = clamp_energy,
     .state_size = sw_memory_size,
     .commit = commit,
     .inherit = sw_memory_inherit,

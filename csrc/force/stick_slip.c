@@ -59,6 +59,7 @@ const sw_force_class sw_force_stick_slip = {
     .eval = eval,
     .stable_dt = stable_dt,
     .clamp_moment = clamp_moment,
+    .clamp_energy = clamp_energy,
     .check = check,
     .state_size = sw_memory_size,
     .commit = commit,

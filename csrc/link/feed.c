@@ -9,10 +9,10 @@
  * the guide. Nodes are inserted and removed between steps (body/guide.c). */
 #include <math.h>
 
+#include "link/feed_drive.h"
 #include "link/feeding.h"
 #include "link/hold.h"
 #include "link/spool.h"
-#include "state/hinge.h"
 #include "system/axial.h"
 #include "system/system.h"
 
@@ -166,6 +166,7 @@ static void place(sw_hold *h, const sw_link_wire *w, double t, double inner, sw_
   const sw_vec along = sw_scale(sw_rotate(state->pose.q, h->director[1]), g->outward);
   state->ahead = sw_scale(along, fed - now.fed);
   state->v = sw_madd(state->v, along, now.speed);
+  state->flow = g->outward * now.speed;
   state->a = sw_madd(state->a, along, now.acceleration);
   state->a = sw_madd(state->a, sw_cross(state->omega, along), 2.0 * now.speed);
 }
@@ -199,71 +200,6 @@ static void undo(sw_hold *h, const sw_link_wire *w) {
 
 /* --- forces ----------------------------------------------------------------------- */
 
-/* Returns EI times the squared curvature where the wire leaves the guide on the clamp's side [N].
- * In a wire with frames the curvature is that at rest plus the bending. */
-static double bent(const sw_system *s, const sw_body *b, size_t clamp, const double *x) {
-  const sw_plan *p = b->plan;
-  const sw_clamp_hinge *c = &p->clamps[clamp];
-  const size_t at = 2 * (size_t)c->hold + (c->side > 0 ? 1 : 0), number = p->nodes + clamp;
-  const double *edge = x + 3 * (b->first_node + c->edge);
-  const sw_vec d = sw_vec_at(s->directors_now, at);
-  const sw_vec t = sw_unit_or(sw_sub(sw_load(edge + 3), sw_load(edge)), d);
-  if (!b->spin_block) {
-    const double curvature = 2.0 * asin(fmin(1.0, 0.5 * sw_dist(d, t))) / c->length;
-    return p->beam.EI * curvature * curvature;
-  }
-  const sw_edge_frame held = {d, sw_vec_at(s->normals_now, at)};
-  const double *const *n = b->field.normals;
-  const sw_edge_frame own = {t, sw_v(n[0][c->edge], n[1][c->edge], n[2][c->edge])};
-  double bend[2], sum = 0;
-  sw_hinge_bend(c->side > 0 ? &held : &own, c->side > 0 ? &own : &held,
-                b->field.hinge_twist[number], bend);
-  for (int k = 0; k < 2; k++) {
-    const double rest = p->rest_bend[2 * number + k];
-    const double curvature = (bend[k] - rest) / c->length + 2.0 * rest / p->rest[c->edge];
-    sum += p->beam.EI_axis[k] * curvature * curvature;
-  }
-  return sum;
-}
-
-/* Returns GJ times the squared twist there [N]. */
-static double twisted(const sw_system *s, const sw_body *b, size_t clamp) {
-  const sw_plan *p = b->plan;
-  if (b->spin_block) {
-    const double rest = p->rest_twist[p->nodes + clamp];
-    const double strain = (b->field.hinge_twist[p->nodes + clamp] - rest) / p->clamps[clamp].length;
-    const double twist = strain + 2.0 * rest / p->rest[p->clamps[clamp].edge];
-    return p->beam.GJ * twist * twist;
-  }
-  for (size_t k = 0; b->has_twist && k < p->span_count; k++) {
-    if (p->spans[k].left != clamp && p->spans[k].right != clamp) continue;
-    const double twist = s->twist[b->first_span + k] / p->spans[k].length;
-    return p->beam.GJ * twist * twist;
-  }
-  return 0;
-}
-
-/* Returns the direction in which wire is paid out. */
-static sw_vec direction_of(const sw_hold *h, const sw_system *s) {
-  return sw_scale(sw_vec_at(s->directors_now, 2 * h->number + 1), h->feed.guide.outward);
-}
-
-/* Returns the drive's share of the axial force [N]. Where a wire leaves the guide bent, each length
- * that is paid out takes up bending energy at the drive's cost, and the guide's walls push the wire
- * out with EI curvature^2 / 2 (Bigoni et al. 2015). The drive bears the rest. */
-static double drive(const sw_hold *h, const sw_link_wire *w, const double *x, sw_vec force) {
-  const sw_system *y = w->system;
-  const sw_body *b = &y->bodies[w->body];
-  const int number = (int)h->number;
-  double sum = sw_dot(force, direction_of(h, y));
-  for (size_t c = 0; c < b->plan->clamp_count; c++) {
-    if (b->plan->clamps[c].hold != number) continue;
-    const int grows = b->plan->clamps[c].side * h->feed.guide.outward;
-    sum -= 0.5 * grows * (bent(y, b, c, x) + twisted(y, b, c));
-  }
-  return sum;
-}
-
 static sw_hold_way passes(const sw_hold *h, const sw_link_wire *w, double t, const double *x) {
   const feed_now now = feed_at(h, t);
   sw_hold_way way = {.way = now.fed,
@@ -276,10 +212,10 @@ static sw_hold_way passes(const sw_hold *h, const sw_link_wire *w, double t, con
   const sw_vec at = s->hold_states[h->number].pose.p;
   sw_vec force, moment;
   sw_system_reaction(s, (int)h->number, at, &force, &moment);
-  way.direction = direction_of(h, s);
-  way.stage = way.obeys = drive(h, w, x, force);
+  way.direction = sw_feed_direction(h, s);
+  way.stage = way.obeys = sw_feed_drive(h, w, x, force);
   sw_system_bears(s, (int)h->number, x, at, &force, &moment);
-  way.force = drive(h, w, x, force);
+  way.force = sw_feed_drive(h, w, x, force);
   if (s->first.x) way.obeys = sw_obeyed_force(h->feed.guide.drive, way.force, way.stage);
   return way;
 }

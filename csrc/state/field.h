@@ -50,6 +50,7 @@ typedef struct sw_field {
 
   const double *hold_directors; /* (holds x 2 x 3) directors of the holds [-] */
   const double *hold_turns;     /* (holds x 3) angular velocities of the holds [rad/s] */
+  const double *hold_flows;     /* (holds) speeds of wire that leaves them along the arc [m/s] */
   /* The same for edges at clamps, (clamps x 3). While a stage is solved: their past directions,
    * from which the rate counts, turned along with the hold. At a state: how fast they turn away
    * from the hold. NULL: rates follow from the velocities [-], [1/s] */

@@ -24,6 +24,7 @@ void sw_plan_release(sw_plan *plan) {
  * quadrature, exact for curvature moments 0, 1 and 2, so that the clamp acts at its arc length and
  * not half a cell inside. Valid for b in [0.5, 1.5); b = 1 gives 5/12 and 13/12. */
 static double clamp_hinge_length(double b) { return 0.5 * b - 1.0 / (12.0 * b); }
+static double clamp_hinge_slope(double b) { return 0.5 + 1.0 / (12.0 * b * b); }
 static double next_hinge_length(double b) { return 0.5 * (1.0 + b) + 1.0 / (12.0 * b); }
 
 /* Hinge length of a clamp with a single edge behind it (a short free stub): exact for a load at the
@@ -63,6 +64,12 @@ static void size_clamp(sw_plan *p, sw_clamp_hinge *c) {
   }
   c->length = clamp_hinge_length(b) * l;
   p->hinge[near] += next_hinge_length(b) * l - 0.5 * (first + l);
+}
+
+double sw_plan_clamp_growth(const sw_plan *p, const sw_clamp_hinge *c) {
+  if (node_from(p, c, 2) < 0) return STUB_HINGE / c->length;
+  const double b = p->rest[c->edge] / p->rest[c->side > 0 ? c->edge + 1 : c->edge - 1];
+  return (b < SMALLEST_RATIO ? 0.5 : clamp_hinge_slope(b)) / c->length;
 }
 
 /* Least share of each hinge that is kept: a hinge that hardly turns would be very stiff [-]. */

@@ -146,6 +146,9 @@ void sw_plan_slide(sw_plan *plan, size_t node, double s, const double spare[2]);
  * first two edges; second 0: the wire ends after the first [m]. */
 void sw_plan_clamp_lengths(double first, double second, double *clamp, double *next);
 
+/* Returns by how much a clamp's hinge grows with its edge, over the hinge's length [1/m]. */
+double sw_plan_clamp_growth(const sw_plan *plan, const sw_clamp_hinge *hinge);
+
 /* Makes room for the unloaded shape of a wire with material frames. SW_ENOMEM. */
 sw_status sw_plan_add_rest(sw_plan *plan);
 

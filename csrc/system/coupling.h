@@ -17,6 +17,7 @@ typedef struct sw_hold_state {
   sw_pose pose;              /* [m], [-] */
   sw_vec v, a, omega, alpha; /* [m/s], [m/s2], [rad/s], [rad/s2] */
   sw_vec ahead; /* in an inner stage: of wire that passes, by which it is ahead of its path [m] */
+  double flow;  /* speed of wire that leaves the hold along the arc length, without load [m/s] */
 } sw_hold_state;
 
 /* Force and moment of a hold on its wire [N], [N m]. */

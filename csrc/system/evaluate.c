@@ -25,6 +25,7 @@ void sw_body_aim(const sw_system *s, sw_body *b, const double *x, const double *
   f->hold_directors = s->directors_now;
   f->hold_normals = s->normals_now;
   f->hold_turns = s->turns;
+  f->hold_flows = s->flows;
 }
 
 void sw_body_begin(sw_body *b) {

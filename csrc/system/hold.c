@@ -35,6 +35,7 @@ sw_status sw_system_place_holds(sw_system *s, double t, double *x, double *v, do
   for (size_t k = 0; k < s->hold_count; k++) {
     s->fastest_turn = fmax(s->fastest_turn, sw_norm(s->hold_states[k].omega));
     sw_store(s->turns + 3 * k, s->still ? sw_v(0, 0, 0) : s->hold_states[k].omega);
+    s->flows[k] = s->still ? 0 : s->hold_states[k].flow;
     for (size_t side = 0; side < 2; side++) {
       const size_t at = 3 * (2 * k + side);
       const sw_vec d = sw_rotate(s->hold_states[k].pose.q, sw_load(s->directors + at));

@@ -78,7 +78,7 @@ static sw_status new_arrays(sw_system *s, size_t hold_count) {
     s->follow_size = s->state_size - 3 * s->freedoms - s->edges;
   const size_t kept = sw_factors_room(s);
   SW_TRY(SW_ALLOC_ALL(
-      SW_ROOM(s->held, held), SW_ROOM(s->directors, 27 * hold_count),
+      SW_ROOM(s->held, held), SW_ROOM(s->directors, 28 * hold_count),
       SW_ROOM(s->hold_states, hold_count), SW_ROOM(s->loads, hold_count),
       SW_ROOM(s->standing, hold_count), SW_ROOM(s->state, s->state_size),
       {&s->work, 3 * s->freedoms + kept + 2 * s->edges + s->follow_size, sizeof *s->yhat}));
@@ -86,6 +86,7 @@ static sw_status new_arrays(sw_system *s, size_t hold_count) {
   s->normals = s->directors + 12 * hold_count;
   s->normals_now = s->directors + 18 * hold_count;
   s->turns = s->directors + 24 * hold_count;
+  s->flows = s->directors + 27 * hold_count;
   sw_system_lay_out(s);
   s->yhat = s->work;
   s->delta = s->yhat + s->freedoms;

@@ -39,6 +39,7 @@ struct sw_system {
   double *directors;             /* (holds x 2 x 3) in hold coordinates: arriving, leaving */
   double *directors_now;         /* the same in world coordinates at the stage */
   double *turns;                 /* (holds x 3) angular velocities [rad/s] */
+  double *flows;                 /* (holds) see sw_hold_state [m/s] */
   double *normals, *normals_now; /* the same for the wire's normals at the holds */
   double fastest_turn;           /* of any hold in this step so far [rad/s] */
   double from, to;               /* to > from: see sw_stage [s] */
