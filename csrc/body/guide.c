@@ -286,7 +286,8 @@ static int needs(const sw_scene *s, const guide *g, double change) {
   const sw_hold *next;
   const double now = edge_length(g, 0), then = now + change, second = edge_length(g, 1);
   if (!(now > 0)) return FINE; /* no wire there: the side of the spool */
-  if (now > LONGEST * g->own->size) return ADD;
+  /* An edge that is too long now and not after the step has just lost its node to the guide. */
+  if (fmin(now, then) > LONGEST * g->own->size) return ADD;
   if (!(then < SHORTEST * (second > 0 ? second : g->own->size))) return FINE;
   const size_t left = edges_left(s, g, &next);
   if (left > (next ? LEAST_HELD : LEAST_FREE)) return TAKE;
