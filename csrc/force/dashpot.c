@@ -107,6 +107,25 @@ static double growth_of(const sw_field *f, const sw_clamp_hinge *h) {
   return flow != 0 ? flow * sw_plan_clamp_growth(f->plan, h) : 0.0;
 }
 
+/* Returns the rotation from the edge to the hold in the unloaded wire [rad]. */
+static sw_vec rest_of(const sw_field *f, const sw_clamp_hinge *h, sw_vec d) {
+  const sw_plan *p = f->plan;
+  if (!p->rest_bend || !f->hold_normals) return sw_v(0, 0, 0);
+  const double *bend = p->rest_bend + 2 * (p->nodes + (size_t)(h - p->clamps));
+  const sw_vec m1 = sw_vec_at(f->hold_normals, sw_clamp_place(h));
+  const sw_vec turn = sw_madd(sw_scale(sw_cross(d, m1), bend[0]), m1, -bend[1]);
+  return sw_scale(turn, -h->side);
+}
+
+/* Returns the rate at which the hold turns relative to the edge because the hinge grows, without
+ * load in proportion to the edge's length [rad/s]. */
+static sw_vec flowing(const sw_field *f, const sw_clamp_hinge *h, sw_vec d, sw_vec t) {
+  const double flow = flow_of(f, h);
+  if (flow == 0) return sw_v(0, 0, 0);
+  const sw_vec rest = rest_of(f, h, d), bend = sw_sub(sw_cross(t, d), rest);
+  return sw_madd(sw_scale(bend, growth_of(f, h)), rest, flow / f->plan->rest[h->edge]);
+}
+
 /* Returns the rotation rate of the hold relative to the edge, about axes across the edge
  * [rad/s]. Length that the hinge of a feed gains turns with its curvature, without any moment. By
  * velocities the edge turns like wire that flows along the bend, and so does the wire in the hold.
@@ -121,8 +140,7 @@ static sw_vec clamp_rate(const sw_field *f, const sw_clamp_hinge *h) {
     const sw_vec away = f->clamp_past
                             ? sw_scale(sw_sub(t, sw_vec_at(f->clamp_past, c)), f->velocity_rate)
                             : sw_vec_at(f->clamp_rate, c);
-    return sw_madd(sw_cross(sw_madd(away, sw_cross(d, t), spin), t), sw_cross(t, d),
-                   -growth_of(f, h));
+    return sw_sub(sw_cross(sw_madd(away, sw_cross(d, t), spin), t), flowing(f, h, d, t));
   }
   const sw_vec flows = sw_scale(sw_cross(d, t), flow_of(f, h) / h->length);
   const sw_vec rate = sw_sub(sw_add(sw_madd(turn, d, -spin), flows), rotation_of(f, h->edge));

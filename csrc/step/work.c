@@ -52,6 +52,22 @@ static bounds by_impulse(bounds b, const sw_worker *from, const sw_pose *to, sw_
   return b;
 }
 
+/* Returns the energy per length of wire in hold k, which lies there straight, though it may be
+ * curved and twisted without load [N]. */
+static double strained(sw_scene *s, size_t k) {
+  const sw_body *b = &sw_scene_system(s)->bodies[sw_scene_held_by(s, k)->wire];
+  const sw_plan *p = b->plan;
+  double sum = 0;
+  for (size_t c = 0; p->rest_bend && c < p->clamp_count; c++) {
+    if (p->clamps[c].hold != (int)k) continue;
+    const double *bend = p->rest_bend + 2 * (p->nodes + c), half = 0.5 * p->rest[p->clamps[c].edge];
+    const double twist = p->rest_twist[p->nodes + c] / half;
+    for (int i = 0; i < 2; i++) sum += 0.5 * p->beam.EI_axis[i] * bend[i] * bend[i] / (half * half);
+    sum += 0.5 * p->beam.GJ * twist * twist;
+  }
+  return sum;
+}
+
 /* Returns the energy of wire that a feed has let in from a spool: kinetic energy and height. Wire
  * fed at mid-wire comes from the other side and brings none. */
 static double brought(sw_scene *s, size_t k, double length) {
@@ -62,7 +78,7 @@ static double brought(sw_scene *s, size_t k, double length) {
   const double mass = wire->beam.mass * length;
   const double height = -mass * sw_dot(sw_scene_gravity(s), at->pose.p);
   sw_scene_books(s)->step.let_in += height;
-  return 0.5 * mass * sw_norm2(at->v) + height;
+  return 0.5 * mass * sw_norm2(at->v) + height + strained(s, k) * length;
 }
 
 /* Returns the drive's mean force in a step of size h, from the hold's impulse. The share of the
