@@ -28,8 +28,8 @@ end
 
 describe("a wire with a spool's bend at its guide", function()
   -- In the guide the wire is straight: it brings EI/(2 R^2) per length. Regression: the feed's work was
-  -- without it. Here 22 to 26 % of the energy came from nowhere, at any step, and the runs failed. Measured 0.4 % as
-  -- it leaves, 1.2 % as it goes in.
+  -- without it. Here 22 to 26 % of the energy came from nowhere, at any step, and the runs failed. Measured
+  -- 0.4 % as it leaves, 1.2 % as it goes in.
   it("brings its energy", function()
     for _, sign in ipairs{ 1, -1 } do
       for _, stiffness in ipairs{ 0, 2e-3 } do
