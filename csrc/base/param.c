@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Defaults and checks of parameters, and the nearest known name of a misspelt one (edit
- * distance). */
+/* Defaults and checks of parameters, and the known name that a wrong one means: by another word for
+ * it, or by edit distance. */
 #include "base/param.h"
 
 #include <ctype.h>
@@ -150,13 +150,49 @@ static int edit_distance(const char *a, const char *b) {
   return d[n][m];
 }
 
+static const struct {
+  const char *word, *name;
+} other_words[] = {
+#define SW_OTHER(word, name) {word, name},
+#include "base/other_words.def"
+#undef SW_OTHER
+};
+
+static int is_gap(char c) { return c == '_' || c == '-' || c == ' '; }
+
+/* 1 if the words are the same without regard to case and gaps. */
+static int are_same_words(const char *a, const char *b) {
+  for (;; a++, b++) {
+    while (is_gap(*a)) a++;
+    while (is_gap(*b)) b++;
+    if (tolower((unsigned char)*a) != tolower((unsigned char)*b)) return 0;
+    if (!*a) return 1;
+  }
+}
+
+static const char *name_at(const char *const *names, size_t stride, size_t i) {
+  return *(const char *const *)(const void *)((const char *)names + i * stride);
+}
+
+/* Returns the name that others call by this word, or NULL. */
+static const char *name_of_other(const char *word, const char *const *names, size_t stride,
+                                 size_t count) {
+  for (size_t w = 0; w < sizeof other_words / sizeof *other_words; w++) {
+    if (!are_same_words(word, other_words[w].word)) continue;
+    for (size_t i = 0; i < count; i++)
+      if (!strcmp(name_at(names, stride, i), other_words[w].name)) return name_at(names, stride, i);
+  }
+  return NULL;
+}
+
 const char *sw_nearest_name(const char *word, const char *const *names, size_t stride,
                             size_t count) {
-  const char *nearest = NULL;
+  const char *nearest = name_of_other(word, names, stride, count);
+  if (nearest) return nearest;
   const int length = (int)strlen(word);
   int limit = length <= 3 ? 1 : length <= 6 ? 2 : length / 3; /* largest distance of a typo [-] */
   for (size_t i = 0; i < count; i++) {
-    const char *name = *(const char *const *)(const void *)((const char *)names + i * stride);
+    const char *name = name_at(names, stride, i);
     const int distance = edit_distance(word, name);
     if (distance <= limit) nearest = name, limit = distance - 1;
   }

@@ -87,8 +87,9 @@ sw_status sw_params_check(const sw_params *params, const void *args, int lenient
  * the default: an empty text, a vector of equal components, the identity. */
 void sw_param_store(const sw_param *row, void *args, double value);
 
-/* Returns the name nearest to word by edit distance, or NULL if none is near enough for
- * word to be a typo of it. Name i of count is at names + i * stride [B]. */
+/* Returns the name that word means: a name for which it is another word (base/other_words.def),
+ * else the nearest by edit distance, or NULL if none is near enough for word to be a typo. Name i
+ * of count is at names + i * stride [B]. */
 const char *sw_nearest_name(const char *word, const char *const *names, size_t stride,
                             size_t count);
 
