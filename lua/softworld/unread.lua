@@ -10,7 +10,8 @@ local MOST = 20 -- texts kept and reported at most
 local texts, kept, last = {}, 0, 0
 local more = 0 -- failures beyond those kept
 local MOST_NOTES = 5 -- runs with events reported at most
-local notes, noted, others = {}, 0, 0 -- texts; runs with events so far; those beyond the texts
+local function new_notes() return { noted = 0, others = 0 } end
+local notes = new_notes() -- a list; .noted: runs with events so far; .others: those beyond the list
 local bad = 0  -- runs that failed or were stopped, looked at or not
 local verdicts = { PASS = 0, FAIL = 0, OPEN = 0 } -- of checks
 
@@ -45,30 +46,31 @@ function unread.add(text)
   return mark
 end
 
---- Stores the events of a run that is ok and returns its mark. text: one line.
-function unread.note(text)
-  noted = noted + 1
-  local mark = { note = noted }
+--- Stores the events of a run that is ok and returns its mark. text: one line; event: the first event.
+function unread.note(text, event)
+  notes.noted = notes.noted + 1
+  local mark = { note = notes.noted, notes = notes }
   if #notes < MOST_NOTES then
-    notes[#notes + 1] = { number = noted, text = text }
+    notes[#notes + 1] = { number = notes.noted, text = text, event = event }
   else
-    others = others + 1
+    notes.others = notes.others + 1
   end
   return mark
 end
 
-local function forget_note(number)
-  for k, note in ipairs(notes) do
-    if note.number == number then return table.remove(notes, k) end
+local function forget_note(mark)
+  local list = mark.notes
+  for k, note in ipairs(list) do
+    if note.number == mark.note then return table.remove(list, k) end
   end
-  others = math.max(0, others - 1)
+  list.others = math.max(0, list.others - 1)
 end
 
 --- Marks a failure, or the events of a run, as looked at.
 function unread.seen(mark)
   if mark.seen then return end
   mark.seen = true
-  if mark.note then return forget_note(mark.note) end
+  if mark.note then return forget_note(mark) end
   if texts[mark.number] then
     texts[mark.number], kept = nil, kept - 1
   elseif more > 0 then
@@ -107,33 +109,40 @@ function unread.guard_exit()
   end
 end
 
---- Calls f and returns its results. Failures and events within it need no look, because f judges its runs by
--- other means; checks within it do not count either.
-function unread.excused(f, ...)
-  local before, more_before, bad_before, noted_before, others_before = last, more, bad, noted, others
+-- Calls f and returns its results, behind the first event of its runs if wanted.
+local function within(wanted, f, ...)
+  local before, more_before, bad_before, notes_before = last, more, bad, notes
   local verdicts_before = { PASS = verdicts.PASS, FAIL = verdicts.FAIL, OPEN = verdicts.OPEN }
+  local own = new_notes()
+  notes = own
+  local _ <close> = setmetatable({}, { __close = function() notes = notes_before end })
   local function done(...)
     bad, verdicts = bad_before, verdicts_before
     for number in pairs(texts) do
       if number > before then texts[number], kept = nil, kept - 1 end
     end
-    more, others = math.min(more, more_before), math.min(others, others_before)
-    for k = #notes, 1, -1 do
-      if notes[k].number > noted_before then table.remove(notes, k) end
-    end
+    more = math.min(more, more_before)
+    if wanted then return own[1] and own[1].event, ... end
     return ...
   end
   return done(f(...))
 end
 
+--- Calls f and returns its results. Failures and events within it need no look, because f judges its runs by
+-- other means; checks within it do not count either. A tail call, so that levels of errors count no frame.
+function unread.excused(f, ...) return within(false, f, ...) end
+
+--- The same; returns the first event that nobody looked at, or nil, and then the results.
+function unread.gathered(f, ...) return within(true, f, ...) end
+
 local function notes_text()
   local lines = {}
   for k, note in ipairs(notes) do lines[k] = note.text end
-  if others > 0 then
+  if notes.others > 0 then
     lines[#lines + 1] = ("softworld: note: %s with events that the script did not look at"):format(
-      counted(others, "more run"))
+      counted(notes.others, "more run"))
   end
-  notes, others = {}, 0
+  notes = new_notes()
   return #lines > 0 and table.concat(lines, "\n") or nil
 end
 

@@ -36,7 +36,7 @@ local function mark_events(run)
   local at = place.of_caller()
   local text = "softworld: note: the run of '%s'%s is ok, but has %s; see run.events: %s: %s"
   run.unseen = unread.note(text:format(run.name, at and " at " .. at or "", counted(#events, "event"),
-    events[1].kind, events[1].text))
+    events[1].kind, events[1].text), ("%s: %s"):format(events[1].kind, events[1].text))
   return run
 end
 

@@ -3,7 +3,7 @@
 -- compute the others, which are added to the journal.
 --
 -- A record: { part =, number =, values =, results = { name = number } or nil, failed = reason, machine = true
--- if the machine failed, not the model }.
+-- if the machine failed, not the model, events = the first event of its runs that evaluate did not look at }.
 -- @module softworld.study.campaign
 local checks = require "softworld.checks"
 local cluster = require "softworld.study.cluster"
@@ -24,23 +24,24 @@ local function finite(text)
   return x and x - x == 0 and x + 0.0 or nil
 end
 
--- Reads "time=1.5 margin=0.25" as a table; nil for anything else.
+-- Reads 'time=1.5 margin=0.25' as a table; nil for anything else. Also returns a text in quotes behind it.
 local function results_of(text)
-  local results, left = {}, text
+  local results, left, events = {}, text, text:match ' "([^"]*)"$'
+  if events then left = left:sub(1, #left - #events - 3) end
   while left ~= "" do
     local name, number, rest = left:match "^(%a[%w_]*)=(%S+) ?(.*)$"
     local value = number and finite(number)
     if not value then return nil end
     results[name], left = value, rest
   end
-  return next(results) and results
+  return next(results) and results, events
 end
 
 --- Makes a record from a line: status "ok" and results as text, or another status and a reason. nil: invalid.
 function campaign.record(part, number, values, status, rest)
   local r = { part = part, number = number, values = values }
   if status == "ok" then
-    r.results = results_of(rest)
+    r.results, r.events = results_of(rest)
     return r.results and r
   end
   r.failed, r.machine = rest, status == "machine" or nil
@@ -79,6 +80,15 @@ local function tasks(own, part, source, done)
   end
 end
 
+local LONGEST = 300 -- longest text of an event that is kept [characters]
+
+-- Returns status and text of an evaluation. Events of its runs stand in quotes behind the results.
+local function evaluate(own, number, values)
+  local event, status, rest = unread.gathered(evaluation.run, own, number, values)
+  if status ~= "ok" or not event then return status, rest end
+  return status, ('%s "%s"'):format(rest, event:sub(1, LONGEST):gsub("%c", " "):gsub('"', "'"))
+end
+
 local function keep(own, part, task, status, rest, done)
   if status == "mistake" then
     if task.number == 1 then error(rest, 0) end -- all others would fail alike
@@ -94,7 +104,7 @@ local function here(own, part, next_task, done)
   local again, more = math.random(0), math.random(0)
   local fine, why = pcall(function()
     for task in next_task do
-      local status, rest = unread.excused(evaluation.run, own, task.number, task.values)
+      local status, rest = evaluate(own, task.number, task.values)
       keep(own, part, task, status, rest, done)
     end
   end)
@@ -112,7 +122,7 @@ local function by_workers(own, part, count, next_task, done)
     answer = function(text)
       local number, word = text:match "^(%d+) (.*)$"
       local values = parameters.values(own.parameters, word)
-      local status, rest = evaluation.run(own, math.tointeger(number), values)
+      local status, rest = evaluate(own, math.tointeger(number), values)
       return status .. " " .. rest
     end,
     done = function(task, status, rest) keep(own, part, task, status, rest, done) end,

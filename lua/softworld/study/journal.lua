@@ -5,6 +5,7 @@
 --     s "name" <key of the definition> "what it is" <sum>
 --     p <part> "the method with its options" <sum>
 --     e <part> <number> <values> ok time=1.5 margin=0.25 <sum>
+--     e <part> <number> <values> ok time=1.5 margin=0.25 "an event of its runs" <sum>
 --     e <part> <number> <values> failed "why" <sum>
 --     t <sum>
 --

@@ -156,6 +156,9 @@ function Found.__tostring(f)
     f.error and (" +- %.2g"):format(f.error) or "", place_text(f), f.method, f.reason,
     counted(f.evaluations, "evaluation"), f.failed) }
   add_noise(lines, f)
+  if type(f.best.events) == "string" then
+    lines[#lines + 1] = "  its run had an event: " .. f.best.events
+  end
   if #f.at_bound > 0 then
     lines[#lines + 1] = ("  at the end of the range: %s"):format(table.concat(f.at_bound, ", "))
   end

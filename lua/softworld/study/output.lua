@@ -15,10 +15,10 @@ local output = {}
 
 local REASONS = 5 -- most reasons of failures shown
 
---- Returns a record as a row: part, number, parameters, results, pass, failed, machine.
+--- Returns a record as a row: part, number, parameters, results, pass, failed, machine, events.
 function output.row(own, record)
   local row = { part = record.part, number = record.number, failed = record.failed, machine = record.machine,
-    pass = judge.pass(own, record) }
+    pass = judge.pass(own, record), events = record.events }
   for i, p in ipairs(own.parameters) do row[p.name] = parameters.shown(p, record.values[i]) end
   for name, value in pairs(record.results or {}) do row[name] = value end
   return row
@@ -94,9 +94,22 @@ local function side_by_side(lists)
   return table.concat(lines, "\n")
 end
 
+local WIDEST = 60 -- longest text in a printed table [characters]
+
 local function word_of(value)
+  if type(value) == "string" and #value > WIDEST then return value:sub(1, WIDEST - 3) .. "..." end
   if math.type(value) == "float" then return ("%.6g"):format(value) end
   return value == nil and "" or tostring(value)
+end
+
+-- Adds the column of events if there are any and no result has this name.
+local function add_events_column(names, list)
+  local any = false
+  for _, record in ipairs(list) do
+    if record.results and record.results.events then return end
+    any = any or record.events ~= nil
+  end
+  if any then names[#names + 1] = "events" end
 end
 
 --- Returns the rows of one part, or of all; their print is a table.
@@ -106,6 +119,7 @@ function output.rows(own, part)
   for _, name in ipairs(result_names(list)) do names[#names + 1] = name end
   if #own.constraints > 0 then names[#names + 1] = "pass" end
   local failed
+  add_events_column(names, list)
   for i, record in ipairs(list) do
     list[i], failed = output.row(own, record), failed or record.failed
   end
@@ -205,6 +219,17 @@ local function add_reasons(lines, list)
   if #reasons > REASONS then lines[#lines + 1] = "  and " .. counted(#reasons - REASONS, "more reason") end
 end
 
+-- Adds how many evaluations have runs with events that evaluate did not look at, and the first of them.
+local function add_events(lines, list)
+  local count, first = 0, nil
+  for _, record in ipairs(list) do
+    if record.events then count, first = count + 1, first or record end
+  end
+  if not first then return end
+  lines[#lines + 1] = ("  %s ok, but with events (first %d.%d): %s"):format(counted(count, "evaluation"),
+    first.part, first.number, first.events)
+end
+
 --- Returns the text for print.
 function output.text(own)
   local list = output.records(own)
@@ -213,12 +238,14 @@ function output.text(own)
   for _, p in ipairs(own.parameters) do lines[#lines + 1] = "  " .. parameters.describe(p, true) end
   for _, part in ipairs(parts_of(own)) do add_part(lines, part, own.asked[part], list) end
   add_reasons(lines, list)
+  add_events(lines, list)
   for _, part in ipairs(parts_of(own)) do
     local result = own.asked[part] and own.asked[part].method:match "^minimise (.*)$"
     local best = result and best_of(own, result, list)
     if best then
       lines[#lines + 1] = ("  best %s, evaluation %d.%d: %s"):format(result, best.part, best.number,
         output.values(own, best))
+      if best.events then lines[#lines + 1] = "    its run had an event: " .. best.events end
     end
   end
   return table.concat(lines, "\n")
@@ -241,6 +268,7 @@ function output.csv(own, path)
   for _, p in ipairs(own.parameters) do names[#names + 1] = p.name end
   for _, name in ipairs(result_names(list)) do names[#names + 1] = name end
   table.move({ "pass", "failed" }, 1, 2, #names + 1, names)
+  add_events_column(names, list)
   for _, name in ipairs(names) do columns[name] = {} end
   for k, record in ipairs(list) do
     local row = output.row(own, record)

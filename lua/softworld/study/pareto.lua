@@ -117,7 +117,9 @@ end
 local function line_of(f, row)
   local texts = {}
   for k, name in ipairs(f.names) do texts[k] = ("%s = %.6g"):format(name, row[name]) end
-  return ("evaluation %d.%d: %s"):format(row.part, row.number, table.concat(texts, ", "))
+  local event = type(row.events) == "string" and row.events:match "^[^:]*"
+  return ("evaluation %d.%d: %s%s"):format(row.part, row.number, table.concat(texts, ", "),
+    event and (" (its run had an event: %s)"):format(event) or "")
 end
 
 function Front.__tostring(f)

@@ -95,7 +95,7 @@ local function row_of(own, record, results)
     values[#values + 1] = record.results and record.results[r.name] or NULL
   end
   return { record.part, record.number, values, pass == nil and NULL or pass and 1 or 0,
-    record.failed or "" }
+    record.failed or record.events or "" }
 end
 
 local function parts_of(own, list)

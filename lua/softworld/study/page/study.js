@@ -22,7 +22,8 @@ columns.forEach((c, i) => {
   c.at = i;
   c.numeric = c.kind !== "choice";
 });
-// A row: part, number, values of the columns, 1 meets the constraints, 0 not, null failed, and why.
+// A row: part, number, values of the columns, 1 meets the constraints, 0 not, null failed, and why; else an
+// event of its runs, if there is one.
 const rows = data.rows.map((r) => ({ part: r[0], number: r[1], values: r[2], pass: r[3], why: r[4] }));
 const state = { x: 0, y: 0, colour: -1, part: 0, only: false, selected: null, sort: null, down: false };
 
@@ -216,6 +217,7 @@ function drawDetail() {
   const parts = [h("h2", {}, `Evaluation ${r.part}.${r.number}`)];
   if (r.pass === null) parts.push(h("p", { class: "wrong" }, `failed: ${r.why}`));
   else if (data.constraints) parts.push(h("p", { class: r.pass ? "" : "wrong" }, r.pass ? "meets the constraints" : "breaks constraints"));
+  if (r.pass !== null && r.why) parts.push(h("p", { class: "wrong" }, `its run had an event: ${r.why}`));
   parts.push(h("h3", {}, "Parameters"), valuesOf(columns.filter((c) => c.parameter), r));
   if (r.pass !== null) parts.push(h("h3", {}, "Results"), valuesOf(columns.filter((c) => !c.parameter), r));
   const player = data.players[`${r.part}.${r.number}`];
