@@ -120,7 +120,7 @@ class Chart {
       series: Object.fromEntries(group.curves.map((c, i) => [`${c.label}${" ".repeat(i)}`,
         c.limit ? { strokePattern: [6, 4], strokeWidth: 1.8 } : c.r ? { strokePattern: [[7, 3], [2, 2], [9, 3, 2, 3]][(c.r - 1) % 3] } : {}])),
       axes: { x: { axisLabelFormatter: (t) => `${Number(t.toPrecision(6))}`, pixelsPerLabel: 56 },
-        y: { axisLabelFormatter: (y) => short(y), pixelsPerLabel: 19 } },
+        y: { axisLabelFormatter: (y, _, __, graph) => short(y, graph.yAxisRange()), pixelsPerLabel: 19 } },
       clickCallback: (e, t) => this.state.set({ time: t, playing: false }),
       drawCallback: (g, first) => {
         this.place(this.state.get("time"));
@@ -205,10 +205,13 @@ function data_index(group, curve) {
   return names.indexOf(curve.name); // the same colour in all runs
 }
 
-function short(y) {
+/** A label on an axis with this range [low, high]: with as many digits as tell it from its neighbours. */
+function short(y, range) {
   if (y === 0) return "0";
-  const a = Math.abs(y);
-  return a >= 1e4 || a < 1e-3 ? y.toExponential(0).replace("e+", "e") : `${Number(y.toPrecision(3))}`;
+  const a = Math.abs(y), wide = range ? range[1] - range[0] : 0;
+  const digits = wide > 0 ? Math.min(12, Math.max(1, Math.ceil(Math.log10(a / wide)) + 2)) : 1;
+  return a >= 1e4 || a < 1e-3 ? y.toExponential(digits - 1).replace("e+", "e").replace(/\.?0+e/, "e")
+    : `${Number(y.toPrecision(Math.max(3, digits)))}`;
 }
 
 export class Charts {

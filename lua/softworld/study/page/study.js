@@ -33,6 +33,12 @@ const format = (v, c) => {
   if (c && !c.numeric) return String(c.choices[v - 1]);
   return typeof v === "number" ? String(+v.toPrecision(5)) : String(v);
 };
+// A label of an axis: with as many digits as tell it from its neighbours.
+const label = (v, list) => {
+  const step = list.length > 1 ? Math.abs(list[1][1] - list[0][1]) : 0;
+  const digits = step > 0 && v !== 0 ? Math.ceil(Math.log10(Math.abs(v) / step)) + 2 : 5;
+  return String(+v.toPrecision(Math.min(15, Math.max(5, digits))));
+};
 const shown = () => rows.filter((r) => (!state.part || r.part === state.part) && (!state.only || r.pass === 1));
 
 // --- axes -----------------------------------------------------------------------------------------
@@ -97,16 +103,17 @@ function drawAxes(c, box, sx, sy, cx, cy) {
   c.fillStyle = style("--dim");
   c.font = "11px system-ui, 'DejaVu Sans', sans-serif";
   c.textAlign = "center";
-  for (const [at, v] of ticks(sx, 8)) {
+  const across = ticks(sx, 8), up = ticks(sy, 6);
+  for (const [at, v] of across) {
     const x = box.x + at * box.w;
     c.beginPath(); c.moveTo(x, box.y); c.lineTo(x, box.y + box.h); c.stroke();
-    c.fillText(cx.numeric ? format(v) : Number.isInteger(v) ? format(v, cx) : "", x, box.y + box.h + 14);
+    c.fillText(cx.numeric ? label(v, across) : Number.isInteger(v) ? format(v, cx) : "", x, box.y + box.h + 14);
   }
   c.textAlign = "right";
-  for (const [at, v] of ticks(sy, 6)) {
+  for (const [at, v] of up) {
     const y = box.y + (1 - at) * box.h;
     c.beginPath(); c.moveTo(box.x, y); c.lineTo(box.x + box.w, y); c.stroke();
-    c.fillText(cy.numeric ? format(v) : Number.isInteger(v) ? format(v, cy) : "", box.x - 6, y + 4);
+    c.fillText(cy.numeric ? label(v, up) : Number.isInteger(v) ? format(v, cy) : "", box.x - 6, y + 4);
   }
   c.fillStyle = style("--ink");
   c.textAlign = "center";
@@ -132,10 +139,11 @@ let placed = []; // of the large plot: [row, x, y]
 
 function drawPlot() {
   const [c, w, height] = prepare($("plot"));
-  const box = { x: 70, y: 26, w: Math.max(10, w - 90), h: Math.max(10, height - 66) };
   const cx = columns[state.x], cy = columns[state.y], list = shown();
   const drawn = list.filter((r) => typeof r.values[cx.at] === "number" && typeof r.values[cy.at] === "number");
   const sx = axis(cx, list), sy = axis(cy, drawn);
+  const up = ticks(sy, 6), left = Math.max(70, ...(cy.numeric ? up.map(([, v]) => 12 + 6.6 * label(v, up).length) : []));
+  const box = { x: left, y: 26, w: Math.max(10, w - left - 20), h: Math.max(10, height - 66) };
   const scale = state.colour >= 0 ? axis(columns[state.colour], drawn) : null;
   drawAxes(c, box, sx, sy, cx, cy);
   drawLimits(c, box, sx, sy, cx, cy);
