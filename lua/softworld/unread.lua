@@ -34,9 +34,10 @@ local function tell_idle()
   idle = false
 end
 
---- Stores a failure and returns its mark.
-function unread.add(text)
-  last, bad = last + 1, bad + 1
+--- Stores a failure and returns its mark. rest: it is no run but an equilibrium that was not found, which
+-- `softworld --check` does not count.
+function unread.add(text, rest)
+  last, bad = last + 1, bad + (rest and 0 or 1)
   local mark = { number = last }
   if kept < MOST then
     texts[last], kept = text, kept + 1

@@ -85,7 +85,7 @@ describe("an equilibrium with error bars", function()
       local scene = require "softworld".scene { name = "mine" }
       scene:clamp(scene:wire { E = 1e8, density = 1e3, radius = 1e-3, from = { 0, 0, 0 }, to = { 1, 0, 0 },
         segments = 24 }, { s = 0 })
-      scene:settle { tolerance = { tip = 1 }, progress = %s }
+      assert(scene:settle { tolerance = { tip = 1 }, progress = %s }.events)
       assert(scene:run { duration = 0.01, tolerance = { tip = 1 }, progress = %s }.events)]]
     local _, err, code = program.script(script:format("true", "true"))
     assert.are.equal(0, code, err)

@@ -25,7 +25,8 @@ rows.calls{
   { "scene:names", "", "names that scene:find knows", "a list" },
   -- computations
   { "scene:run", "{ duration =, dt =, ... }", "computes the motion, see help 'results'", "a run" },
-  { "scene:settle", "{ tolerance = }", "finds the equilibrium", "{ ok, iterations, residual [N], ... }" },
+  { "scene:settle", "{ tolerance = }", "finds the equilibrium",
+    "{ ok, reason, iterations, residual [N], events, ... }" },
   { "scene:snapshot", "", "keeps its state, for scene:restore", "a snapshot" },
   { "scene:restore", "snapshot", "goes back to the state, with the same bits" },
   { "scene:save", "file", "writes the whole scene to a file; sw.load reads it" },

@@ -8,6 +8,7 @@ local facts = require "softworld.model.facts"
 local number = require "softworld.output.number"
 local quantity = require "softworld.quantity"
 local trust = require "softworld.run.trust"
+local unread = require "softworld.unread"
 
 local POSES = 4       -- time between two poses over the step of a dynamic run [-]
 local PERIODS = 10    -- motions of at least this many first periods are slow [-]
@@ -209,7 +210,7 @@ function motion.begin(context)
   local job, scene = context.job, context.scene
   if not job.rests then return end
   core.remesh(scene, trust.counts(job, 1))
-  local rests = scene:settle().ok
+  local rests = unread.excused(scene.settle, scene).ok
   if not rests and coarsest.finer(job) then
     job.restore()
     return motion.begin(context)
@@ -218,7 +219,7 @@ function motion.begin(context)
   if rests and not context.period and lacks_period(scene) then
     job.restore()
     core.remesh(scene, trust.counts(job, 2))
-    context.period = scene:settle().ok and period(scene) or nil
+    context.period = unread.excused(scene.settle, scene).ok and period(scene) or nil
   end
   context.alone = rests and not context.period and period_alone(scene) or nil
   job.restore()

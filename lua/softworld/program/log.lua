@@ -51,7 +51,8 @@ local function follow(class, name, finish)
 end
 
 local function settled(result)
-  log.line(("settle: %s"):format(type(result) == "table" and tostring(result.reason) or tostring(result)))
+  local reason = type(result) == "table" and require("softworld.scene.rest").reason(result)
+  log.line(("settle: %s"):format(tostring(reason or result)))
 end
 
 --- Opens the log; from then on it gets what the program does.
