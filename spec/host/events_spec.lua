@@ -43,7 +43,8 @@ describe("a run with events", function()
   it("is not told without events, and within tuning", function()
     local _, err = script(pulled .. [[
       pull(1e-6)
-      sw.tune.minimise{ from = 0, to = 1, max_iterations = 3, f = function(x) pull() return x * x end }]])
+      assert(sw.tune.minimise{ from = 0, to = 1, max_iterations = 3,
+        f = function(x) pull() return x * x end }.reason)]])
     assert.equal("", err)
   end)
 

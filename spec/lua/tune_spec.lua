@@ -148,6 +148,27 @@ describe("tune.minimise", function()
     assert.is_true(minimise { f = f, start = { 1, 2 } }.ok)
   end)
 
+  it("tells a script that does not look whether it ended", function()
+    local ask = [[
+      local found = require("softworld").tune.minimise { start = 1, max_iterations = 2, f = function(x)
+        return (x - 5) ^ 2
+      end }
+      print(found.x > 1) ]]
+    local out, err, code = program.script(ask)
+    assert.equal("true\n", out)
+    assert.truthy(err:find("note: the search of tune.minimise at script.lua:1 is not at its end", 1, true),
+      err)
+    assert.equal(0, code)
+    for _, look in ipairs{ "assert(not found.ok)", "print(found.reason)", "print(found)" } do
+      out, err, code = program.script(ask .. look)
+      assert.equal("", err)
+      assert.equal(0, code, out)
+    end
+    assert.truthy(out:find("at 1.%d+ %(iterations used up, %d+ evaluations%)"), out)
+    program.clean()
+    assert.has_error(function() return minimise { f = math.abs, start = 1 }.valeu end)
+  end)
+
   it("stops at one Ctrl-C", function()
     local _, err, code = program.script([[
       require("softworld").tune.minimise { start = 1, f = function(x)

@@ -9,9 +9,49 @@
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
+local number = require "softworld.output.number"
+local place = require "softworld.place"
 local unread = require "softworld.unread"
 
 local tune = {}
+
+local hidden = setmetatable({}, { __mode = "k" }) -- by the result of a search that did not end: reason, mark
+
+local Found = { __name = "minimum" }
+local field = checks.fields("the result of tune.minimise",
+  "x value ok reason iterations evaluations nonfinite")
+
+function Found.__index(self, key)
+  local own = hidden[self]
+  if not own or key ~= "ok" and key ~= "reason" then return field(self, key) end
+  unread.seen(own.mark)
+  if key == "ok" then return false end
+  return own.reason
+end
+
+local function text_of(x)
+  if type(x) == "number" then return ("%.6g"):format(x) end
+  local parts = {}
+  for k, value in ipairs(x) do parts[k] = ("%.6g"):format(value) end
+  return ("{ %s }"):format(table.concat(parts, ", "))
+end
+
+function Found:__tostring()
+  return ("%.6g at %s (%s, %s)"):format(self.value, text_of(self.x), self.reason,
+    number.count(self.evaluations, "evaluation"))
+end
+
+-- Makes a search that ended before its tolerance a note at the end of a script that does not look at it.
+local function found(result)
+  if not result.ok then
+    local at = place.of_caller()
+    hidden[result] = { reason = result.reason, mark = unread.note(
+      ("softworld: note: the search of tune.minimise%s is not at its end: %s; see .ok of its result"):format(
+      at and " at " .. at or "", result.reason), "tune.minimise: " .. result.reason) }
+    result.ok, result.reason = nil, nil
+  end
+  return setmetatable(result, Found)
+end
 
 --- Minimises f.
 --
@@ -26,7 +66,8 @@ local tune = {}
 -- @tparam table args `f`, a function of the number (or of the list, when start is
 -- one) returning a number, and the above
 -- @treturn table `x`, `value`, `ok`, `reason`, `iterations`, `evaluations`, and
--- `nonfinite`, how many values were not finite
-function tune.minimise(args) return unread.excused(build.call, 3, core.minimise, args) end
+-- `nonfinite`, how many values were not finite. A script that looks neither at `ok` nor at `reason` nor
+-- prints it is told at its end if the search did not end
+function tune.minimise(args) return found(unread.excused(build.call, 3, core.minimise, args)) end
 
 return setmetatable(tune, { __index = checks.fields("tune", "minimise") })
