@@ -31,9 +31,10 @@ local readable = runfiles.readable
 -- Keeps in mind the events of a run that is ok until the script reads run.events, itself or by its summary, a
 -- check or a page.
 local function mark_events(run)
+  local at = place.of_caller()
+  run.unseen_met = trust.watch(run, ("the run of '%s'%s"):format(run.name, at and " at " .. at or ""))
   local events = sealed.fields(run).events
   if not events or #events == 0 then return run end
-  local at = place.of_caller()
   local text = "softworld: note: the run of '%s'%s is ok, but has %s; see run.events: %s: %s"
   run.unseen = unread.note(text:format(run.name, at and " at " .. at or "", counted(#events, "event"),
     events[1].kind, events[1].text), ("%s: %s"):format(events[1].kind, events[1].text))
@@ -166,7 +167,7 @@ Run.ledger = ledger.of
 
 -- Fields that may be nil.
 local may_lack = checks.set [[quantities levels met advice where asked refused last_jump failure
-  ok reason model unseen]]
+  ok reason model unseen unseen_met]]
 local fields = { "ok", "reason", "time", "steps", "rejected", "iterations", "evaluations", "jumps",
   "smallest_dt", "start", "wall", "cpu", "scene", "name", "events", "quantities", "met", "levels", "model" }
 
@@ -180,6 +181,7 @@ end
 function Run.__index(self, key)
   local own = sealed.fields(self)
   if key == "events" and own.unseen then unread.seen(own.unseen) end
+  if (key == "met" or key == "advice") and own.unseen_met then unread.seen(own.unseen_met) end
   local value = own[key]
   if value == nil then value = Run[key] end
   if value ~= nil then return value end

@@ -22,6 +22,7 @@ local number = require "softworld.output.number"
 local process = require "softworld.run.process"
 local quantity = require "softworld.quantity"
 local sealed = require "softworld.sealed"
+local unread = require "softworld.unread"
 
 local trust = {}
 
@@ -46,7 +47,24 @@ local function text_of(value, unit)
 end
 
 local Quantity = { __name = "quantity" }
-Quantity.__index = Quantity
+
+-- By a quantity whose tolerance is not met: its error, met, and the mark of its result; reading them counts
+-- as a look at that.
+local watched = setmetatable({}, { __mode = "k" })
+
+function Quantity.__index(self, key)
+  local own = watched[self]
+  if own and (key == "error" or key == "met") then
+    unread.seen(own.mark)
+    return own[key]
+  end
+  return Quantity[key]
+end
+
+function Quantity.__newindex(self, key, value)
+  local own = watched[self]
+  if own and (key == "error" or key == "met") then own[key] = value else rawset(self, key, value) end
+end
 
 function Quantity:__tostring()
   return ("%s +- %s"):format(text_of(self.value, self.unit), number.text(self.error, self.unit))
@@ -105,6 +123,26 @@ function trust.unmet(result)
     return result.met == false and result.model and "the model may leave out too much, see run:why()" or nil
   end
   return ("%d of %d tolerances NOT met: %s"):format(#names, #result.asked, table.concat(names, ", "))
+end
+
+--- Stores a note of tolerances that the script asked for and that are not met. Returns its mark, which counts
+-- as seen once the error of such a quantity is read; nil if there are none. what: the result in words.
+function trust.watch(result, what)
+  local text, open, all = result.ok and trust.unmet(result), {}, {}
+  for _, name in ipairs(text and result.asked or {}) do
+    local q = result.quantities[name]
+    if not q.row then all[#all + 1] = q end
+    if not q.met and not q.row then open[#open + 1] = q end
+  end
+  if result.model and #open == 0 then open = all end -- the model leaves out too much
+  if #open == 0 then return nil end
+  local mark = unread.note(("softworld: note: %s is ok, but %s; see .met of its result: %s"):format(what,
+    text, result.advice), ("tolerance: %s"):format(text))
+  for _, q in ipairs(open) do
+    watched[q] = { error = q.error, met = q.met, mark = mark }
+    q.error, q.met = nil, nil
+  end
+  return mark
 end
 
 --- For the __index of results: raises an error if the quantities of a refused result are read.

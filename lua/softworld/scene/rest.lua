@@ -10,7 +10,8 @@ local unread = require "softworld.unread"
 
 local rest = {}
 
--- By the result: ok and reason of a failure with its mark, or the new events with theirs.
+-- By the result: ok and reason of a failure with its mark, or the new events with theirs; the mark of
+-- tolerances that are not met.
 local hidden = setmetatable({}, { __mode = "k" })
 
 local TOLD = { kink = "kinked", held = "held" } -- fields of the result with the text of such an event
@@ -47,6 +48,11 @@ local function look(self, key)
   if own.ok == false and (key == "ok" or key == "reason") then
     if own.mark then unread.seen(own.mark) end
     return own[key]
+  end
+  if own.unmet and (key == "met" or key == "advice") then
+    unread.seen(own.unmet)
+    if key == "met" then return false end
+    return own.advice
   end
   if key ~= "events" and not FIELD[key] then return nil end
   if own.ok and own.mark then unread.seen(own.mark) end
@@ -98,9 +104,7 @@ function Settled:__tostring()
 end
 
 -- Keeps in mind what a script must look at; returns the mark, or nil.
-local function mark_of(scene, result, list)
-  local at = place.of_caller()
-  local what = ("scene:settle of '%s'%s"):format(scene.name, at and " at " .. at or "")
+local function mark_of(what, result, list)
   if not result.ok then
     return unread.add(("softworld: %s FAILED: %s; the script did not look at its result"):format(what,
       result.reason), true)
@@ -120,7 +124,14 @@ end
 
 --- Makes the result of a settle from the core's, or from that of error bars. list: its events.
 function rest.new(scene, result, list)
-  local own = { ok = result.ok, events = list, mark = mark_of(scene, result, list) }
+  local at = place.of_caller()
+  local what = ("scene:settle of '%s'%s"):format(scene.name, at and " at " .. at or "")
+  local own = { ok = result.ok, events = list, mark = mark_of(what, result, list) }
+  own.unmet = result.levels and trust.watch(result, what) or nil
+  if own.unmet then
+    own.advice = result.advice
+    result.met, result.advice = nil, nil
+  end
   if not result.ok then
     own.reason = result.reason
     result.ok, result.reason = nil, nil
