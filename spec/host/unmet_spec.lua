@@ -35,8 +35,8 @@ describe("a tolerance that is not met", function()
         .. ("local r = %s(1e-9)\nprint(#r.quantities.tip.value)"):format(what))
       assert.equal("3\n", out)
       assert.truthy(err:find(("softworld: note: %s at script.lua:%d is ok, but 1 of %d tolerances NOT met: "
-        .. "tip; see .met of its result: "):format(text, what == "run" and 10 or 14, what == "run" and 2 or 1),
-        1, true), err)
+        .. "tip; see .met of its result: "):format(text, what == "run" and 10 or 14,
+        what == "run" and 2 or 1), 1, true), err)
       assert.equal(0, code)
     end)
 
