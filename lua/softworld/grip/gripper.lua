@@ -265,6 +265,7 @@ for _, key in ipairs{ "gone", "wires", "hold", "at", "rotation", "tool", "wire",
 end
 
 function Gripper:__index(key)
+  if reactions.looks[key] and not sealed.by_library() then reactions.seen(self) end
   local own = rawget(sealed.fields(self), key)
   if own ~= nil then return own end
   if shortcuts[key] then return self:over()[key] end

@@ -5,9 +5,22 @@ local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local grasped = require "softworld.grip.grasped"
 local mixed = require "softworld.grip.mixed"
+local sealed = require "softworld.sealed"
+local unread = require "softworld.unread"
 local vec = require "softworld.vec"
 
 local reactions = {}
+
+local looked = setmetatable({}, { __mode = "k" }) -- grippers whose slips the script asked for
+local marks = setmetatable({}, { __mode = "k" })  -- by gripper: mark of the note about its slips
+
+reactions.looks = checks.set "events slip_event state peak_margin" -- what a script reads to see slips
+
+--- The script reads one of these.
+function reactions.seen(gripper)
+  looked[gripper] = true
+  if marks[gripper] then unread.seen(marks[gripper]) end
+end
 
 reactions.words = { "record", "warn", "stop" }
 reactions.on_slip_row = { "on_slip", "reaction", "-",
@@ -48,6 +61,27 @@ end
 
 local function lost_text(self, event)
   return ("gripper '%s': nothing is left between the pads at t = %.4g s"):format(self.name, event.time)
+end
+
+--- Stores a note for each gripper from which the wire slipped or was lost since a time, unless something
+-- reacts to it or the script asks for it. what: the run in words. Returns their marks.
+function reactions.tell(scene, since, what)
+  local list = {}
+  for _, self in ipairs(build.data(scene).grippers) do
+    local own = sealed.fields(self)
+    local quiet = own.on_slip == nil or own.on_slip == "record"
+    local said
+    for _, e in ipairs(quiet and not looked[self] and own.events or {}) do
+      local text = e.kind == "lost" and lost_text or e.kind == "slip" and slip_text
+      if text and e.time >= since then said = text(self, e) end
+    end
+    if said then
+      marks[self] = unread.note(("softworld: note: %s is ok, but %s; see .events of the gripper"):format(what,
+        said), said)
+      list[#list + 1] = marks[self]
+    end
+  end
+  return list
 end
 
 -- Logs the event and reacts to it; returns a text if the run has to stop.

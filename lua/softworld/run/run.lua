@@ -10,6 +10,7 @@ local document = require "softworld.run.document"
 local go = require "softworld.run.go"
 local kept = require "softworld.run.kept"
 local ledger = require "softworld.run.ledger"
+local reactions = require "softworld.grip.reactions"
 local methods = require "softworld.methods"
 local counted = require "softworld.output.number".count
 local place = require "softworld.place"
@@ -32,12 +33,14 @@ local readable = runfiles.readable
 -- check or a page.
 local function mark_events(run)
   local at = place.of_caller()
-  run.unseen_met = trust.watch(run, ("the run of '%s'%s"):format(run.name, at and " at " .. at or ""))
+  local what = ("the run of '%s'%s"):format(run.name, at and " at " .. at or "")
+  run.unseen_met = trust.watch(run, what)
+  run.unseen_slips = reactions.tell(run.scene, run.start, what)
   local events = sealed.fields(run).events
   if not events or #events == 0 then return run end
-  local text = "softworld: note: the run of '%s'%s is ok, but has %s; see run.events: %s: %s"
-  run.unseen = unread.note(text:format(run.name, at and " at " .. at or "", counted(#events, "event"),
-    events[1].kind, events[1].text), ("%s: %s"):format(events[1].kind, events[1].text))
+  local event = ("%s: %s"):format(events[1].kind, events[1].text)
+  run.unseen = unread.note(("softworld: note: %s is ok, but has %s; see run.events: %s"):format(what,
+    counted(#events, "event"), event), event)
   return run
 end
 
@@ -167,7 +170,7 @@ Run.ledger = ledger.of
 
 -- Fields that may be nil.
 local may_lack = checks.set [[quantities levels met advice where asked refused last_jump failure
-  ok reason model unseen unseen_met]]
+  ok reason model unseen unseen_met unseen_slips]]
 local fields = { "ok", "reason", "time", "steps", "rejected", "iterations", "evaluations", "jumps",
   "smallest_dt", "start", "wall", "cpu", "scene", "name", "events", "quantities", "met", "levels", "model" }
 
@@ -181,6 +184,9 @@ end
 function Run.__index(self, key)
   local own = sealed.fields(self)
   if key == "events" and own.unseen then unread.seen(own.unseen) end
+  if key == "events" and own.unseen_slips and sealed.by_library() then -- summaries, pages, checks tell them
+    for _, mark in ipairs(own.unseen_slips) do unread.seen(mark) end
+  end
   if (key == "met" or key == "advice") and own.unseen_met then unread.seen(own.unseen_met) end
   local value = own[key]
   if value == nil then value = Run[key] end
