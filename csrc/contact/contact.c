@@ -197,6 +197,11 @@ int sw_contact_pusher(const sw_contact *c, size_t k) {
   return t->press.normal_force > 0 ? c->obstacles[t->obstacle].id : -1;
 }
 
+int sw_contact_slides(const sw_contact *c, size_t k, double least) {
+  const sw_touch *t = touch_at(c, k);
+  return t->press.normal_force > 0 && t->friction > 0 && sw_norm(t->press.slip) > least;
+}
+
 int sw_contact_push_at(const sw_contact *c, const sw_system *s, size_t k, sw_contact_push *out) {
   const sw_touch *t = touch_at(c, k);
   const sw_press *p = &t->press;

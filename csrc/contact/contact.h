@@ -122,7 +122,6 @@ int sw_contact_informed(const sw_contact *contact);
 void sw_contact_recall(sw_contact *contact, sw_contact_past_function past,
                        sw_contact_moves_function moves);
 void sw_contact_ask_again(sw_contact *contact);
-
 /* 1: an obstacle has moved since the step's start. */
 int sw_contact_moves(const sw_contact *contact);
 
@@ -137,7 +136,6 @@ typedef enum sw_contact_verdict {
 } sw_contact_verdict;
 sw_contact_verdict sw_contact_review(sw_contact *contact, sw_system *system, const double *x1,
                                      const double *v1, double h, int dull);
-
 double sw_contact_soonest(const sw_contact *contact); /* of a rebound, after the step's start [s] */
 /* Sets the earliest time at which a rebound may cut the step [s]. */
 void sw_contact_cut(sw_contact *contact, double least);
@@ -178,9 +176,11 @@ typedef struct sw_contact_push {
   double slid;        /* sliding way since the touch began to press [m] */
 } sw_contact_push;
 /* Number of touches, with or without a force. sw_contact_push_at reads touch k and returns 0 if it
- * has no force. sw_contact_pusher returns the obstacle that pushes at touch k; -1: no force. */
+ * has no force. sw_contact_pusher returns the obstacle that pushes at touch k; -1: no force.
+ * sw_contact_slides: 1 if it pushes, has friction and slid by more than least in the step [m]. */
 size_t sw_contact_touches(const sw_contact *contact);
 int sw_contact_pusher(const sw_contact *contact, size_t k);
+int sw_contact_slides(const sw_contact *contact, size_t k, double least);
 /* Touches of nodes from node to before end_node: from *first to before *end. */
 void sw_contact_touches_of(const sw_contact *contact, size_t node, size_t end_node, size_t *first,
                            size_t *end);

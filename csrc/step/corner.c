@@ -86,67 +86,82 @@ static sw_status rests_after(const sw_motion *m, double t, int *rests, sw_error 
   return SW_OK;
 }
 
-/* The same, without corners at which the motion comes to rest. */
-static sw_status moving_corner_at(const sw_motion *m, double t, double h, double *at,
-                                  sw_error *err) {
-  int rests;
-  SW_TRY(rests_after(m, t, &rests, err));
-  return rests ? SW_OK : corner_at(m, t, h, at, err);
+/* What is asked of the drives. Whether wires slide is looked up only where it matters: that reads
+ * every touch, and most steps have no corner. */
+typedef struct asking {
+  const sw_scene *s;
+  double h;  /* [s] */
+  int slide; /* 1: wires slide; -1: not known yet */
+} asking;
+
+static int slides(asking *a) {
+  if (a->slide < 0) a->slide = sw_drives_slide(a->s, HUGE_VAL, HUGE_VAL);
+  return a->slide;
 }
 
-/* As corner_of, without corners at which a function comes to rest: stop.c knows how near to a
- * step's ends these may be. */
-static sw_status moving_corner_of(const sw_motion *m, double t, double h, double *at,
-                                  sw_error *err) {
+/* Corners from t to t + h. While wires slide, corners at which a function comes to rest are left
+ * out: stop.c knows how near to a step's ends these may be. */
+static sw_status first_of(asking *a, const sw_motion *m, double t, double *at, sw_error *err) {
   double own = HUGE_VAL;
   int rests = 0;
-  SW_TRY(corner_of(m, t, h, &own, err));
-  if (own < HUGE_VAL && sw_motion_is_function(m)) SW_TRY(rests_after(m, t + own, &rests, err));
+  SW_TRY(corner_of(m, t, a->h, &own, err));
+  if (own < HUGE_VAL && sw_motion_is_function(m) && slides(a))
+    SW_TRY(rests_after(m, t + own, &rests, err));
   if (!rests) *at = fmin(*at, own);
   return SW_OK;
 }
 
-static sw_status ask(const sw_scene *s, const sw_drive *d, double h, sw_when of, double *at,
-                     sw_error *err) {
-  if (d->tool) d = &sw_scene_tool_in(s, d->tool - 1)->drive;
+/* A corner at t. Wires that slide with a drive until it rests keep their friction (stop.c), and a
+ * restart would turn it: such corners are left out. */
+static sw_status now_of(asking *a, const sw_motion *m, double t, double *at, sw_error *err) {
+  const int function = sw_motion_is_function(m);
   double own = HUGE_VAL;
-  if (!d->motion) return SW_OK;
-  SW_TRY(of(d->motion, sw_scene_time(s) - d->start, h, &own, err));
-  *at = fmin(*at, own);
+  int rests = 0;
+  if (function && slides(a)) SW_TRY(rests_after(m, t, &rests, err));
+  if (!rests) SW_TRY(corner_at(m, t, a->h, &own, err));
+  if (!function && own < HUGE_VAL && slides(a)) SW_TRY(rests_after(m, t, &rests, err));
+  if (!rests) *at = fmin(*at, own);
   return SW_OK;
 }
 
-/* Asks the drives of holds, and of obstacles near wires. While wires slide over wires corners are
- * left out: a cable's sag swings after a corner, steps of 20 ms do not follow that, and friction at
- * rest came out 0.16 mu m g too low (spec/contact/pair_stop_spec). */
-static sw_status ask_all(const sw_scene *s, double h, sw_when of, double *at, sw_error *err) {
+typedef sw_status (*asked)(asking *, const sw_motion *, double, double *, sw_error *);
+
+static sw_status ask(asking *a, const sw_drive *d, asked of, double *at, sw_error *err) {
+  if (d->tool) d = &sw_scene_tool_in(a->s, d->tool - 1)->drive;
+  if (!d->motion) return SW_OK;
+  if (sw_scene_pairs(a->s) && sw_motion_is_function(d->motion) && slides(a)) return SW_OK;
+  return of(a, d->motion, sw_scene_time(a->s) - d->start, at, err);
+}
+
+/* Asks the drives of holds, and of obstacles near wires. In a scene whose wires may touch each
+ * other corners are left out while wires slide: a cable's sag swings after a corner, steps of 20 ms
+ * do not follow that, and friction at rest came out 0.16 mu m g too low
+ * (spec/contact/pair_stop_spec). */
+static sw_status ask_all(const sw_scene *s, double h, asked of, double *at, sw_error *err) {
   const sw_contact *contact = sw_scene_contact(s);
+  asking a = {s, h, -1};
   size_t count = 0;
   *at = HUGE_VAL;
   /* Explicit methods take short steps and begin each with the forces of its start. implicit-euler
    * takes a path's chords for velocities: in a short step after a long one they jump. */
   const sw_integrator *method = sw_scene_course(s)->method;
   if (!(method->flags & SW_INTEGRATOR_IMPLICIT) || method->order < 2) return SW_OK;
-  if (sw_scene_pairs(s) && sw_drives_slide(s, HUGE_VAL, HUGE_VAL)) return SW_OK;
   SW_EACH(hold, hold, s)
-    if (hold->alive) SW_TRY(ask(s, &hold->drive, h, of, at, err));
+    if (hold->alive) SW_TRY(ask(&a, &hold->drive, of, at, err));
   const int *busy = contact ? sw_contact_busy(contact, &count) : NULL;
   for (size_t k = 0; k < count; k++)
-    SW_TRY(ask(s, &sw_scene_obstacle_in(s, (size_t)busy[k])->drive, h, of, at, err));
+    SW_TRY(ask(&a, &sw_scene_obstacle_in(s, (size_t)busy[k])->drive, of, at, err));
+  if (*at < HUGE_VAL && sw_scene_pairs(s) && slides(&a)) *at = HUGE_VAL;
   return SW_OK;
 }
 
 sw_status sw_corner_first(const sw_scene *s, double h, double *at, sw_error *err) {
-  const int slide = sw_drives_slide(s, HUGE_VAL, HUGE_VAL);
-  return ask_all(s, h, slide ? moving_corner_of : corner_of, at, err);
+  return ask_all(s, h, first_of, at, err);
 }
 
 sw_status sw_corner_now(const sw_scene *s, int *yes, sw_error *err) {
-  /* Wires that slide with a drive until it rests keep their friction (stop.c). A restart would turn
-   * it. */
-  const int slide = sw_drives_slide(s, HUGE_VAL, HUGE_VAL);
   double at;
-  SW_TRY(ask_all(s, 0, slide ? moving_corner_at : corner_at, &at, err));
+  SW_TRY(ask_all(s, 0, now_of, &at, err));
   *yes = at <= 0;
   return SW_OK;
 }

@@ -237,7 +237,7 @@ int sw_drives_slide(const sw_scene *s, double travel, double way) {
   const size_t count = contact ? sw_contact_touches(contact) : 0;
   sw_contact_push p;
   for (size_t k = 0; k < count; k++)
-    if (sw_contact_push_at(contact, system, k, &p) && p.friction > 0 && sw_norm(p.slip) > SLID &&
+    if (sw_contact_slides(contact, k, SLID) && sw_contact_push_at(contact, system, k, &p) &&
         p.slid < way &&
         (!(travel < HUGE_VAL) ||
          sw_body_is_stiff(&system->bodies[sw_system_body_of(system, p.node)], travel)))
