@@ -155,14 +155,15 @@ double sw_touch_arc(const sw_system *s, const sw_touch *t) {
 
 double sw_contact_penetration(const sw_contact *c, size_t *node) {
   double deepest = 0;
-  for (size_t i = 0; i < sw_contact_touches(c); i++) {
-    const sw_touch *t = touch_at(c, i);
-    const double depth = t->forgiven - t->press.gap_after;
+  for (size_t i = 0; i < c->touch_count; i++) {
+    const double depth = sw_touch_depth(&c->touches[i]);
     if (depth <= deepest) continue;
     deepest = depth;
-    if (node) *node = t->node;
+    if (node) *node = c->touches[i].node;
   }
-  return deepest;
+  if (c->still.deepest <= deepest) return deepest;
+  if (node) *node = c->still.deepest_node;
+  return c->still.deepest;
 }
 
 sw_presses sw_contact_presses(const sw_contact *c) {
@@ -170,7 +171,9 @@ sw_presses sw_contact_presses(const sw_contact *c) {
 }
 
 sw_presses sw_contact_still_presses(const sw_contact *c) {
-  return SW_PRESSES(sw_touch, c->still.list, c->still.count);
+  sw_presses list = SW_PRESSES(sw_touch, c->still.list, c->still.count);
+  list.known = &c->still.sums;
+  return list;
 }
 
 size_t sw_contact_touches(const sw_contact *c) { return c->touch_count + c->still.count; }
@@ -220,6 +223,10 @@ int sw_contact_push_at(const sw_contact *c, const sw_system *s, size_t k, sw_con
                            .slid = t->slid + sw_norm(p->slip),
                            .force = sw_madd(p->tangential, p->normal, p->normal_force)};
   return p->normal_force > 0;
+}
+
+int sw_contact_may_press(const sw_contact *c, size_t body, double force) {
+  return !c->still.any || !c->still.kept[body] || c->still.sums.hardest > force;
 }
 
 double sw_contact_largest_push(const sw_contact *c, size_t first, size_t end) {
@@ -286,7 +293,7 @@ double sw_contact_emerged(const sw_contact *c) {
 }
 
 int sw_contact_steady(const sw_contact *c) {
-  size_t before = 0, now = c->still.pressing;
+  size_t before = 0, now = c->still.sums.pressing;
   for (size_t i = 0; i < c->memory_count; i++) before += c->memory[i].kept.normal_force > 0;
   for (size_t i = 0; i < c->touch_count; i++) {
     if (!(c->touches[i].press.normal_force > 0)) continue;

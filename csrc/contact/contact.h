@@ -66,7 +66,6 @@ void sw_contact_stiffness(sw_contact_regime regime, const sw_plan *plan, double 
                           double nominal, double *base, double *rate2);
 /* Smallest stiffness of a particle's touches with other objects, not in explicit steps [N/m]. */
 double sw_contact_hardness(const sw_web *web, size_t particle);
-
 /* Begins a step of size h (in statics a pseudo step, or 0) at time t: places the obstacles. */
 sw_status sw_contact_open(sw_contact *contact, double t, double h, sw_error *err);
 /* Call next: wakes waiting bodies that may be disturbed in the step (system/wait.h), then finds
@@ -149,7 +148,6 @@ void sw_contact_ask(sw_contact *contact, double part);
 /* Reviews a static solution x1. Segments that passed an obstacle are kept on their side from now
  * on. Returns 1 if there are any: solve again. */
 int sw_contact_review_static(sw_contact *contact, sw_system *system, const double *x1);
-
 /* Accepts the trial: stores friction anchors and sides for the next step. */
 void sw_contact_commit(sw_contact *contact, sw_system *system);
 
@@ -186,7 +184,9 @@ void sw_contact_touches_of(const sw_contact *contact, size_t node, size_t end_no
                            size_t *end);
 int sw_contact_push_at(const sw_contact *contact, const sw_system *system, size_t k,
                        sw_contact_push *out);
-double sw_contact_largest_push(const sw_contact *contact, size_t first, size_t end); /* [N] */
+/* Largest force of some touches [N]; 0 if surely none of a body's is above a force (quick) [N]. */
+double sw_contact_largest_push(const sw_contact *contact, size_t first, size_t end);
+int sw_contact_may_press(const sw_contact *contact, size_t body, double force);
 /* Largest radius of round obstacles that press on a wire within one edge of a node; 0: none [m]. */
 double sw_contact_round_beside(const sw_contact *contact, const sw_system *system, size_t node);
 

@@ -73,6 +73,8 @@ typedef struct sw_touch {
   sw_press press;   /* its normal is the obstacle's outward normal in world coordinates */
 } sw_touch;
 
+/* Penetration of the accepted state at the touch, negative outside [m]. */
+static inline double sw_touch_depth(const sw_touch *t) { return t->forgiven - t->press.gap_after; }
 /* Arc length of a touch's place, of a line from its start [m]. */
 double sw_touch_arc(const sw_system *system, const sw_touch *touch);
 /* 1 if the touch is softer in this iterate than it will be in the next. */

@@ -196,7 +196,7 @@ static int slips_off(const sw_contact *c, const sw_system *s, const double *x1, 
   for (size_t i = 0; i < c->memory_count; i++) { /* memory is in the order of nodes */
     const sw_memory *m = &c->memory[i];
     while (m->node >= b->first_node + b->plan->nodes) b++;
-    if (b->plan->web) continue;
+    if (b->plan->web || b->waits) continue;
     if (of != b) most = HELD * sw_contact_usual_force(s, b->plan) / (double)b->plan->nodes, of = b;
     if (!(m->kept.normal_force > most)) continue;
     if (went_sideways(c, b, m, x1) && !is_pressed_still(c, m)) return 1;

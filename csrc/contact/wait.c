@@ -82,15 +82,18 @@ static void add_load(sw_contact *c, const sw_touch *t) {
   to->moment = sw_add(to->moment, sw_cross(sw_sub(t->acts, c->start[t->obstacle].pivot), f));
 }
 
-/* Loads of the touches set aside. */
+/* Loads of the touches set aside, and their sums. */
 static void load_obstacles(sw_contact *c) {
   const sw_contact_load none = {.force = {.x = 0}};
-  c->still.pressing = 0;
+  sw_still *still = &c->still;
+  still->deepest = 0;
   for (size_t o = 0; o < c->count; o++) c->loads[o].resting = none;
-  for (size_t i = 0; i < c->still.count; i++) {
-    add_load(c, &c->still.list[i]);
-    c->still.pressing += c->still.list[i].press.normal_force > 0;
+  SW_ITEMS(const sw_touch, t, still->list, still->count) {
+    const double depth = sw_touch_depth(t);
+    add_load(c, t);
+    if (depth > still->deepest) still->deepest = depth, still->deepest_node = t->node;
   }
+  still->sums = sw_presses_sums(SW_PRESSES(sw_touch, still->list, still->count));
 }
 
 void sw_contact_forget_still(sw_contact *c) {
@@ -124,28 +127,44 @@ sw_status sw_contact_wake(sw_contact *c, sw_system *s, sw_error *err) {
   return SW_OK;
 }
 
-/* Puts aside the touches of the waiting bodies. */
+/* 1 if the touch's body waits and its touches are not in the list yet. */
+static int begins(const sw_contact *c, const sw_system *s, const sw_touch *t) {
+  return s->bodies[t->body].waits && !c->still.kept[t->body];
+}
+
+/* Removes the touches of bodies that do not wait any more. */
+static void leave_out(sw_still *still, const sw_system *s) {
+  size_t left = 0;
+  for (size_t i = 0; i < still->count; i++) {
+    if (!s->bodies[still->list[i].body].waits) continue;
+    if (left < i) still->list[left] = still->list[i];
+    left++;
+  }
+  still->count = left;
+}
+
+/* Puts aside the touches of the waiting bodies: those that begin to wait are merged into the list,
+ * from its end. */
 static sw_status set_aside(sw_contact *c, const sw_system *s) {
-  size_t from_touches = 0, from_still = 0, count = 0;
-  SW_TRY(sw_grow_empty((void **)&c->still.room, &c->still.room_capacity,
-                       c->still.count + c->touch_count, sizeof *c->still.room));
-  c->still.any = 0;
-  for (size_t b = 0; b < s->body_count; b++) {
-    const sw_body *body = &s->bodies[b];
-    if (!body->waits) continue;
-    const list l = c->still.kept[b] ? touches_of(body, c->still.list, c->still.count, &from_still)
-                                    : touches_of(body, c->touches, c->touch_count, &from_touches);
-    if (l.count) memcpy(c->still.room + count, l.touches, l.count * sizeof *l.touches);
-    count += l.count;
-    c->still.any = 1;
+  sw_still *still = &c->still;
+  size_t more = 0;
+  for (size_t i = 0; i < c->touch_count; i++) more += begins(c, s, &c->touches[i]) != 0;
+  SW_TRY(
+      sw_grow((void **)&still->list, &still->capacity, still->count + more, sizeof *still->list));
+  leave_out(still, s);
+  size_t left = still->count, to = still->count += more;
+  for (size_t tail = c->touch_count; more; tail--) {
+    const sw_touch *t = &c->touches[tail - 1];
+    if (!begins(c, s, t)) continue;
+    while (left && still->list[left - 1].node > t->node) still->list[--to] = still->list[--left];
+    still->list[--to] = *t, more--;
   }
+  still->any = 0;
   for (size_t b = 0; b < s->body_count; b++) {
-    if (!c->still.kept[b]) s->bodies[b].weighed = 0;
-    c->still.kept[b] = s->bodies[b].waits != 0;
+    if (!still->kept[b]) s->bodies[b].weighed = 0;
+    still->kept[b] = s->bodies[b].waits != 0;
+    still->any |= still->kept[b];
   }
-  SW_SWAP(c->still.list, c->still.room);
-  SW_SWAP(c->still.capacity, c->still.room_capacity);
-  c->still.count = count;
   load_obstacles(c);
   return SW_OK;
 }
@@ -165,7 +184,6 @@ sw_status sw_contact_wait(sw_contact *c, sw_system *s) {
 
 void sw_still_free(sw_still *still) {
   sw_free(still->list);
-  sw_free(still->room);
   sw_free(still->kept);
 }
 

@@ -6,12 +6,14 @@
 #define SW_CONTACT_WAIT_H
 
 #include "contact/record.h"
+#include "touch/tally.h"
 
 typedef struct sw_still {
-  sw_touch *list;                   /* (count) in the order of nodes */
-  size_t count, capacity, pressing; /* pressing: touches with a force */
-  sw_touch *room;                   /* work space for the next list */
-  size_t room_capacity;
+  sw_touch *list; /* (count) in the order of nodes */
+  size_t count, capacity;
+  sw_press_sums sums;  /* of the list, which stays as it is for many steps */
+  double deepest;      /* largest penetration, or 0 [m] */
+  size_t deepest_node; /* its node */
   unsigned char *kept; /* (bodies) 1: the body's touches are in the list */
   size_t bodies;
   int any;      /* 1: some body waits */

@@ -10,6 +10,7 @@
 #include "touch/bow.h"
 #include "touch/law.h"
 #include "touch/spot.h"
+#include "touch/tally.h"
 #include "touch/way.h"
 
 /* Two things that may touch. Each is a segment or edge from node to end, or a point with end =
@@ -111,6 +112,7 @@ typedef struct sw_still_meets {
   unsigned char *kept; /* (bodies) 1: the body waits; its touches with such are in the list */
   int any;             /* 1: some body waits */
   int accepted;        /* 1: the other touches are those of the accepted state */
+  sw_press_sums sums;  /* of the list, which stays as it is for many steps */
 } sw_still_meets;
 
 struct sw_mutual {

@@ -339,7 +339,9 @@ sw_presses sw_mutual_presses(const sw_mutual *m) {
 }
 
 sw_presses sw_mutual_still_presses(const sw_mutual *m) {
-  return SW_PRESSES(sw_meet, m->still.list, m->still.count);
+  sw_presses list = SW_PRESSES(sw_meet, m->still.list, m->still.count);
+  list.known = &m->still.sums;
+  return list;
 }
 
 /* Touch number k: those of bodies that are solved, then those of bodies that wait. */

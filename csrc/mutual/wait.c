@@ -19,6 +19,7 @@ static int were_kept(const sw_mutual *m, const uint32_t body[2]) {
 
 void sw_mutual_forget_still(sw_mutual *m) {
   m->still.count = 0, m->still.any = 0;
+  m->still.sums = (sw_press_sums){0};
   memset(m->still.kept, 0, m->bodies * sizeof *m->still.kept);
 }
 
@@ -84,6 +85,7 @@ sw_status sw_mutual_set_aside(sw_mutual *m, const sw_system *s) {
       still->kept[b] = s->bodies[b].waits != 0;
       still->any |= still->kept[b];
     }
+    still->sums = sw_presses_sums(SW_PRESSES(sw_meet, still->list, still->count));
   }
   still->accepted = 0;
   return SW_OK;

@@ -12,6 +12,7 @@ static const sw_press *press(sw_presses l, size_t k) { return part(l, k, l.press
 
 size_t sw_presses_count(sw_presses l) {
   size_t n = 0;
+  if (l.known) return l.known->pressing;
   for (size_t k = 0; k < l.count; k++) n += press(l, k)->normal_force > 0;
   return n;
 }
@@ -26,6 +27,7 @@ int sw_presses_slide(sw_presses l, double least) {
 
 double sw_presses_energy(sw_presses l) {
   double sum = 0;
+  if (l.known) return l.known->energy;
   for (size_t k = 0; k < l.count; k++) {
     const sw_press *p = press(l, k);
     if (!(p->normal_force > 0)) continue;
@@ -37,11 +39,20 @@ double sw_presses_energy(sw_presses l) {
 
 double sw_presses_rubbed(sw_presses l) {
   double sum = 0;
+  if (l.known) return l.known->rubbed;
   for (size_t k = 0; k < l.count; k++) {
     const sw_press *p = press(l, k);
     if (p->normal_force > 0) sum -= sw_dot(p->tangential, p->slip);
   }
   return sum;
+}
+
+sw_press_sums sw_presses_sums(sw_presses l) {
+  l.known = NULL;
+  sw_press_sums out = {sw_presses_count(l), sw_presses_energy(l), sw_presses_rubbed(l), 0};
+  for (size_t k = 0; k < l.count; k++)
+    out.hardest = sw_larger(out.hardest, press(l, k)->normal_force);
+  return out;
 }
 
 double sw_presses_emerged(sw_presses l) {

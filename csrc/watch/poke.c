@@ -51,6 +51,7 @@ static int find_push(const sw_scene *s, const sw_body *b, int last, sw_contact_p
   size_t k, stop;
   most->normal_force = PUSHED * b->plan->beam.EI / (length * length);
   int found = 0;
+  if (!sw_contact_may_press(c, (size_t)(b - system->bodies), most->normal_force)) return 0;
   sw_contact_touches_of(c, end, end + 1, &k, &stop);
   for (; k < stop; k++) {
     sw_contact_push p;

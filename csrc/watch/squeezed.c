@@ -53,6 +53,7 @@ void sw_scene_watch_squeezed(sw_scene *s, size_t wire) {
   size_t first, end;
   if (!contact || b->plan->web) return;
   const double usual = usual_force(b->plan);
+  if (!sw_contact_may_press(contact, wire, usual)) return;
   sw_contact_touches_of(contact, b->first_node, b->first_node + b->plan->nodes, &first, &end);
   if (!(sw_contact_largest_push(contact, first, end) > usual)) return;
   for (size_t i = first; i < end; i++) {
