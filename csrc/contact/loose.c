@@ -25,6 +25,7 @@ static double lost_by(const sw_contact *c, const sw_touch *t) {
 double sw_contact_lost(const sw_contact *c, const sw_body *b) {
   size_t i, end;
   double sum = 0;
+  if (!c->touch_count) return 0;
   sw_contact_touches_of(c, b->first_node, b->first_node + b->plan->nodes, &i, &end);
   for (; i < end && i < c->touch_count; i++) /* not those that wait */
     sum += lost_by(c, &c->touches[i]);

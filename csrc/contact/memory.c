@@ -66,20 +66,12 @@ static size_t carry_over(sw_contact *c, const sw_body *b, size_t m) {
   return m;
 }
 
-/* 1 if all bodies wait, so that the memory stays as it is. */
-static int all_wait(const sw_contact *c, const sw_system *s) {
-  if (!c->still.any || c->touch_count) return 0;
-  for (size_t b = 0; b < s->body_count; b++)
-    if (!c->still.kept[b]) return 0;
-  return 1;
-}
-
 void sw_contact_commit(sw_contact *c, sw_system *s) {
   c->next_count = 0;
   c->fresh = sw_contact_emerges(c) ? SW_CONTACT_EMERGING : 0;
   sw_contact_conclude(c, s);
   c->still.accepted = 1;
-  if (all_wait(c, s)) return;
+  if (sw_contact_all_wait(c, s)) return; /* their memory stays as it is */
   (void)sw_grow_empty((void **)&c->next_memory, &c->next_capacity, c->touch_count,
                       sizeof *c->next_memory);
   for (size_t b = 0, i = 0, m = 0; b < s->body_count; b++) {

@@ -193,6 +193,7 @@ static int slips_off(const sw_contact *c, const sw_system *s, const double *x1, 
   const sw_body *b = s->bodies, *of = NULL;
   double most = 0; /* force of a touch that does not hold the wire [N] */
   if (h < SW_SMALLEST_CARE * c->nominal || c->regime == SW_CONTACT_EXPLICIT) return 0;
+  if (sw_contact_all_wait(c, s)) return 0;
   for (size_t i = 0; i < c->memory_count; i++) { /* memory is in the order of nodes */
     const sw_memory *m = &c->memory[i];
     while (m->node >= b->first_node + b->plan->nodes) b++;

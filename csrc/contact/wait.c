@@ -169,6 +169,13 @@ static sw_status set_aside(sw_contact *c, const sw_system *s) {
   return SW_OK;
 }
 
+int sw_contact_all_wait(const sw_contact *c, const sw_system *s) {
+  if (!c->still.any || c->touch_count) return 0;
+  for (size_t b = 0; b < s->body_count; b++)
+    if (!c->still.kept[b]) return 0;
+  return 1;
+}
+
 sw_status sw_contact_wait(sw_contact *c, sw_system *s) {
   if (c->regime != SW_CONTACT_IMPLICIT || !has_room(c, s->body_count)) {
     for (size_t b = 0; b < s->body_count; b++) s->bodies[b].waits = 0;

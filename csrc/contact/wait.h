@@ -22,6 +22,8 @@ typedef struct sw_still {
 
 /* Call when a step begins: decides which bodies wait, and puts their touches aside. SW_ENOMEM. */
 sw_status sw_contact_wait(sw_contact *c, sw_system *s);
+/* 1 if all bodies wait in this step. */
+int sw_contact_all_wait(const sw_contact *c, const sw_system *s);
 /* Puts those touches back among the others. SW_ENOMEM: nothing is changed. */
 sw_status sw_contact_put_back(sw_contact *c);
 void sw_contact_forget_still(sw_contact *c); /* drops them */
