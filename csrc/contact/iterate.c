@@ -28,16 +28,26 @@ static int slides(const sw_touch *t) {
   return t->press.sliding && t->friction > 0 && t->press.lag > 0;
 }
 
-static void mark(sw_contact *c) {
+/* Begins the marks of the touches of a new matrix. */
+static void begin_marks(sw_contact *c) {
   c->mark_count = 0;
   c->unmarked = c->parts.on;
-  for (size_t i = 0; i < c->touch_count && !c->unmarked; i++) {
-    const sw_touch *t = &c->touches[i];
-    if (!t->press.active) continue;
-    c->unmarked = slides(t) || sw_grow((void **)&c->marks, &c->mark_capacity, c->mark_count + 1,
-                                       sizeof *c->marks) != SW_OK;
-    if (!c->unmarked)
-      c->marks[c->mark_count++] = (sw_mark){t->candidate, t->at, t->press.k, t->press.normal};
+}
+
+static void mark(sw_contact *c, const sw_touch *t) {
+  if (c->unmarked || !t->press.active) return;
+  c->unmarked = slides(t) || sw_grow((void **)&c->marks, &c->mark_capacity, c->mark_count + 1,
+                                     sizeof *c->marks) != SW_OK;
+  if (!c->unmarked)
+    c->marks[c->mark_count++] = (sw_mark){t->candidate, t->at, t->press.k, t->press.normal};
+}
+
+/* Adds the forces of the touches from number i to before end, and marks them. */
+static void apply_all(sw_contact *c, sw_system *s, size_t i, size_t end, const double *y,
+                      unsigned want) {
+  for (; i < end; i++) {
+    apply(c, s, &c->touches[i], y, want);
+    if (want & SW_WANT_STIFFNESS) mark(c, &c->touches[i]);
   }
 }
 
@@ -61,7 +71,8 @@ static sw_status look(sw_contact *c, sw_system *s, const double *y, unsigned wan
   do {
     while (at.next < at.end) {
       SW_TRY(sw_contact_look_on(c, s, y, &at, &found, err));
-      for (; want && done < found; done++) apply(c, s, &c->touches[done], y, want);
+      if (want) apply_all(c, s, done, found, y, want);
+      done = found;
     }
   } while (sw_contact_next_range(c, &at));
   return SW_OK;
@@ -104,12 +115,14 @@ sw_status sw_contact_eval(void *contact, sw_system *s, double time, double hbar,
   if (c->regime == SW_CONTACT_EXPLICIT) status = sw_contact_begin_stage(c, time, 0, err);
   if (status != SW_OK) return status;
   if (s->rough < SW_NOT_MADE) c->ahead_count = 0, c->passes = c->softer = 0;
+  if (want & SW_WANT_STIFFNESS) begin_marks(c);
   if (c->looked)
-    for (size_t i = c->parts.touch; i < c->touch_count; i++) apply(c, s, &c->touches[i], y, want);
+    apply_all(c, s, c->parts.touch, c->touch_count, y, want);
   else
-    SW_TRY(look(c, s, y, want, err));
+    status = look(c, s, y, want, err);
   c->looked = 0;
-  if (want & SW_WANT_STIFFNESS) mark(c);
+  c->unmarked |= status != SW_OK;
+  SW_TRY(status);
   for (size_t i = c->parts.touch; i < c->touch_count && c->regime == SW_CONTACT_EXPLICIT; i++)
     note_pressed(c, &c->touches[i]);
   return SW_OK;

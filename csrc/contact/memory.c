@@ -66,12 +66,18 @@ static size_t carry_over(sw_contact *c, const sw_body *b, size_t m) {
   return m;
 }
 
+static void swap_memories(sw_contact *c) {
+  SW_SWAP(c->memory, c->next_memory);
+  SW_SWAP(c->memory_capacity, c->next_capacity);
+}
+
 void sw_contact_commit(sw_contact *c, sw_system *s) {
   c->next_count = 0;
   c->fresh = sw_contact_emerges(c) ? SW_CONTACT_EMERGING : 0;
   sw_contact_conclude(c, s);
   c->still.accepted = 1;
   if (sw_contact_all_wait(c, s)) return; /* their memory stays as it is */
+  if (!c->still.any) swap_memories(c);   /* nothing is carried over: one list is enough */
   (void)sw_grow_empty((void **)&c->next_memory, &c->next_capacity, c->touch_count,
                       sizeof *c->next_memory);
   for (size_t b = 0, i = 0, m = 0; b < s->body_count; b++) {
@@ -79,8 +85,7 @@ void sw_contact_commit(sw_contact *c, sw_system *s) {
     for (; i < c->touch_count && c->touches[i].body == b; i++)
       (void)remember(c, s, &c->touches[i]); /* a lost anchor starts anew */
   }
-  SW_SWAP(c->memory, c->next_memory);
-  SW_SWAP(c->memory_capacity, c->next_capacity);
+  swap_memories(c);
   c->memory_count = c->next_count;
 }
 
