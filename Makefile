@@ -15,6 +15,12 @@ PKG = lua5.4 gsl ccd assimp zlib
 
 # Value-safe speed only: no -ffast-math, NaN checks and reproducible bits need IEEE rules.
 OPT = -O3 -fno-math-errno -fno-trapping-math -ffp-contract=fast
+# Structures of some hundred bytes are cleared and copied by stores or by the C library. By itself gcc
+# takes the processor's string instructions for up to 8 kB, which are slow to begin. Only for
+# compilers that know these options.
+COPIES = -mmemset-strategy=unrolled_loop:128:noalign,libcall:-1:noalign \
+  -mmemcpy-strategy=unrolled_loop:128:noalign,libcall:-1:noalign
+OPT += $(shell $(CC) $(COPIES) -E -x c /dev/null >/dev/null 2>&1 && echo $(COPIES))
 # -Wno-psabi: wide vectors are handed over inside one file only.
 WARN = -Wall -Wextra -Wshadow -Wmissing-prototypes -Wstrict-prototypes -Wdouble-promotion \
   -Wpointer-arith -Wwrite-strings -Wvla -Wno-psabi

@@ -13,7 +13,7 @@
 
 /* Carries a tangential vector at normal `from` to normal `to`. */
 static sw_vec carry(sw_vec v, sw_vec from, sw_vec to) {
-  const double share = sw_dot(to, v) / fmax(1.0 + sw_dot(from, to), 1e-12);
+  const double share = sw_dot(to, v) / sw_larger(1.0 + sw_dot(from, to), 1e-12);
   return sw_madd(v, sw_add(from, to), -share);
 }
 
@@ -33,8 +33,8 @@ static double free_share(const sw_system *s, const sw_meet *t, int side, sw_vec 
  * radii. */
 static double imposed(const sw_system *s, const sw_meet *t) {
   sw_vec a, b;
-  const double one = free_share(s, t, 0, &a), share = fmax(one, free_share(s, t, 1, &b));
-  return share < 1.0 ? (1.0 - share) * fmax(0.0, t->reach - sw_dist(a, b)) : 0.0;
+  const double one = free_share(s, t, 0, &a), share = sw_larger(one, free_share(s, t, 1, &b));
+  return share < 1.0 ? (1.0 - share) * sw_larger(0.0, t->reach - sw_dist(a, b)) : 0.0;
 }
 
 static int is_line(const sw_system *s, uint32_t body) { return !s->bodies[body].plan->web; }
@@ -53,8 +53,8 @@ static int is_squeezed(const sw_mutual *m, const sw_system *s, const sw_met *met
 
 /* Axial stiffness of the softer of both edges [N/m]. */
 static double axial_of(const sw_system *s, const sw_meet *t) {
-  return fmin(sw_contact_edge_stiffness(s, t->of.body[0], t->of.node[0]),
-              sw_contact_edge_stiffness(s, t->of.body[1], t->of.node[1]));
+  return sw_smaller(sw_contact_edge_stiffness(s, t->of.body[0], t->of.node[0]),
+                    sw_contact_edge_stiffness(s, t->of.body[1], t->of.node[1]));
 }
 
 /* Sets the part of a touch's depth that the step does not correct. Wires that were placed in each
@@ -118,7 +118,7 @@ static int is_far(const sw_mutual *m, const sw_meet *t, const sw_meet *last, int
  * Enough friction to stop the lighter wire would throw about the wires of a bundle that only fall
  * on each other. */
 static double first_force(const sw_meet *t) {
-  return t->flies ? 0.0 : fmax(0.0, -t->press.gap) * t->press.k;
+  return t->flies ? 0.0 : sw_larger(0.0, -t->press.gap) * t->press.k;
 }
 
 /* As `soft` of sw_press. Wires along each other have many touches and share their friction. */
@@ -127,8 +127,8 @@ static double softness(const sw_mutual *m, const sw_system *s, const sw_meet *t,
   const uint32_t *of = t->of.body;
   if (m->regime != SW_CONTACT_IMPLICIT || t->kind != SW_CROSSING || !met) return 0;
   if (!is_line(s, of[0]) || !is_line(s, of[1])) return 0;
-  const double usual = fmax(sw_contact_usual_force(s, s->bodies[of[0]].plan),
-                            sw_contact_usual_force(s, s->bodies[of[1]].plan));
+  const double usual = sw_larger(sw_contact_usual_force(s, s->bodies[of[0]].plan),
+                                 sw_contact_usual_force(s, s->bodies[of[1]].plan));
   const double grip = sw_kept_grip(&met->kept, axial_of(s, t), usual);
   return grip > t->press.k ? t->press.k / grip : 0.0;
 }
@@ -190,7 +190,7 @@ void sw_meet_add(sw_mutual *m, const sw_system *s, const double *y, sw_meet *t, 
  * depth the pull of a twisted pair of cables was 5 % too low. */
 double sw_meet_depth(const sw_meet *t) {
   const double usual = sw_meet_deepest(t), shallow = 0.5 * SW_SHALLOW * t->reach;
-  return t->squeezed ? fmin(usual, shallow) : usual;
+  return t->squeezed ? sw_smaller(usual, shallow) : usual;
 }
 
 sw_met sw_meet_remember(const sw_system *s, const sw_meet *t) {
@@ -264,7 +264,7 @@ static int stiffen(sw_mutual *m, const sw_system *s) {
   for (size_t i = 0; i < m->touch_count; i++) {
     sw_meet *t = &m->touches[i];
     const double deepest = sw_meet_deepest(t);
-    double before = fmax(0.0, t->reach - sw_dot(t->square, sw_bows_apart(s->x, t->bow)));
+    double before = sw_larger(0.0, t->reach - sw_dot(t->square, sw_bows_apart(s->x, t->bow)));
     before = t->squeezed ? sw_press_squeezed(t->forgiven, before, deepest) : small ? before : -1.0;
     t->stiffer =
         sw_press_stiffer(&t->press, t->usual, axial_of(s, t), deepest, t->forgiven, before);
@@ -286,7 +286,7 @@ static void find_scales(sw_mutual *m) {
 }
 
 static double scale_of(const sw_mutual *m, const sw_meet *t) {
-  return fmin(m->largest[t->of.body[0]], m->largest[t->of.body[1]]);
+  return sw_smaller(m->largest[t->of.body[0]], m->largest[t->of.body[1]]);
 }
 
 typedef enum verdict { GOES_ON, ALL_BUT_FRICTION, AGREES } verdict;
@@ -319,7 +319,8 @@ static int update_all(sw_mutual *m, const double *delta) {
   for (size_t i = 0; i < m->touch_count; i++) {
     sw_meet *t = &m->touches[i];
     const verdict one = update(m, t, delta, scale_of(m, t));
-    if (t->press.normal_force > 0) m->widest = fmax(m->widest, sw_norm(t->press.shift) / t->reach);
+    if (t->press.normal_force > 0)
+      m->widest = sw_larger(m->widest, sw_norm(t->press.shift) / t->reach);
     all = one < all ? one : all;
   }
   m->calm = m->widest <= CALM_SHIFT;

@@ -124,7 +124,7 @@ static const double WELL_APART = 0.5;
 
 /* The lower limit holds because the curve never bends so much that a place is not a nearest one. */
 double sw_meet_rise(double along2, double bends, double firm) {
-  return fmax(along2 * (1.0 + firm) + bends, 0.3 * along2);
+  return sw_larger(along2 * (1.0 + firm) + bends, 0.3 * along2);
 }
 
 static places places_of(const sw_meet *t, const double *y, double d) {

@@ -119,7 +119,7 @@ static sw_status touch_crossing(sw_pairs *p, const sw_system *s, const sw_pair *
 
 static double along(const double *y, uint32_t e, sw_vec q) {
   const sw_vec u = sw_edge_at(y, e);
-  return sw_dot(u, sw_sub(q, sw_vec_at(y, e))) / fmax(sw_norm2(u), 1e-300);
+  return sw_dot(u, sw_sub(q, sw_vec_at(y, e))) / sw_larger(sw_norm2(u), 1e-300);
 }
 
 /* Beside a bend each segment has a nearest place. Within this distance of the joint [-] both are
@@ -159,7 +159,7 @@ static int beside(const sw_system *s, uint32_t body, uint32_t e, const double *y
                   double *at) {
   const sw_vec q = sw_vec_at(y, i), q0 = sw_vec_at(s->x, i);
   const double here = along(y, e, q);
-  *at = fmin(1.0, fmax(0.0, here));
+  *at = sw_smaller(1.0, sw_larger(0.0, here));
   if (!stays(s, body, e, y, i, here)) return belongs(s, body, e, y, q, here);
   return belongs(s, body, e, s->x, q0, along(s->x, e, q0));
 }

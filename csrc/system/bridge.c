@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "system/join.h"
 #include "system/web.h"
 
@@ -53,10 +54,10 @@ sw_status sw_system_add_bridge(sw_system *s, size_t i, size_t j, const double k[
   SW_TRY(sw_grow((void **)&l->list, &l->capacity, l->count + 1, sizeof *l->list));
   sw_bridge *at = &l->list[l->count++];
   if (i < j) {
-    *at = (sw_bridge){(uint32_t)i, (uint32_t)j, {0}};
+    *at = (sw_bridge){(uint32_t)i, (uint32_t)j, {0}, NONE};
     memcpy(at->k, k, sizeof at->k);
   } else {
-    *at = (sw_bridge){(uint32_t)j, (uint32_t)i, {0}};
+    *at = (sw_bridge){(uint32_t)j, (uint32_t)i, {0}, NONE};
     for (int r = 0; r < 3; r++)
       for (int c = 0; c < 3; c++) at->k[3 * r + c] = k[3 * c + r];
   }
@@ -70,7 +71,8 @@ static size_t hash_of(const struct sw_bridges *l, uint32_t i, uint32_t j) {
   return (size_t)(h >> 20) & (l->table_size - 1);
 }
 
-uint32_t sw_bridges_find(const struct sw_bridges *l, uint32_t i, uint32_t j) {
+/* Returns the number of the bridge between nodes i < j in the pattern, or NONE. */
+static uint32_t find(const struct sw_bridges *l, uint32_t i, uint32_t j) {
   if (!l->table_size) return NONE;
   for (size_t h = hash_of(l, i, j); l->table[h]; h = (h + 1) & (l->table_size - 1)) {
     const sw_couple *k = &l->known[l->table[h] - 1];
@@ -97,13 +99,15 @@ static sw_status make_table(struct sw_bridges *l, size_t count) {
   return SW_OK;
 }
 
-/* Adds a bridge to the pattern if it is new. */
-static sw_status add_known(struct sw_bridges *l, uint32_t i, uint32_t j) {
-  if (sw_bridges_find(l, i, j) != NONE) return SW_OK;
+/* Adds a bridge to the pattern if it is new. *number: of its pair there. */
+static sw_status add_known(struct sw_bridges *l, uint32_t i, uint32_t j, uint32_t *number) {
+  *number = find(l, i, j);
+  if (*number != NONE) return SW_OK;
   SW_TRY(sw_grow((void **)&l->known, &l->known_capacity, l->known_count + 1, sizeof *l->known));
   if (2 * l->known_count >= l->table_size) SW_TRY(make_table(l, 2 * l->known_count + 1));
   l->known[l->known_count] = (sw_couple){i, j};
-  enter(l, (uint32_t)l->known_count++);
+  *number = (uint32_t)l->known_count++;
+  enter(l, *number);
   return SW_OK;
 }
 
@@ -120,7 +124,8 @@ static sw_status take_plan(struct sw_bridges *l) {
   l->taken_count = n;
   l->known_count = 0;
   if (l->table_size) memset(l->table, 0, l->table_size * sizeof *l->table);
-  for (size_t k = 0; k < n; k++) SW_TRY(add_known(l, l->planned[k].i, l->planned[k].j));
+  uint32_t number;
+  for (size_t k = 0; k < n; k++) SW_TRY(add_known(l, l->planned[k].i, l->planned[k].j, &number));
   l->from_plan = l->known_count;
   if (l->matrix) {
     sw_sparse_free(l->spare);
@@ -205,7 +210,7 @@ sw_status sw_bridges_prepare(sw_system *s) {
   struct sw_bridges *l = s->bridges;
   SW_TRY(take_plan(l));
   const size_t before = l->known_count;
-  for (size_t k = 0; k < l->count; k++) SW_TRY(add_known(l, l->list[k].i, l->list[k].j));
+  SW_ITEMS(sw_bridge, at, l->list, l->count) SW_TRY(add_known(l, at->i, at->j, &at->number));
   if (l->matrix && l->known_count == before && !replanned(s)) return SW_OK;
   sw_sparse *old = l->matrix ? l->matrix : l->spare;
   l->matrix = l->spare = NULL;

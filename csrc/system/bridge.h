@@ -11,8 +11,9 @@
 
 /* One block: rows of node i, columns of node j, i < j. */
 typedef struct sw_bridge {
-  uint32_t i, j; /* in the system's arrays */
-  double k[9];   /* [N/m] */
+  uint32_t i, j;   /* in the system's arrays */
+  double k[9];     /* [N/m] */
+  uint32_t number; /* of its pair in the pattern, once that is prepared */
 } sw_bridge;
 
 struct sw_bridges {
@@ -43,8 +44,6 @@ struct sw_bridges {
 
 /* Makes the matrix for this evaluation's bridges: the planned pattern plus any pairs added. */
 sw_status sw_bridges_prepare(sw_system *system);
-/* Returns the number of the bridge between nodes i < j in the pattern; UINT32_MAX: none. */
-uint32_t sw_bridges_find(const struct sw_bridges *bridges, uint32_t i, uint32_t j);
 
 /* Begins an evaluation, with no bridges. */
 void sw_bridges_begin(sw_system *system);

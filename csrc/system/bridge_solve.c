@@ -89,7 +89,7 @@ static void load(sw_system *s) {
   }
   SW_ITEMS(const sw_bridge, at, l->list, l->count) {
     if (is_held(s, at->i) || is_held(s, at->j)) continue;
-    add_pair(l, l->chain_pairs + sw_bridges_find(l, at->i, at->j), at->k);
+    add_pair(l, l->chain_pairs + at->number, at->k);
   }
 }
 

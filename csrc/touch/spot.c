@@ -141,7 +141,7 @@ static void mix(mixing *m) {
   memcpy(m->next, m->found, n * sizeof *m->next);
   for (size_t j = 0; j < m->columns; j++)
     add(m->next, -dot(m->off, m->change[j], n), m->with[j], n);
-  for (size_t i = 0; i < n; i++) m->next[i] = fmax(m->next[i], 0.0);
+  for (size_t i = 0; i < n; i++) m->next[i] = sw_larger(m->next[i], 0.0);
   memcpy(m->found_before, m->found, n * sizeof *m->found);
   memcpy(m->off_before, m->off, n * sizeof *m->off);
 }
