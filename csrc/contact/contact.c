@@ -69,7 +69,7 @@ void sw_contact_free(sw_contact *c) {
   SW_FREE_ALL(c->obstacles, c->loads, c->start, c->now, c->flat, c->sunk, c->spaced, c->bounds,
               c->candidates, c->touches, c->last, c->memory, c->next_memory, c->pressed, c->turns,
               c->barriers, c->impacts, c->impact_at, c->marks, c->room, c->reach, c->ahead,
-              c->ranges, c->singles.first);
+              c->ranges, c->singles.first, c->strikes);
   sw_broad_free(&c->broad);
   sw_still_free(&c->still);
   sw_free(c);

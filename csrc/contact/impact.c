@@ -278,18 +278,29 @@ static int may_strike(const sw_contact *c, sw_system *s, const sw_pressed *t, en
   return 1;
 }
 
-/* 1 if any touch strikes with the present velocities. */
-static int any_strikes(sw_contact *c, sw_system *s, double h) {
+/* Bits of c->strikes: some touch of the body strikes with the present velocities; some touch may
+ * rebound. */
+enum { STRIKES = 1, REBOUNDS = 2 };
+
+/* Finds the bodies that strike. Touches of the others need no turn: a strike changes the velocities
+ * of its own body only. Returns 0 if there are none. */
+static int find_bodies(sw_contact *c, sw_system *s, double h) {
   const double soonest = c->soonest;
+  int any = 0;
+  memset(c->strikes, 0, s->body_count);
   for (size_t i = 0; i < c->pressed_count; i++) {
     const sw_pressed *t = &c->pressed[i];
+    unsigned char *of = &c->strikes[t->body];
     encounter e;
+    if (*of & STRIKES) continue;
+    if (c->obstacles[t->obstacle].restitution > 0) *of |= REBOUNDS;
     if (is_slow(c, s, t) || !may_strike(c, s, t, &e)) continue;
     if (!(velocity_lost(c, s, t, &e, h) > 0)) continue;
-    c->soonest = soonest; /* strike_all judges all touches again, one by one */
-    return 1;
+    *of |= STRIKES, any = 1;
+    if (s->body_count == 1) break;
   }
-  return 0;
+  if (any) c->soonest = soonest; /* strike_all judges these touches again, one by one */
+  return any;
 }
 
 int sw_contact_will_strike(const sw_contact *c, sw_system *s, size_t first, size_t end) {
@@ -311,7 +322,7 @@ static size_t find_turns(sw_contact *c, sw_system *s) {
   for (size_t i = 0; i < c->pressed_count; i++) {
     const sw_pressed *t = &c->pressed[i];
     encounter e;
-    if (!may_strike(c, s, t, &e)) continue;
+    if (!c->strikes[t->body] || !may_strike(c, s, t, &e)) continue;
     c->turns[count++] = (sw_turn){.meets = e.approach > 0 ? e.gap / e.approach : HUGE_VAL,
                                   .closes = e.approach,
                                   .node = t->node,
@@ -336,7 +347,9 @@ static void leave_dull(sw_contact *c) {
 int sw_contact_strike_all(sw_contact *c, sw_system *s, double h, int dull) {
   int changed = 0;
   if (dull) leave_dull(c);
-  if (!c->pressed_count || !any_strikes(c, s, h) ||
+  if (!c->pressed_count ||
+      sw_grow((void **)&c->strikes, &c->strikes_capacity, s->body_count, 1) != SW_OK ||
+      !find_bodies(c, s, h) ||
       sw_grow((void **)&c->turns, &c->turn_capacity, c->pressed_count, sizeof *c->turns) != SW_OK)
     return 0;
   const size_t n = find_turns(c, s);

@@ -50,6 +50,8 @@ struct sw_contact {
   size_t pressed_count, pressed_capacity, pressed_before; /* the last: those of earlier stages */
   sw_turn *turns; /* (pressed_count) order of impacts in a review */
   size_t turn_capacity;
+  unsigned char *strikes; /* (bodies) work space for the order of impacts */
+  size_t strikes_capacity;
   sw_memory *memory, *next_memory; /* memory of touches from step to step */
   size_t memory_count, memory_capacity, next_count, next_capacity;
   double *lost; /* (places) at a body's first node: energy lost by its impacts in this step [J] */
