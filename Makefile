@@ -13,8 +13,9 @@ BUILD = build
 CC = gcc
 PKG = lua5.4 gsl ccd assimp zlib
 
-# Value-safe speed only: no -ffast-math, NaN checks and reproducible bits need IEEE rules.
-OPT = -O3 -fno-math-errno -fno-trapping-math -ffp-contract=fast
+# Value-safe speed only: no -ffast-math, NaN checks and reproducible bits need IEEE rules. Nobody
+# replaces a function of the core by another one at load time, so they are inlined within a file.
+OPT = -O3 -fno-math-errno -fno-trapping-math -ffp-contract=fast -fno-semantic-interposition
 # Structures of some hundred bytes are cleared and copied by stores or by the C library. By itself gcc
 # takes the processor's string instructions for up to 8 kB, which are slow to begin. Only for
 # compilers that know these options.

@@ -48,10 +48,9 @@ struct sw_contact {
   sw_still still;      /* those of bodies that wait */
   sw_pressed *pressed; /* touches that had a force at the end of a stage of this trial */
   size_t pressed_count, pressed_capacity, pressed_before; /* the last: those of earlier stages */
-  sw_turn *turns; /* (pressed_count) order of impacts in a review */
-  size_t turn_capacity;
-  unsigned char *strikes; /* (bodies) work space for the order of impacts */
-  size_t strikes_capacity;
+  sw_turn *turns;         /* (pressed_count) order of impacts in a review */
+  unsigned char *strikes; /* (bodies) work space for that */
+  size_t turn_capacity, strikes_capacity;
   sw_memory *memory, *next_memory; /* memory of touches from step to step */
   size_t memory_count, memory_capacity, next_count, next_capacity;
   double *lost; /* (places) at a body's first node: energy lost by its impacts in this step [J] */
@@ -65,9 +64,8 @@ struct sw_contact {
   size_t mark_count, mark_capacity;
   sw_contact_parts parts; /* bodies that are solved separately */
   sw_range *ranges;       /* (parts.ranges) candidates of the current part */
-  size_t range_capacity;
-  double *room; /* work space of refinement: solutions of a wire's equations */
-  size_t room_capacity;
+  double *room;           /* work space of refinement: solutions of a wire's equations */
+  size_t range_capacity, room_capacity;
   int unmarked, looked; /* 1: the marks are not valid; 1: the next evaluation's touches are found */
   size_t stage;         /* number of the stage; it grows from step to step */
   double first; /* share of the step's first stage in the starting state of this stage [-] */

@@ -14,6 +14,7 @@ typedef struct sw_near {
   double known;    /* distance when it was last measured [m] */
   double travel;   /* travel of the four nodes together until then [m] */
   double bulge;    /* largest distances of both smooth curves from their segments, added [m] */
+  double radii;    /* sum of both wires' radii [m] */
 } sw_near;
 
 enum { SW_NO_PAIR = UINT32_MAX };

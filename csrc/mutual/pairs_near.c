@@ -73,7 +73,8 @@ static sw_status look_at(void *user, const sw_thing *t, const sw_thing *u) {
                                    sw_vec_at(s->x, n.two), sw_vec_at(s->x, n.two + 1u), at);
   n.bulge = sw_pair_bulge(p, s, &n);
   n.known = n.distance -= n.bulge;
-  if (!(n.distance - sw_pair_radii(s, n.body) < p->listed_reach)) return SW_OK;
+  n.radii = sw_pair_radii(s, n.body);
+  if (!(n.distance - n.radii < p->listed_reach)) return SW_OK;
   if (sw_joins_near(s, n.one, n.two)) return SW_OK;
   if (p->near_count == MOST_NEAR) return SW_ELIMIT;
   SW_TRY(sw_grow((void **)&p->near, &p->near_capacity, p->near_count + 1, sizeof *p->near));
@@ -291,9 +292,8 @@ static sw_status look_at_curves(sw_pairs *p, sw_system *s) {
 /* 1 if a pair may touch in the step and is chosen. The distance is measured only if its lower bound
  * is small enough. */
 static int may_touch(sw_pairs *p, const sw_system *s, sw_near *n, double fast) {
-  const sw_ends ends = sw_segments(n->one, n->two, n->body);
   const int still = p->m.regime == SW_CONTACT_STATIC;
-  const double sum = sw_pair_radii(s, n->body);
+  const double sum = n->radii;
   double at[2];
   n->distance = n->known - (travel_of(p, n) - n->travel); /* lower bound */
   if (n->distance - sum >= reserve_of(p, sum, fast)) return 0;
@@ -301,6 +301,7 @@ static int may_touch(sw_pairs *p, const sw_system *s, sw_near *n, double fast) {
                                     sw_vec_at(s->x, n->two), sw_vec_at(s->x, n->two + 1u), at);
   n->distance -= n->bulge = sw_pair_bulge(p, s, n);
   n->known = n->distance, n->travel = travel_of(p, n);
+  const sw_ends ends = sw_segments(n->one, n->two, n->body);
   return n->distance - sum < reserve_of(p, sum, still ? 0.0 : sw_ends_speed(s, &ends));
 }
 
@@ -341,13 +342,12 @@ sw_status sw_pairs_choose(sw_mutual *m, sw_system *s) {
   SW_TRY(sw_system_begin_plan(s));
   for (size_t k = 0; k < p->near_count; k++) {
     sw_near *n = &p->near[k];
-    const double sum = sw_pair_radii(s, n->body);
     if (sw_interrupted()) return SW_EINTR;
     if (s->waiting && both_wait(s, n)) continue;
     if (may_touch(p, s, n, fast))
-      SW_TRY(add_pair(p, s, n, sum));
+      SW_TRY(add_pair(p, s, n, n->radii));
     else
-      p->least_left = larger(p->least_left, sum - n->distance);
+      p->least_left = larger(p->least_left, n->radii - n->distance);
   }
   sw_pairs_match(p);
   return look_at_curves(p, s);
