@@ -33,7 +33,9 @@ FLAT void store8(double *p, row8 v) {
   *(lane *)(void *)(p + 4) = v.b;
 }
 
-sw_solid_volumetric sw_solid_of_J(double mu, double lambda, double J) {
+/* Not inlined: in SW_HOT it would have other bits than for its other callers. */
+#define APART __attribute__((noinline))
+APART sw_solid_volumetric sw_solid_of_J(double mu, double lambda, double J) {
   const double at = fmax(J, CONTINUED), log_J = log(at), d = J - at;
   sw_solid_volumetric f = {(0.5 * lambda * log_J - mu) * log_J, (lambda * log_J - mu) / at,
                            (lambda * (1 - log_J) + mu) / (at * at)};
