@@ -13,6 +13,7 @@
 -- succeeds; otherwise there are no numbers.
 -- @module softworld.run.trust
 local coarsest = require "softworld.run.coarsest"
+local bars = require "softworld.run.bars"
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
@@ -22,7 +23,6 @@ local number = require "softworld.output.number"
 local process = require "softworld.run.process"
 local quantity = require "softworld.quantity"
 local sealed = require "softworld.sealed"
-local unread = require "softworld.unread"
 
 local trust = {}
 
@@ -37,113 +37,7 @@ function trust.wanted(args) return type(checks.field(args, "tolerance")) == "tab
 
 -- --- results ----------------------------------------------------------------------------
 
-local function text_of(value, unit)
-  if type(value) == "number" then return number.text(value, unit) end
-  if type(value[1]) ~= "number" then return number.count(#value, "point") end
-  local list, most = {}, 0
-  for _, x in ipairs(value) do most = math.max(most, math.abs(x)) end
-  for i, x in ipairs(value) do list[i] = number.digits(math.abs(x) < 1e-12 * most and 0 or x) end -- rounding
-  return ("(%s)%s"):format(table.concat(list, ", "), unit ~= "" and " " .. unit or "")
-end
-
-local Quantity = { __name = "quantity" }
-
--- By a quantity whose tolerance is not met: its error, met, and the mark of its result; reading them counts
--- as a look at that.
-local watched = setmetatable({}, { __mode = "k" })
-
-function Quantity.__index(self, key)
-  local own = watched[self]
-  if own and (key == "error" or key == "met") then
-    unread.seen(own.mark)
-    return own[key]
-  end
-  return Quantity[key]
-end
-
-function Quantity.__newindex(self, key, value)
-  local own = watched[self]
-  if own and (key == "error" or key == "met") then own[key] = value else rawset(self, key, value) end
-end
-
-function Quantity:__tostring()
-  return ("%s +- %s"):format(text_of(self.value, self.unit), number.text(self.error, self.unit))
-end
-
---- Returns the value for people: a vector as one text.
-function Quantity:text() return text_of(self.value, self.unit) end
-
---- Returns the name; a row of a check gets "check: " in front, because it may differ from the quantity of
--- that name.
-function Quantity:label() return self.row and "check: " .. self.name or self.name end
-
-local Bars = { __name = "error bars" }
-Bars.__index = Bars
-
---- Returns what was asked for in words: by the script, or by the row of a check for its verdict.
-function Quantity:asked()
-  local q = self
-  local asked = q.tolerance < math.huge and number.text(q.tolerance, q.unit) or nil
-  if not q.row then return ("asked for %s: %s"):format(asked, q.met and "met" or "NOT met") end
-  if not asked then return "no verdict depends on it" end
-  return ("up to its limit %s: %s"):format(asked, q.met and "decided" or "NOT decided")
-end
-
-function Bars:__tostring()
-  local lines = {}
-  for i, q in ipairs(self) do
-    local place = (q.where and (", s = %.4g m"):format(q.where) or "")
-      .. (q.when and (", t = %.4g s"):format(q.when) or "") .. (q.note and (" (%s)"):format(q.note) or "")
-    lines[i] = ("%s = %s (%s)%s"):format(q.name, tostring(q), q:asked(), place)
-  end
-  return table.concat(lines, "\n")
-end
-
---- result:error_bars(): returns the quantities in the order asked for; prints as lines.
-function trust.error_bars(result)
-  if sealed.fields(result).refused then
-    error(("there are no numbers: %s (%s)"):format(result.reason, result.advice), 2)
-  end
-  local asked = result.quantities
-  if not asked then
-    error("no error bars were asked for: give tolerance = { quantity = value }, or check = {...}", 2)
-  end
-  local list = {}
-  for i, name in ipairs(result.asked) do list[i] = asked[name] end
-  return setmetatable(list, Bars)
-end
-
---- Returns in words which tolerances were not met; nil if all were, or none was asked for.
-function trust.unmet(result)
-  local names = {}
-  for _, name in ipairs(result.quantities and result.asked or {}) do
-    if not result.quantities[name].met then names[#names + 1] = name end
-  end
-  if #names == 0 then
-    return result.met == false and result.model and "the model may leave out too much, see run:why()" or nil
-  end
-  return ("%d of %d tolerances NOT met: %s"):format(#names, #result.asked, table.concat(names, ", "))
-end
-
---- Stores a note of tolerances that the script asked for and that are not met. Returns its mark, which counts
--- as seen once the error of such a quantity is read; nil if there are none. what: the result in words.
-function trust.watch(result, what)
-  local text, open, all = result.ok and trust.unmet(result), {}, {}
-  for _, name in ipairs(text and result.asked or {}) do
-    local q = result.quantities[name]
-    if not q.row then all[#all + 1] = q end
-    if not q.met and not q.row then open[#open + 1] = q end
-  end
-  if result.model and #open == 0 then open = all end -- the model leaves out too much
-  if #open == 0 then return nil end
-  local mark = unread.note(("softworld: note: %s is ok, but %s; see .met of its result: %s"):format(what,
-    text, result.advice), ("tolerance: %s"):format(text))
-  for _, q in ipairs(open) do
-    watched[q] = { error = q.error, met = q.met, mark = mark }
-    q.error, q.met = nil, nil
-  end
-  return mark
-end
+trust.error_bars, trust.unmet, trust.watch = bars.error_bars, bars.unmet, bars.watch
 
 --- For the __index of results: raises an error if the quantities of a refused result are read.
 function trust.refuse(result, key)
@@ -383,7 +277,7 @@ local function conclude(job, result)
       result.met, result.asked[#result.asked + 1] = result.met and met, q.name
       result.quantities[q.name] = setmetatable({ name = q.name, value = now.value, error = now.error,
         unit = q.unit, tolerance = q.tolerance, met = met, where = now.where, when = now.when,
-        note = now.note, row = q.row, levels = job.values[q.name] }, Quantity)
+        note = now.note, row = q.row, levels = job.values[q.name] }, bars.Quantity)
     end
   end
   if not result.met then result.advice = advice_of(job) end
