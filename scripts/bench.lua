@@ -15,6 +15,7 @@ local choice = require "bench.choice"
 local special = require "bench.special"
 local summary = require "bench.summary"
 local sink = require "softworld.output.sink"
+require("softworld.unread").quiet()
 
 -- Choice of rows -------------------------------------------------------------------
 

@@ -12,6 +12,7 @@ local benchsqueeze = require "bench.squeeze"
 local benchstable = require "bench.stable"
 local chart = require "softworld.output.chart"
 local sink = require "softworld.output.sink"
+require("softworld.unread").quiet()
 
 local quick, out = false, "out/bench"
 for _, word in ipairs(arg) do
