@@ -85,6 +85,33 @@ function unread.seen(mark)
   end
 end
 
+local apart = setmetatable({}, { __mode = "k" }) -- by object: fields that are kept apart, with their marks
+
+--- Keeps fields of an object apart, so that reading them through unread.look counts as a look at the mark.
+function unread.hide(object, mark, ...)
+  local own = apart[object] or {}
+  apart[object] = own
+  for _, key in ipairs { ... } do
+    if not own[key] then own[key] = { value = rawget(object, key), mark = mark } end
+    rawset(object, key, nil)
+  end
+end
+
+--- For __index: returns true and the value of a field that is kept apart, else false.
+function unread.look(object, key)
+  local one = apart[object] and apart[object][key]
+  if not one then return false end
+  unread.seen(one.mark)
+  return true, one.value
+end
+
+--- Returns a field that may be kept apart, without a look.
+function unread.peek(object, key)
+  local one = apart[object] and apart[object][key]
+  if one then return one.value end
+  return rawget(object, key)
+end
+
 --- Counts a run that was stopped before its end.
 function unread.cut() bad = bad + 1 end
 

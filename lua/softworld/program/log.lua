@@ -51,7 +51,7 @@ local function follow(class, name, finish)
 end
 
 local function settled(result)
-  local reason = type(result) == "table" and require("softworld.scene.rest").reason(result)
+  local reason = type(result) == "table" and require("softworld.unread").peek(result, "reason")
   log.line(("settle: %s"):format(tostring(reason or result)))
 end
 

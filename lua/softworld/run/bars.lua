@@ -19,22 +19,10 @@ end
 local Quantity = { __name = "quantity" }
 bars.Quantity = Quantity -- class of the quantities of a result
 
--- By a quantity whose tolerance is not met: its error, met, and the mark of its result; reading them counts
--- as a look at that.
-local watched = setmetatable({}, { __mode = "k" })
-
 function Quantity.__index(self, key)
-  local own = watched[self]
-  if own and (key == "error" or key == "met") then
-    unread.seen(own.mark)
-    return own[key]
-  end
+  local apart, value = unread.look(self, key) -- of a quantity whose tolerance is not met
+  if apart then return value end
   return Quantity[key]
-end
-
-function Quantity.__newindex(self, key, value)
-  local own = watched[self]
-  if own and (key == "error" or key == "met") then own[key] = value else rawset(self, key, value) end
 end
 
 function Quantity:__tostring()
@@ -109,10 +97,7 @@ function bars.watch(result, what)
   if #open == 0 then return nil end
   local mark = unread.note(("softworld: note: %s is ok, but %s; see .met of its result: %s"):format(what,
     text, result.advice), ("tolerance: %s"):format(text))
-  for _, q in ipairs(open) do
-    watched[q] = { error = q.error, met = q.met, mark = mark }
-    q.error, q.met = nil, nil
-  end
+  for _, q in ipairs(open) do unread.hide(q, mark, "error", "met") end
   return mark
 end
 

@@ -15,18 +15,14 @@ local unread = require "softworld.unread"
 
 local tune = {}
 
-local hidden = setmetatable({}, { __mode = "k" }) -- by the result of a search that did not end: reason, mark
-
 local Found = { __name = "minimum" }
 local field = checks.fields("the result of tune.minimise",
   "x value ok reason iterations evaluations nonfinite")
 
 function Found.__index(self, key)
-  local own = hidden[self]
-  if not own or key ~= "ok" and key ~= "reason" then return field(self, key) end
-  unread.seen(own.mark)
-  if key == "ok" then return false end
-  return own.reason
+  local apart, value = unread.look(self, key)
+  if apart then return value end
+  return field(self, key)
 end
 
 local function text_of(x)
@@ -45,10 +41,10 @@ end
 local function found(result)
   if not result.ok then
     local at = place.of_caller()
-    hidden[result] = { reason = result.reason, mark = unread.note(
+    local mark = unread.note(
       ("softworld: note: the search of tune.minimise%s is not at its end: %s; see .ok of its result"):format(
-      at and " at " .. at or "", result.reason), "tune.minimise: " .. result.reason) }
-    result.ok, result.reason = nil, nil
+      at and " at " .. at or "", result.reason), "tune.minimise: " .. result.reason)
+    unread.hide(result, mark, "ok", "reason")
   end
   return setmetatable(result, Found)
 end

@@ -10,12 +10,7 @@ local unread = require "softworld.unread"
 
 local rest = {}
 
--- By the result: ok and reason of a failure with its mark, or the new events with theirs; the mark of
--- tolerances that are not met.
-local hidden = setmetatable({}, { __mode = "k" })
-
 local TOLD = { kink = "kinked", held = "held" } -- fields of the result with the text of such an event
-local FIELD = { kinked = "kink", held = "held" }
 
 --- Returns the scene's events by kind and object; the count of one tells how often it was reported.
 function rest.events(scene)
@@ -37,37 +32,14 @@ function rest.fresh(scene, before)
   return list
 end
 
-local function text_of(list, kind)
-  for _, e in ipairs(list or {}) do if e.kind == kind then return e.text end end
-end
-
--- Returns a field of the result that is kept apart; reading it counts as a look.
-local function look(self, key)
-  local own = hidden[self]
-  if not own then return nil end
-  if own.ok == false and (key == "ok" or key == "reason") then
-    if own.mark then unread.seen(own.mark) end
-    return own[key]
-  end
-  if own.unmet and (key == "met" or key == "advice") then
-    unread.seen(own.unmet)
-    if key == "met" then return false end
-    return own.advice
-  end
-  if key ~= "events" and not FIELD[key] then return nil end
-  if own.ok and own.mark then unread.seen(own.mark) end
-  if key == "events" then return own.events end
-  return text_of(own.events, FIELD[key])
-end
-
 local Rest = { __name = "rest" }
 local field = checks.fields("the result of scene:settle",
   "ok reason iterations residual unstable transient jumped events",
   "kinked held steps rejected evaluations quantities met levels advice error_bars where refused asked start")
 
 function Rest.__index(self, key)
-  local value = look(self, key)
-  if value ~= nil then return value end
+  local apart, value = unread.look(self, key)
+  if apart then return value end
   return field(self, key)
 end
 
@@ -91,8 +63,8 @@ local Settled = { __name = "settled" }
 
 function Settled.__index(result, key)
   if key == "error_bars" then return trust.error_bars end
-  local value = look(result, key)
-  if value ~= nil then return value end
+  local apart, value = unread.look(result, key)
+  if apart then return value end
   return trust.refuse(result, key)
 end
 
@@ -116,27 +88,23 @@ local function mark_of(what, result, list)
     counted(#list, "event"), event), event)
 end
 
---- Returns the reason of a result without looking at it.
-function rest.reason(result)
-  local own = hidden[result]
-  return own and own.reason or rawget(result, "reason")
-end
-
 --- Makes the result of a settle from the core's, or from that of error bars. list: its events.
 function rest.new(scene, result, list)
   local at = place.of_caller()
   local what = ("scene:settle of '%s'%s"):format(scene.name, at and " at " .. at or "")
-  local own = { ok = result.ok, events = list, mark = mark_of(what, result, list) }
-  own.unmet = result.levels and trust.watch(result, what) or nil
-  if own.unmet then
-    own.advice = result.advice
-    result.met, result.advice = nil, nil
+  local mark, unmet = mark_of(what, result, list), result.levels and trust.watch(result, what)
+  local keys = { "events" }
+  result.events = list
+  for _, e in ipairs(list) do
+    local key = TOLD[e.kind]
+    if key then result[key], keys[#keys + 1] = e.text, key end
   end
   if not result.ok then
-    own.reason = result.reason
-    result.ok, result.reason = nil, nil
+    unread.hide(result, mark, "ok", "reason")
+  elseif mark then
+    unread.hide(result, mark, table.unpack(keys))
   end
-  hidden[result] = own
+  if unmet then unread.hide(result, unmet, "met", "advice") end
   return setmetatable(result, result.levels and Settled or Rest)
 end
 
