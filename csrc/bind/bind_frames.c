@@ -299,6 +299,15 @@ static int mod_frames_flat(lua_State *L) {
   return 1;
 }
 
+/* core.frames_lever(scene, w, start [s]) -> largest change of wire w's tension by the lever of
+ * friction along it, over the largest tension [-] */
+static int mod_frames_lever(lua_State *L) {
+  const sw_scene *scene = lsw_check_scene(L);
+  const size_t w = wire_index(L, 2, scene);
+  lua_pushnumber(L, sw_scene_frames_lever(scene, lsw_number(L, 3, "frames_lever: start", "s"), w));
+  return 1;
+}
+
 /* core.frame_contact(scene, i, w) -> contact forces across wire w at its nodes in frame i [N], and
  * the distance of its first two nodes [m]; nothing if nothing touches it */
 static int mod_frame_contact(lua_State *L) {
@@ -357,14 +366,10 @@ static int mod_frames_press(lua_State *L) {
   return 1;
 }
 
-const luaL_Reg lsw_module_frames[] = {{"frame_now", mod_frame_now},
-                                      {"frame_times", mod_frame_times},
-                                      {"frame_range", mod_frame_range},
-                                      {"keep_frames", mod_keep_frames},
-                                      {"frames_thinned", mod_frames_thinned},
-                                      {"frames_press", mod_frames_press},
-                                      {"frames_sweep", mod_frames_sweep},
-                                      {"frames_apart", mod_frames_apart},
-                                      {"frame_contact", mod_frame_contact},
-                                      {"frames_flat", mod_frames_flat},
-                                      {NULL, NULL}};
+const luaL_Reg lsw_module_frames[] = {
+    {"frame_now", mod_frame_now},           {"frame_times", mod_frame_times},
+    {"frame_range", mod_frame_range},       {"keep_frames", mod_keep_frames},
+    {"frames_thinned", mod_frames_thinned}, {"frames_press", mod_frames_press},
+    {"frames_sweep", mod_frames_sweep},     {"frames_apart", mod_frames_apart},
+    {"frame_contact", mod_frame_contact},   {"frames_flat", mod_frames_flat},
+    {"frames_lever", mod_frames_lever},     {NULL, NULL}};

@@ -10,7 +10,7 @@
 
 #include <math.h>
 
-#include "contact/touch.h"
+#include "contact/surface.h"
 #include "system/part.h"
 #include "touch/same.h"
 

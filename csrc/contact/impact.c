@@ -9,6 +9,7 @@
 #include "base/alloc.h"
 #include "contact/rebound.h"
 #include "contact/round.h"
+#include "contact/surface.h"
 #include "touch/same.h"
 
 static int was_struck(const sw_contact *c, const sw_pressed *t, size_t node, size_t *looks) {
@@ -213,7 +214,10 @@ static int strike(sw_contact *c, sw_system *s, const sw_pressed *t, double h) {
   if (c->regime == SW_CONTACT_IMPLICIT && o->restitution > 0)
     change = sw_rebound_limit(c, s, t, &(sw_rebound){w, e.wall, change, e.approach - e.gap / h});
   sw_vec v = e.speed;
-  if (levers.count) v = sw_add(v, sw_levers_shift(&levers, s->v + 3 * s->nodes + b->first_roll, 1));
+  if (levers.count) {
+    v = sw_levers_struck(&levers, v, s->v);
+    v = sw_add(v, sw_levers_shift(&levers, s->v + 3 * s->nodes + b->first_roll, 1));
+  }
   const sw_vec along = sw_madd(v, t->normal, -sw_dot(v, t->normal));
   const sw_vec brake = sw_levers_brake(&b->plan->beam, &levers, along, o->kinetic * change);
   const sw_vec dv = sw_madd(brake, t->normal, change);

@@ -6,7 +6,7 @@
 #include "base/alloc.h"
 #include "contact/depth.h"
 #include "contact/rolling.h"
-#include "contact/touch.h"
+#include "contact/surface.h"
 #include "system/part.h"
 #include "touch/load.h"
 #include "touch/same.h"
@@ -129,9 +129,11 @@ sw_status sw_contact_eval(void *contact, sw_system *s, double time, double hbar,
 }
 
 /* Shift of a touch by the update, including that of a rolling surface. */
-static sw_vec surface_shift(const sw_system *s, const sw_touch *t, sw_vec shift) {
+static sw_vec surface_shift(const sw_system *s, const sw_touch *t, const double *delta,
+                            sw_vec shift) {
   const sw_levers levers = sw_touch_levers(s, t);
   if (!levers.count) return shift;
+  shift = sw_add(shift, sw_levers_tilt(&levers, delta));
   return sw_add(shift, sw_levers_shift(&levers, s->bodies[t->body].spin_delta + 3, 4));
 }
 
@@ -160,7 +162,7 @@ static int may_change(const sw_contact *c, const sw_touch *t, double shift) {
 static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *y,
                   const double *delta, double scale) {
   const sw_vec shift = sw_mean_of(delta, 0, &t->spot);
-  const sw_vec surface = s->rolls ? surface_shift(s, t, shift) : shift;
+  const sw_vec surface = s->rolls ? surface_shift(s, t, delta, shift) : shift;
   const int agrees = sw_press_update(&t->press, t->friction, surface, scale);
   if (t->held) return 1;
   const double way = sw_norm(shift);

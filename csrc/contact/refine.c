@@ -7,7 +7,7 @@
 
 #include "base/alloc.h"
 #include "base/simd.h"
-#include "contact/touch.h"
+#include "contact/surface.h"
 #include "solve/dense.h"
 #include "touch/spot.h"
 #include "touch/way.h"
@@ -328,6 +328,7 @@ void sw_contact_refine(void *contact, sw_system *s) {
   for (size_t first = c->parts.touch, end; first < c->touch_count; first = end) {
     sw_body *b = &s->bodies[c->touches[first].body];
     const double scale = sw_contact_scale(c, first, &end);
+    if (sw_body_rolls_again(s, b)) sw_contact_refine_rolling(c, s, first, end, scale);
     if (!sw_body_solves_again(s, b)) continue;
     const size_t n = 3 * b->plan->nodes;
     if (sw_grow((void **)&c->room, &c->room_capacity, (1 + MOST_CHANGED) * n, sizeof *c->room) !=

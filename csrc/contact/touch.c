@@ -10,6 +10,7 @@
 #include "contact/curve.h"
 #include "contact/depth.h"
 #include "contact/halt.h"
+#include "contact/surface.h"
 #include "system/part.h"
 #include "touch/same.h"
 
@@ -141,7 +142,8 @@ static sw_vec relative_shift(const sw_contact *c, const sw_system *s, const sw_t
                                   sw_unrotate(c->now[t->obstacle].pose.q, t->press.normal));
   const sw_vec arm = sw_scale(sw_sub(t->press.normal, before), b->plan->beam.radius);
   const sw_vec rolled = sw_levers_shift(&levers, b->roll_turn, 1);
-  return sw_add(sw_add(sw_sub(to, carried), arm), rolled);
+  const sw_vec tilted = sw_sub(sw_levers_tilt(&levers, y), sw_levers_tilt(&levers, s->x));
+  return sw_add(sw_add(sw_sub(to, carried), arm), sw_add(rolled, tilted));
 }
 
 /* The same since the touch was last seen. This includes the motion of an explicit method after its
@@ -221,6 +223,7 @@ static int comes_sliding(const sw_contact *c, const sw_system *s, const sw_touch
   if (b->roll_block) {
     const sw_levers levers = sw_touch_levers(s, t);
     v = sw_add(v, sw_levers_shift(&levers, s->v + 3 * s->nodes + b->first_roll, 1));
+    v = sw_add(v, sw_levers_tilt(&levers, s->v));
   }
   v = sw_madd(v, t->press.normal, -sw_dot(v, t->press.normal));
   return sw_norm(v) > fmin(CARRIED / c->h, SLIDES);
@@ -251,14 +254,16 @@ static void begin_friction(const sw_contact *c, const sw_system *s, const sw_mem
   sw_press_aim(press, u, last ? &last->press : NULL, last && last->stage == c->stage, c->first);
   if (last && last->press.reversals > 0 && counts_reversals(c, s, t))
     press->reversals = last->press.reversals;
-  const int went_on = last && last->press.active, searches = last && c->ahead_count;
+  const int rolls = s->bodies[t->body].roll_block != NULL, searches = last && c->ahead_count;
+  /* its couple lifts a touch that sticks: it would close in every other iterate */
+  const int went_on = last && (last->press.active || (rolls && last->press.next_sliding));
   t->friction = sw_contact_arc_friction(c, s, m, t, coefficient(c, s, m, t));
   t->slid = m ? m->slid : 0.0;
   if (searches) press->ahead = last->press.ahead;
   sw_press_resume(press, m ? &m->kept : NULL, last ? &last->press : NULL, went_on || searches,
                   press->k * sw_larger(0.0, -press->gap));
-  const int held = m && !m->kept.sliding &&
-                   (s->bodies[t->body].roll_block || (!last && c->regime == SW_CONTACT_STATIC));
+  const int held = m && !m->kept.sliding && !(rolls && went_on && press->sliding) &&
+                   (rolls || (!last && c->regime == SW_CONTACT_STATIC));
   if (!held && !searches) sw_press_begin(press, t->friction, went_on || m, felt_stiffness(c, s, t));
 }
 
@@ -319,7 +324,7 @@ static void take_place(const sw_contact *c, const sw_system *s, const sw_candida
   t->spot = spot_of(s, k, t, at);
   t->local = place->near.point, t->point = sw_pose_point(*pose, t->local);
   t->seen = sw_pose_local(*pose, sw_mean_place(c, y, &t->spot));
-  t->acts = s->bodies[k->body].roll_block ? t->point : sw_mean_of(y, 0, &t->spot);
+  t->acts = sw_mean_of(y, 0, &t->spot);
   t->held = sw_contact_is_held(s, k);
   t->candidate = (size_t)(k - c->candidates);
   t->stage = c->stage;
@@ -362,6 +367,7 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
   t->usual = end_stiffness(c, s, k, y, out);
   t->stiffer = stiffness_of(c, k, m, last, t->usual);
   press->normal = sw_contact_leaning(c, s, k, place, place->sharp ? t->steady : 0.0);
+  if (s->bodies[k->body].roll_block) t->acts = sw_madd(t->acts, press->normal, -plan->beam.radius);
   rise(c, s, k, m, y, place, t);
   press->gap = near->gap - k->skin + t->rise;
   t->share = sw_place_share(place);

@@ -186,27 +186,6 @@ int sw_contact_is_pinched(const sw_contact *c, const sw_touch *t);
 /* 1 if the candidate's node, or both ends of its segment, are held. */
 int sw_contact_is_held(const sw_system *s, const sw_candidate *k);
 
-/* How turns of edges about themselves shift a wire's surface at a touch. */
-typedef struct sw_levers {
-  size_t count, edge; /* 0 (no rolling) to 2 edges; the first of them, in its body */
-  sw_vec arm[2];      /* shift per turn [m] */
-} sw_levers;
-
-/* Levers of a touch at a node or on a segment from it, with the last evaluation's tangents. */
-sw_levers sw_levers_at(const sw_system *s, size_t body, size_t node, int segment, sw_vec normal);
-static inline sw_levers sw_touch_levers(const sw_system *s, const sw_touch *t) {
-  if (!s->bodies[t->body].roll_block) return (sw_levers){0};
-  return sw_levers_at(s, t->body, t->node, t->segment, t->press.normal);
-}
-/* Shift of the surface by turn[edge stride] [m], or its speed if these are rates [m/s]. */
-sw_vec sw_levers_shift(const sw_levers *l, const double *turn, size_t stride);
-/* Adds the touch's friction and stiffness (upper half of K) to the turns. */
-void sw_levers_push(sw_system *s, const sw_touch *t, const double K[6], unsigned want);
-/* Change of the axis' velocity that stops the surface's sliding, of at most this size [m/s]. */
-sw_vec sw_levers_brake(const sw_beam *beam, const sw_levers *l, sw_vec slide, double most);
-/* Adds the change of the edges' rates (edges) by an impulse at the touch [N s]. */
-void sw_levers_kick(const sw_plan *p, const sw_levers *l, sw_vec impulse, double *rates);
-
 /* Most samples of a candidate; place of sample number k along its segment [-]. */
 enum { SW_SAMPLES_MOST = 128 };
 static inline double sw_sample_at(const sw_candidate *candidate, int k) {

@@ -37,7 +37,7 @@ static const sw_param wire_rows[] = {
      offsetof(sw_wire_args, normal),
      "with EI = {EI1, EI2}: bending in the plane of the wire and this direction has EI1"},
     {"rolls", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(sw_wire_args, rolls),
-     "true: friction also turns the wire about its axis, so that it rolls and is twisted"},
+     "true: friction acts at the surface, so that the wire rolls and is twisted; else at its axis"},
     {"rest_twist", SW_PARAM_NUMBER, "rad/m", 0, -1e6, 1e6, 0, NULL,
      offsetof(sw_wire_args, rest_twist), "twist without load; it is drawn untwisted"},
     {"breaking_load", SW_PARAM_NUMBER, "N", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,

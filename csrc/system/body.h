@@ -135,6 +135,8 @@ sw_status sw_body_plan_pairs(sw_body *body, const uint32_t *pairs, size_t count)
 /* In place: turns forces on the body's nodes (nodes x 3), zero where held, into the change of the
  * solution by these forces. */
 void sw_body_solve_again(const sw_body *body, double *more);
+/* The same for a wire that rolls, with the turns of its edges (nodes x 4). */
+void sw_body_solve_rolling_again(const sw_body *body, double *more);
 /* Sets the last solution to delta (nodes x 3). */
 void sw_body_take_solution(sw_body *body, const double *delta);
 

@@ -95,6 +95,8 @@ typedef struct sw_coupling {
 
 /* 1 if the body's equations can be solved again with the present factors (system/body.h). */
 int sw_body_solves_again(const sw_system *system, const sw_body *body);
+/* 1 if sw_body_solve_rolling_again works for the body. */
+int sw_body_rolls_again(const sw_system *system, const sw_body *body);
 /* Similar functions for all bodies with bridges. solve_again: turns forces on the system's nodes
  * (nodes x 3) into the change of the solution by these forces, zero for other bodies.
  * take_solution: the system's delta is the last solution. */

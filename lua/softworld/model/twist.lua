@@ -9,6 +9,10 @@ local twist = { name = "twist", rungs = {
   { name = "held", as = "no rolling", leaves = "rolling, and twist by friction: friction acts on the axis" },
   { name = "rolling", as = "rolling", leaves = "nothing" } } }
 
+-- Largest effect of friction's lever along a wire that a free check leaves out, over the tolerance [-]. It
+-- is a bound: not every quantity depends on the tension.
+local LEFT = 0.5
+
 -- True if the wire can be made to roll.
 local function may_roll(wire) return wire.model == "rod" and not wire:get().spin_inertia end
 
@@ -31,30 +35,39 @@ end
 
 function twist.look(context, run)
   local met = context.data.touching and #context.scene:touches() > 0
-  local f = { rubs = facts.rubbing(context.scene, run.start, context.seen), met = met, rods = 0 }
+  local f = { rubs = facts.rubbing(context.scene, run.start, context.seen), met = met, rods = 0, lever = 0 }
   f.flat = met or #f.rubs > 0
   for i, w in ipairs(context.data.wires) do
     if core.exists(w.object) and w.object.model == "rod" then
       f.rods, f.flat = f.rods + 1, f.flat and facts.flat(i)
+      if f.flat and facts.lever(i) > f.lever then f.lever, f.wire = facts.lever(i), w.name end
     end
   end
   return f
 end
 
-function twist.free(_, rung, f)
+function twist.free(_, rung, f, share)
   if rung == 1 and f.rods == 0 then return "the wires are meshes, which roll by themselves" end
   if rung == 1 and #f.rubs == 0 and not f.met then
     return "no friction torque: nothing with friction touches a wire"
   end
-  if rung == 1 and f.flat then
-    return "no friction torque: each wire and the forces on it stay in a plane, nothing turns out of that "
-      .. "plane"
+  if rung == 1 and f.flat and f.lever <= LEFT * share then
+    local text = "no friction torque: each wire and the forces on it stay in a plane, nothing turns out of "
+      .. "that plane"
+    if f.lever < 5e-4 then return text end
+    return ("%s; the lever of friction along '%s' changes its tension by %s (limit %s)"):format(text, f.wire,
+      facts.percent(f.lever), facts.percent(LEFT * share))
   end
 end
 
 --- Returns why wires must roll from here on, by what the run showed so far, or nil.
-function twist.broken(f)
-  if f.rods == 0 or f.flat then return nil end -- meshes roll by themselves
+function twist.broken(f, share)
+  if f.rods == 0 then return nil end -- meshes roll by themselves
+  if f.flat then
+    if f.lever <= LEFT * share then return nil end
+    return ("the lever of friction along '%s' changed its tension by %s (limit %s)"):format(f.wire,
+      facts.percent(f.lever), facts.percent(LEFT * share))
+  end
   if #f.rubs > 0 then return ("'%s' rubs"):format(f.rubs[1]) end
   return f.met and "wires touch each other" or nil
 end

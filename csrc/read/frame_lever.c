@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How much a wire's tension depends on the lever of friction along it. Friction f per length acts
+ * at the surface, a radius r from the axis: its couple f r is a shear force, which changes the
+ * tension where the wire is curved, by f r kappa per length (contact/surface.c). Rods that do not
+ * roll leave it out. */
+#include "read/frames.h"
+
+/* The change in one frame, over the largest tension [-]. */
+static double lever_in(const float *x, const float *v, size_t count, double radius) {
+  double change = 0, tension = 0;
+  for (size_t i = 0; i < count; i++, v += SW_FRAME_VALUES) {
+    const size_t from = i > 0 ? i - 1 : i, to = i + 1 < count ? i + 1 : i;
+    const sw_vec chord = sw_sub(sw_vec_of(x + 3 * to), sw_vec_of(x + 3 * from));
+    const sw_vec along = sw_unit_or(chord, sw_v(0, 0, 0));
+    const double friction = fabs(sw_dot(sw_vec_of(v + SW_FRAME_FORCE), along));
+    change += friction * radius * (double)v[SW_FRAME_CURVATURE];
+    tension = fmax(tension, fabs((double)v[SW_FRAME_TENSION]));
+  }
+  return change < tension ? change / tension : change > 0;
+}
+
+double sw_scene_frames_lever(const sw_scene *s, double start, size_t w) {
+  double most = 0;
+  for (size_t f = 0; f < sw_scene_frames(s); f++) {
+    size_t count, values;
+    if (sw_scene_frame_time(s, f) < start) continue;
+    const float *x = sw_scene_frame_wire(s, f, w, &count);
+    const float *v = sw_scene_frame_values(s, f, w, &values);
+    if (!x || !v || values != count) continue;
+    most = fmax(most, lever_in(x, v, count, sw_scene_frame_radius(s, w)));
+  }
+  return most;
+}
