@@ -49,6 +49,14 @@ static int meth_hold(lua_State *L) {
   return 0;
 }
 
+/* tool:take(clamp): takes over the place and motion of a clamp, which goes on with the tool. */
+static int meth_take(lua_State *L) {
+  const lsw_self t = check(L);
+  const sw_handle h = lsw_check_child_of(L, 2, &lsw_class_clamp, t.scene, "tool:take: clamp");
+  LSW_DO(L, sw_scene_tool_take, t.scene, t.id, h);
+  return 0;
+}
+
 static int meth_pads_on(lua_State *L) {
   const lsw_self t = check(L);
   if (!lua_isboolean(L, 2))
@@ -217,14 +225,13 @@ static int meth_limit(lua_State *L) {
   return 0;
 }
 
-static const luaL_Reg methods[] = {{"pad", meth_pad},         {"hold", meth_hold},
-                                   {"pads_on", meth_pads_on}, {"follow", meth_follow},
-                                   {"pose", meth_pose},       {"jaws", meth_jaws},
-                                   {"watch", meth_watch},     {"state", meth_state},
-                                   {"force", meth_force},     {"moment", meth_moment},
-                                   {"log", meth_log},         {"touches", meth_touches},
-                                   {"freeze", meth_freeze},   {"thaw", meth_thaw},
-                                   {"limit", meth_limit},     {NULL, NULL}};
+static const luaL_Reg methods[] = {
+    {"pad", meth_pad},       {"hold", meth_hold},   {"pads_on", meth_pads_on},
+    {"follow", meth_follow}, {"pose", meth_pose},   {"jaws", meth_jaws},
+    {"watch", meth_watch},   {"state", meth_state}, {"force", meth_force},
+    {"moment", meth_moment}, {"log", meth_log},     {"touches", meth_touches},
+    {"freeze", meth_freeze}, {"thaw", meth_thaw},   {"limit", meth_limit},
+    {"take", meth_take},     {NULL, NULL}};
 
 static int describe(lua_State *L) {
   lsw_self t;

@@ -92,6 +92,20 @@ sw_status sw_scene_tool_hold(sw_scene *s, sw_handle tool, sw_handle hold, sw_err
   return SW_OK;
 }
 
+sw_status sw_scene_tool_take(sw_scene *s, sw_handle tool, sw_handle hold, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  sw_tool *t = sw_scene_find_tool(s, tool, err);
+  sw_hold *h = t ? sw_scene_living_hold(s, hold, err) : NULL;
+  if (!h) return SW_EDEAD;
+  if (h->drive.tool)
+    return sw_fail(err, SW_EINVAL, "gripper '%s': '%s' already moves with a gripper", t->name,
+                   h->name);
+  sw_drive_free(&t->drive);
+  t->drive = h->drive;
+  h->drive = (sw_drive){.pose = {.q = {1, 0, 0, 0}}, .tool = 1 + tool.slot};
+  return SW_OK;
+}
+
 sw_status sw_scene_tool_pads_on(sw_scene *s, sw_handle tool, int on, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   SW_FIND(const sw_tool, t, sw_scene_find_tool(s, tool, err));

@@ -25,6 +25,8 @@ sw_status sw_scene_tool_pad(sw_scene *scene, sw_handle tool, sw_handle obstacle,
                             sw_vec opens, sw_error *err);
 /* The hold moves with the tool from now on; its force counts as the tool's. */
 sw_status sw_scene_tool_hold(sw_scene *scene, sw_handle tool, sw_handle hold, sw_error *err);
+/* The same, but the tool takes over place and motion of the hold, which goes on at its centre. */
+sw_status sw_scene_tool_take(sw_scene *scene, sw_handle tool, sw_handle hold, sw_error *err);
 /* on: 1 = wires touch the pads; 0 = they pass through the pads. */
 sw_status sw_scene_tool_pads_on(sw_scene *scene, sw_handle tool, int on, sw_error *err);
 

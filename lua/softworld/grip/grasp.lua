@@ -22,7 +22,7 @@ local Methods = grasp.methods
 
 -- Raises an error while the gripper moves: another wire could not join the move.
 local function check_rest(self, what)
-  if (self.busy_until or -math.huge) > self.scene.time * (1 + 1e-12) + 1e-12 then
+  if stand.is_moving(self) then
     error(("gripper '%s' is moving until t = %g s; %s after that"):format(self.name, self.busy_until, what),
       0)
   end
@@ -48,7 +48,9 @@ local function impose(self, wire, s)
   end
   local span = { from = self.scene.time }
   if self.carrier then
-    if #self.grips == 0 then self.carrier:pose(hold:pose()) end
+    local flies = stand.is_moving(self) -- it keeps its way, and the wire its place beside it
+    if #self.grips == 0 and not flies then self.carrier:pose(hold:pose()) end
+    if flies then stand.tell_distance(self, wire, s, wire.radius) end
     self.carrier:hold(hold)
     span.carried = self.scene.time
   end
@@ -64,6 +66,11 @@ local function drop(self, wire)
   local left = {}
   for _, grip in ipairs(self.grips) do
     if grip.wire == wire then
+      if stand.is_moving(self) and not self.carrier then -- its move goes on without the wire
+        stand.make_carrier(self)
+        self.carrier:take(grip.hold)
+        self.spans[#self.past].carried = self.scene.time
+      end
       self.at, self.facing = grip.hold:pose()
       grip.hold:release()
       for i, hold in ipairs(self.past) do

@@ -85,10 +85,15 @@ function Measures:moment(args)
   return in_axes(self, m, args.axes)
 end
 
--- True if the gripper held something by this carrier at time t.
-local function carried_at(self, t)
+-- True if a row at time t tells of the time after another. A step that ends then is before it; an equilibrium
+-- found then is after it.
+local function is_after(t, width, time) return t > time or t == time and width == 0 end
+
+-- True if the gripper held something by this carrier in the step of this length up to t.
+local function carried_at(self, t, width)
   for _, span in ipairs(self.spans) do
-    if span.carried and t >= span.carried and (not span.to or t <= span.to) then return true end
+    local carried = span.carried and is_after(t, width, span.carried)
+    if carried and (not span.to or t <= span.to) then return true end
   end
   return false
 end
@@ -102,10 +107,11 @@ local function records(self, t1, t2)
     local width = spans and 10 or 15
     for i = 0, count - 1 do
       local b = width * i
-      if not wanted or wanted(log[b + 1]) then
+      local step = spans and spans[i + 1] or log[b + 11]
+      if not wanted or wanted(log[b + 1], step) then
         list[#list + 1] = { t = log[b + 1], log[b + 2], log[b + 3], log[b + 4], log[b + 5],
           log[b + 6], log[b + 7], at = { log[b + 8], log[b + 9], log[b + 10] },
-          span = spans and spans[i + 1] or log[b + 11],
+          span = step,
           opening = jaws and log[b + 12] or nil, squeeze = jaws and log[b + 13] or nil,
           margin = jaws and log[b + 14] or nil, slip = jaws and log[b + 15] or nil }
       end
@@ -115,12 +121,13 @@ local function records(self, t1, t2)
     local held = self.spans[i]
     if not (t1 and held.to and held.to < t1) then
       local log, count, spans = build.call(3, hold.log, hold, t1, t2)
-      add(log, count, spans, held.carried and function(t) return t < held.carried end)
+      local function alone(t, step) return not is_after(t, step, held.carried) end
+      add(log, count, spans, held.carried and alone)
     end
   end
   if self.carrier then
     local log, count = build.call(3, self.carrier.log, self.carrier, t1, t2)
-    add(log, count, nil, function(t) return carried_at(self, t) end)
+    add(log, count, nil, function(t, step) return carried_at(self, t, step) end)
   end
   if self.tool then
     local log, count = build.call(3, self.tool.log, self.tool, t1, t2)

@@ -59,6 +59,21 @@ function stand.make_tool(self, level, wire, s)
   end)
 end
 
+--- True while the gripper follows a move that another process, or none, waits for.
+function stand.is_moving(self)
+  return (self.busy_until or -math.huge) > self.scene.time * (1 + 1e-12) + 1e-12
+end
+
+--- Tells that a gripper which went on with its move took the wire away from its centre. free: distance that
+-- is not told [m].
+function stand.tell_distance(self, wire, s, free)
+  local distance = vec.norm(vec.sub(wire:position(s), self:position()))
+  if distance <= free then return end
+  self.scene:tell{ kind = "grasp", object = self.name, s = s, value = distance, text = ("gripper '%s' grasps "
+    .. "wire '%s' as it moves, with s = %.4g m %.3g mm from its centre: it goes on with its move and carries "
+    .. "the wire there"):format(self.name, wire.name, s, 1e3 * distance) }
+end
+
 --- Makes a carrier, a moving place, for a gripper without pads: while it holds nothing, or for several wires.
 function stand.make_carrier(self)
   local at, q = self.at or { 0, 0, 0 }, self.rotation or self.facing or nil
@@ -67,11 +82,21 @@ function stand.make_carrier(self)
   return self.carrier
 end
 
---- Puts the open pads at the wire's arc length s.
+--- Puts the open pads at the wire's arc length s. Pads that move stay on their way.
 function stand.place_tool(self, wire, s, level)
-  if not self.tool and self.carrier then self.at = (self.carrier:pose()) end
+  if not self.tool and self.carrier then
+    if stand.is_moving(self) then
+      error(("gripper '%s' is moving until t = %g s without pads; grasp by pads after that"):format(self.name,
+        self.busy_until), level)
+    end
+    self.at = (self.carrier:pose())
+  end
   if not self.tool then return stand.make_tool(self, level + 1, wire, s) end
-  if s then self.tool:pose(wire:position(s), self.rotation or facing(self.scene, wire, s)) end
+  if s and stand.is_moving(self) then
+    stand.tell_distance(self, wire, s, 0.5 * self.width)
+  elseif s then
+    self.tool:pose(wire:position(s), self.rotation or facing(self.scene, wire, s))
+  end
 end
 
 return stand

@@ -44,7 +44,8 @@ local function moment_about(r, at)
 end
 
 -- Integrates force and moment from t1 to t2: means of steps times their duration, other values by trapezoids.
--- In a step that follows a mean the start value is not known, so its end value counts for all of it.
+-- In a step that follows a mean, and in the first one of a hold, the start value is not known, so its end value
+-- counts for all of it.
 local function add_up(m, list, o)
   local force_time, moment_time, before = 0, 0, nil
   local function add(h, r)
@@ -59,7 +60,10 @@ local function add_up(m, list, o)
       if h > 0 then add(h, r) end
       before = r.t >= o.t1 and r.t <= o.t2 and r or nil
     elseif r.t >= o.t1 and r.t <= o.t2 then
-      if before and not (o.is_gap and o.is_gap(0.5 * (before.t + r.t))) then
+      local from = r.t + r.span
+      if not before or o.is_gap and o.is_gap(0.5 * (before.t + r.t)) then
+        if from >= o.t1 - 1e-12 * (1 + math.abs(o.t1)) then add(-r.span, r) end
+      else
         local share = before.span > 0 and 0 or 0.5
         add(share * (r.t - before.t), before)
         add((1 - share) * (r.t - before.t), r)
