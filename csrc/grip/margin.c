@@ -219,6 +219,11 @@ double sw_frozen_margin(const sw_frozen *f, sw_vec force, sw_vec moment) {
  * middle is rounding [-]. */
 static const double POINT = 1e-6;
 
+/* A load below this share of what friction can bear is rounding: the turn that yields most is then
+ * one that moves no touch, and the margin would be the ratio of two roundings. It is that of double
+ * precision over IDLE [-]. */
+static const double NOTHING = 1e-7;
+
 double sw_touches_margin(const sw_frozen_touch *touch, size_t touches, sw_vec axle, sw_vec force,
                          sw_vec moment) {
   double load[SIX], most = 0;
@@ -231,5 +236,6 @@ double sw_touches_margin(const sw_frozen_touch *touch, size_t touches, sw_vec ax
   const sw_vec about = sw_sub(moment, sw_cross(p.middle, force));
   sw_store(load, force);
   sw_store(load + 3, sw_scale(about, 1.0 / p.size));
-  return fmax(straight, search(&h, load));
+  if (!(hypot(sw_norm(force), sw_norm(about) / p.size) > NOTHING * most)) return straight;
+  return fmin(1.0, fmax(straight, search(&h, load)));
 }

@@ -44,7 +44,7 @@ local function moment_about(r, at)
 end
 
 -- Integrates force and moment from t1 to t2: means of steps times their duration, other values by trapezoids.
--- In a step that follows a mean, and in the first one of a hold, the start value is not known, so its end value
+-- In a step that follows a mean, and in the first one of a hold, the start value is not known; the end value
 -- counts for all of it.
 local function add_up(m, list, o)
   local force_time, moment_time, before = 0, 0, nil
