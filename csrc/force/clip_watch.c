@@ -196,6 +196,8 @@ static void come_out(const sw_clip *c, const sw_clip_middle *m, double time, dou
   else if (m->share >= THERE && h[SW_CLIP_PEAK] < EVEN * c->retention)
     tell(h, rise > LEANS * c->law.out ? SW_CLIP_PEELED_OUT : SW_CLIP_UNSEEN_OUT, h[SW_CLIP_PEAK],
          m->s);
+  else
+    tell(h, m->share >= THERE ? SW_CLIP_CAME_OUT : SW_CLIP_SLID_OUT, h[SW_CLIP_PEAK], m->s);
 }
 
 static void go_in(const sw_clip *c, const sw_clip_middle *m, double time, double *h) {
@@ -305,6 +307,15 @@ static void write_weak(const sw_clip_args *args, const double *h, sw_force_news 
              way, h[SW_CLIP_NEWS_VALUE], given);
 }
 
+static void write_out(const sw_clip_args *args, const double *h, sw_force_news *out) {
+  out->kind = "out";
+  if ((int)h[SW_CLIP_NEWS] == SW_CLIP_CAME_OUT)
+    snprintf(out->text, sizeof out->text, "the wire comes out, at %.4g N; its retention is %.4g N",
+             h[SW_CLIP_NEWS_VALUE], args->retention);
+  else
+    snprintf(out->text, sizeof out->text, "the wire slides out along the clip's axis");
+}
+
 int sw_clip_news(const void *args, const double *history, sw_force_news *out) {
   static const char *const how[] = {"", "its floor", "a wall", "a wall from outside"};
   const int what = (int)history[SW_CLIP_NEWS];
@@ -323,6 +334,8 @@ int sw_clip_news(const void *args, const double *history, sw_force_news *out) {
              180.0 / M_PI * atan(fabs(history[SW_CLIP_PEAK_SLOPE])), 1e3 * value);
   else if (what == SW_CLIP_LONG_EDGES)
     write_edges(args, value, out);
+  else if (what == SW_CLIP_CAME_OUT || what == SW_CLIP_SLID_OUT)
+    write_out(args, history, out);
   else if (what >= SW_CLIP_PEELED_IN)
     write_weak(args, history, out);
   else if (what == SW_CLIP_PASSED)

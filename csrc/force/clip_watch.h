@@ -54,6 +54,8 @@ enum {
   SW_CLIP_CROSSING,
   SW_CLIP_PASSED,
   SW_CLIP_COARSE,
+  SW_CLIP_CAME_OUT,
+  SW_CLIP_SLID_OUT, /* along the axis */
   SW_CLIP_PEELED_IN,
   SW_CLIP_PEELED_OUT,
   SW_CLIP_UNSEEN_IN, /* steps have missed the lips' peak */

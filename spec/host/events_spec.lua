@@ -65,3 +65,41 @@ describe("a run with events", function()
     assert.truthy(out:find("s of computing, 1 event (run.events)\n", 1, true), out)
   end)
 end)
+
+-- A wire that is pulled out of its clip. Asking the clip is a look at this event, and at no other.
+describe("the event of a wire that came out of its clip", function()
+  local out_of_clip = [[
+local sw = require "softworld"
+local scene = sw.scene{ name = "pull" }
+local wire = scene:wire{ cable = "GXL 1.5", from = {0, 0, 0.05}, to = {0.3, 0, 0.05}, segments = 80 }
+scene:force{ kind = "damping", mass = 2, stiffness = 2e-3 }
+local clip = scene:clip{ name = "c", at = {0.15, 0, 0.02}, width = 0.01, insertion = 2, retention = 4 }
+local hand = scene:gripper{ pads = { width = 0.006 } }
+scene:process(function(p)
+  hand:grasp(wire, { s = 0.15 })
+  hand:clip{ into = clip }
+  hand:move{ by = {0, 0, 0.03}, speed = 0.05 }
+end)
+]]
+  after_each(program.clean)
+
+  it("is told if the script does not ask the clip", function()
+    local _, err, code = script(out_of_clip .. "scene:run{}\nprint(clip.inserted.time)")
+    assert.truthy(err:find("is ok, but has 1 event; see run.events: out: clip 'c', wire 'wire1': the wire "
+      .. "comes out, at", 1, true), err)
+    assert.equal(0, code)
+  end)
+
+  for _, look in ipairs{ "clip.pulled_out.time", "clip:seated()", "clip:state()", "clip.wire" } do
+    it("is not told after " .. look, function()
+      local _, err = script(out_of_clip .. "scene:run{}\nprint(" .. look .. ")")
+      assert.equal("", err)
+    end)
+  end
+
+  it("is not told of a clip that the script asks while it runs", function()
+    local _, err = script(out_of_clip:gsub("speed = 0.05 }", "speed = 0.05 }\n  print(clip:state())")
+      .. "scene:run{}")
+    assert.equal("", err)
+  end)
+end)

@@ -14,8 +14,10 @@
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local fixing = require "softworld.link.fixing"
+local outs = require "softworld.link.outs"
 local remarks = require "softworld.remarks"
 local rows = require "softworld.rows"
+local sealed = require "softworld.sealed"
 local vec = require "softworld.vec"
 local fixshape = require "softworld.link.fixshape"
 
@@ -27,6 +29,14 @@ local SNAP = 2e-3 -- default time of the snap damping [s]
 local STRONGEST = 1e12 -- largest force [N]
 local STEEPEST = 1e6 -- largest ratio of insertion and retention: flanks of no length have no slope
 local THERE = 0.5 -- share of the clip's length that a wire must pass through to be in it
+
+local read_field = Clip.__index
+
+-- Reads a field, and keeps in mind that the script asked for what shows whether its wire came out.
+function Clip.__index(self, key)
+  if outs.looks[key] and not sealed.by_library() then outs.seen(self) end
+  return read_field(self, key)
+end
 
 local new = rows.call("scene:clip", "{...}", "a snap-in clip that holds a wire", {
   gives = "a clip",

@@ -10,6 +10,7 @@ local document = require "softworld.run.document"
 local go = require "softworld.run.go"
 local kept = require "softworld.run.kept"
 local ledger = require "softworld.run.ledger"
+local outs = require "softworld.link.outs"
 local reactions = require "softworld.grip.reactions"
 local methods = require "softworld.methods"
 local counted = require "softworld.output.number".count
@@ -36,11 +37,12 @@ local function mark_events(run)
   local what = ("the run of '%s'%s"):format(run.name, at and " at " .. at or "")
   run.unseen_met = trust.watch(run, what)
   run.unseen_slips = reactions.tell(run.scene, run.start, what)
-  local events = sealed.fields(run).events
-  if not events or #events == 0 then return run end
+  local events = outs.others(run.scene, sealed.fields(run).events or {})
+  if #events == 0 then return run end
   local event = ("%s: %s"):format(events[1].kind, events[1].text)
   run.unseen = unread.note(("softworld: note: %s is ok, but has %s; see run.events: %s"):format(what,
     counted(#events, "event"), event), event)
+  outs.keep(run.scene, events, run.unseen)
   return run
 end
 
