@@ -148,6 +148,18 @@ describe("a channel", function()
     t.below(-0.1, wire:position(0.1)[3], "height of the wire without it")
   end)
 
+  -- With two wires in it, force(wire) was the force of both.
+  it("refuses a wire where it answers for all", function()
+    local _, wire, duct = bent()
+    for verb, why in pairs{ force = "it is the force of all wires", close = "it puts the whole lid on",
+      open = "it takes the whole lid off" } do
+      local ok, text = pcall(duct[verb], duct, wire)
+      assert.is_false(ok)
+      local wanted = ("channel:%s takes no argument, got a wire; %s"):format(verb, why)
+      assert.is_truthy(text:find(wanted, 1, true), text)
+    end
+  end)
+
   it("refuses invalid arguments, naming them", function()
     local function refused(message, args)
       local scene = sw.scene{}

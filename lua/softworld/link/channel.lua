@@ -206,8 +206,15 @@ local function all_parts(self)
   return list
 end
 
+-- Raises an error if a call that takes nothing got something, such as one of several wires.
+local function nothing(verb, given, why)
+  if given == nil then return end
+  error(("channel:%s takes no argument, got %s; %s"):format(verb, checks.got(given), why), 0)
+end
+
 --- Returns the force of all wires on the channel and its lid [N].
-function Channel:force()
+function Channel:force(given)
+  nothing("force", given, "it is the force of all wires")
   local sum = { 0, 0, 0 }
   for _, part in ipairs(all_parts(self)) do sum = add(sum, (part:force())) end
   return sum
@@ -281,7 +288,8 @@ local function check_lid(self)
 end
 
 --- Puts the lid on; raises an error while a wire stands out.
-function Channel:close()
+function Channel:close(given)
+  nothing("close", given, "it puts the whole lid on")
   build.check(self.scene, "channel:close", 3)
   if is_closed(self) then return self end
   check_lid(self)
@@ -295,7 +303,8 @@ function Channel:close()
 end
 
 --- Takes the lid off.
-function Channel:open()
+function Channel:open(given)
+  nothing("open", given, "it takes the whole lid off")
   build.check(self.scene, "channel:open", 3)
   remove(is_closed(self) and self.lids or {})
   return self
