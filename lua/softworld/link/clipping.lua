@@ -22,6 +22,9 @@ local into = rows.call("gripper:clip", "{...}", "presses its wire into a clip; i
   { "fail", "boolean", "-", "false: returns nil and why where it does not go in", usual = "true" },
 })
 local STEPS = 20 -- checks of the force on the way over the lips
+-- Where the wire is within such a step of the lips' top, there are FINE times as many: where the tool stops
+-- decides the pull on the wire from then on (spec/scene/clip_stops_spec).
+local FINE = 32
 local USUAL_LIMIT = 5 -- default of max_force over the insertion force
 
 local function checked(self, args)
@@ -108,12 +111,19 @@ local function taut(wire, clip, force)
     s)
 end
 
+-- Returns the way to the next check [m].
+local function stride(clip, way)
+  local u = clip:height()
+  local top = way * clip.insertion / (clip.insertion + clip.retention) -- of the lips, over the seat
+  return u and u < top + way / STEPS and way / (FINE * STEPS) or way / STEPS
+end
+
 -- Returns the largest force of the gripper towards the seat, and the reason if the wire did not go in.
 local function press(self, clip, args, way, radius)
   local goal = -(args.overtravel or radius)
   local most, u = 0, place(self, clip)
   while not clip:seated() do
-    local step = math.min(way / STEPS, u - goal)
+    local step = math.min(stride(clip, way), u - goal)
     if step < 1e-9 then
       return most, ("the tool went %.4g m beyond the seat with at most %.4g N, and the wire beside it did "
         .. "not go in; grasp the wire nearer to the clip, or give more overtravel"):format(-goal, most)
