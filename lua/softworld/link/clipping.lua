@@ -25,6 +25,7 @@ local STEPS = 20 -- checks of the force on the way over the lips
 -- Where the wire is within such a step of the lips' top, there are FINE times as many: where the tool stops
 -- decides the pull on the wire from then on (spec/scene/clip_stops_spec).
 local FINE = 32
+local HOME = 0.5 -- way that the tool goes on once the wire is seated, over the way between two checks [-]
 local USUAL_LIMIT = 5 -- default of max_force over the insertion force
 
 local function checked(self, args)
@@ -118,6 +119,10 @@ local function stride(clip, way)
   return u and u < top + way / STEPS and way / (FINE * STEPS) or way / STEPS
 end
 
+local function push_on(self, clip, way, speed)
+  self:move{ by = vec.scale(clip.direction, -way), speed = speed, law = "linear" }
+end
+
 -- Returns the largest force of the gripper towards the seat, and the reason if the wire did not go in.
 local function press(self, clip, args, way, radius)
   local goal = -(args.overtravel or radius)
@@ -128,7 +133,7 @@ local function press(self, clip, args, way, radius)
       return most, ("the tool went %.4g m beyond the seat with at most %.4g N, and the wire beside it did "
         .. "not go in; grasp the wire nearer to the clip, or give more overtravel"):format(-goal, most)
     end
-    self:move{ by = vec.add({ 0, 0, 0 }, clip.direction, -step), speed = args.speed, law = "linear" }
+    push_on(self, clip, step, args.speed)
     local before = u
     u = place(self, clip)
     if before - u <= 0.5 * step then -- the move was too short for a step
@@ -142,6 +147,8 @@ local function press(self, clip, args, way, radius)
         taut(self.wire, clip, most))
     end
   end
+  local home = math.min(HOME * way / STEPS, u - goal)
+  if home > 1e-9 then push_on(self, clip, home, args.speed) end
   return most
 end
 
@@ -162,7 +169,7 @@ end
 
 --- Presses the wire into a clip: { into = clip, speed = [m/s], max_force = [N], overtravel = [m] }.
 -- The tool lines up over the mouth (unless align = false), goes towards the seat until the wire
--- snaps in, and stays there. Returns { force = largest of the gripper [N], peak_force = largest of
+-- snaps in, 1/40 of the lips' way further, and stays there. Returns { force = largest of the gripper [N], peak_force = largest of
 -- the lips [N], s = [m], duration = [s] }. If the wire does not go in, the tool stops and an error says
 -- which force was reached; with fail = false the call returns nil and this text instead.
 function Gripper.clip(self, args)
