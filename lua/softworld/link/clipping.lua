@@ -169,9 +169,9 @@ end
 
 --- Presses the wire into a clip: { into = clip, speed = [m/s], max_force = [N], overtravel = [m] }.
 -- The tool lines up over the mouth (unless align = false), goes towards the seat until the wire
--- snaps in, 1/40 of the lips' way further, and stays there. Returns { force = largest of the gripper [N], peak_force = largest of
--- the lips [N], s = [m], duration = [s] }. If the wire does not go in, the tool stops and an error says
--- which force was reached; with fail = false the call returns nil and this text instead.
+-- snaps in, 1/40 of the lips' way further, and stays there. Returns { force = largest of the gripper [N],
+-- peak_force = largest of the lips [N], s = [m], duration = [s] }. If the wire does not go in, the tool stops
+-- and an error says which force was reached; with fail = false the call returns nil and this text instead.
 function Gripper.clip(self, args)
   -- not by build.call: the process yields on the way
   local result = table.pack(pcall(run, self, args))

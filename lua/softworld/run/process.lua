@@ -123,13 +123,14 @@ local function timeout_of(options)
   return build.call(4, until_then.read, until_then, options).timeout or math.huge
 end
 
---- Waits until condition() is true; it is called once per step. A condition may also be a table, see help
+--- Waits until condition() is true; it is called after each step, and again if another process has gone on
+-- since at the same time, for it may have made the condition true. A condition may also be a table, see help
 -- "wait_until": { force = [N], on = gripper or obstacle }, { slip = [m], on = gripper },
 -- { contact = obstacle }, { distance = [m], between = { a, b } }. Returns true, or false
 -- if timeout [s] passed first.
 function Process:wait_until(condition, options)
   local impossible
-  local told, asked = type(condition) == "table", false
+  local told, asked, again = type(condition) == "table", false, false
   if told then
     condition, impossible = conditions.of(condition, 3, self.scene)
     condition = build.placed(condition)
@@ -145,7 +146,8 @@ function Process:wait_until(condition, options)
     if last == math.huge then waiting.goes_on(self, impossible) end
     if asked then self.moves = self.moves - 1 end -- it is where it was; but a function may have a memory
     asked = told
-    self.watching, self.wake = true, last
+    self.watching, self.asks, self.wake = true, again and "again" or "first", last
+    again = true
     coroutine.yield()
   end
   waiting.ended(self)
@@ -217,7 +219,7 @@ function Process:finish()
 end
 
 -- Fields that may be nil.
-local fields = { wake = true, watching = true, begun = true, between = true, inside = true,
+local fields = { wake = true, watching = true, asks = true, begun = true, between = true, inside = true,
   failed = true, traceback = true }
 
 --- Returns the names of methods and fields, for completion at the prompt.
@@ -255,7 +257,7 @@ function core.class.scene.process(scene, body)
   local data = build.data(scene)
   data.process_count = (data.process_count or 0) + 1
   local self = sealed.new(Process, { scene = scene, number = data.process_count, body = body,
-    steps = 0, moves = 0, idle = 0, idle_at = false })
+    steps = 0, moves = 0, idle = 0, idle_at = false, asked = 0 })
   self.thread = coroutine.create(body)
   if not data.from_file then -- forgets the steps of an earlier process with this number
     if data.done then data.done[self.number] = nil end

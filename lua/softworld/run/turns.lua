@@ -48,7 +48,7 @@ local function is_bereft(self, message)
 end
 
 local function resume(self)
-  self.wake, self.watching, self.begun, self.between = nil, nil, true, nil
+  self.wake, self.watching, self.asks, self.begun, self.between = nil, nil, nil, true, nil
   self.moves = self.moves + 1
   local ok, message = coroutine.resume(self.thread, self)
   if not ok and is_bereft(self, message) then return end
@@ -63,17 +63,29 @@ local function resume(self)
   if not self.wake then self.watching, self.wake = true, math.huge end -- a plain yield
 end
 
-local function is_due(p, second)
+local DUE, STEPS, AGAIN = 1, 2, 3 -- which processes have a turn
+local MOST = 100 -- turns at one time that processes may give each other by conditions
+
+-- made: how often a process has gone on at this time, see go_on.
+local function is_due(p, which, made)
   if coroutine.status(p.thread) ~= "suspended" then return false end
-  if second then return p.between or not p.begun end
+  if which == STEPS then return p.between or not p.begun end
+  if which == AGAIN then return p.asks and p.asked < made end
   return not p.wake or p.watching or process.reached(p.scene, p.wake)
 end
 
--- Continues the processes whose time has come; second: those that have just ended a step.
-local function go_on(data, second)
+-- Continues the processes whose time has come. which: DUE; STEPS: those that have just ended a step; AGAIN:
+-- those that wait for a condition and were asked before another process went on. They would else go on a step
+-- late, or not, by the order in which the processes were made. turn.made: how often a process has gone on,
+-- other than to find its condition still false.
+local function go_on(data, which, turn)
   local alive, wake, watching, between, inside = {}, math.huge, false, false, false
   for _, p in ipairs(data.processes) do
-    if is_due(p, second) then resume(p) end
+    if is_due(p, which, turn.made) then
+      resume(p)
+      if p.asks ~= "again" then turn.made = turn.made + 1 end
+      p.asked = turn.made
+    end
     if coroutine.status(p.thread) == "suspended" then
       alive[#alive + 1] = p
       wake = math.min(wake, p.wake)
@@ -86,14 +98,26 @@ local function go_on(data, second)
   return wake, watching, between, inside
 end
 
+local function is_any_due(data, which, made)
+  for _, p in ipairs(data.processes) do
+    if is_due(p, which, made) then return true end
+  end
+  return false
+end
+
 --- Continues every process whose time has come. Returns the number of living
 -- processes, the next wake-up time [s] and whether one watches a condition.
 function turns.step(scene)
-  local data = build.data(scene)
-  local wake, watching, between, inside = go_on(data, false)
-  while between do
-    if data.saving and not inside then data.saving() end
-    wake, watching, between, inside = go_on(data, true)
+  local data, turn = build.data(scene), { made = 0 }
+  for _, p in ipairs(data.processes) do p.asked = 0 end
+  local wake, watching, between, inside = go_on(data, DUE, turn)
+  for _ = 1, MOST do
+    while between do
+      if data.saving and not inside then data.saving() end
+      wake, watching, between, inside = go_on(data, STEPS, turn)
+    end
+    if not is_any_due(data, AGAIN, turn.made) then break end
+    wake, watching, between, inside = go_on(data, AGAIN, turn)
   end
   return #data.processes, wake, watching
 end
