@@ -98,6 +98,14 @@ local function carried_at(self, t, width)
   return false
 end
 
+-- True if pads bear nothing in this row, and hold nothing.
+local function is_idle(r)
+  for k = 1, 6 do
+    if r[k] ~= 0 then return false end
+  end
+  return r.squeeze == 0 and r.margin ~= r.margin
+end
+
 -- Returns every recorded step: t, span, force, moment; for a tool also opening, squeeze, margin, slip. span:
 -- above 0 = the force is the mean over this time up to t; below 0 = it is the force at the end of a step of
 -- this length; 0 = an equilibrium. t1, t2: steps further from these times than one step are left out.
@@ -114,6 +122,7 @@ local function records(self, t1, t2)
           span = step,
           opening = jaws and log[b + 12] or nil, squeeze = jaws and log[b + 13] or nil,
           margin = jaws and log[b + 14] or nil, slip = jaws and log[b + 15] or nil }
+        list[#list].idle = jaws and is_idle(list[#list])
       end
     end
   end

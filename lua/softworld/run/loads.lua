@@ -45,7 +45,7 @@ end
 
 -- Integrates force and moment from t1 to t2: means of steps times their duration, other values by trapezoids.
 -- In a step that follows a mean, and in the first one of a hold, the start value is not known; the end value
--- counts for all of it.
+-- counts for all of it. Steps with row.idle at both ends have no load and do not count as time.
 local function add_up(m, list, o)
   local force_time, moment_time, before = 0, 0, nil
   local function add(h, r)
@@ -57,13 +57,13 @@ local function add_up(m, list, o)
   for _, r in ipairs(list) do
     if r.span > 0 then
       local h = math.min(r.t, o.t2) - math.max(r.t - r.span, o.t1)
-      if h > 0 then add(h, r) end
+      if h > 0 and not r.idle then add(h, r) end
       before = r.t >= o.t1 and r.t <= o.t2 and r or nil
     elseif r.t >= o.t1 and r.t <= o.t2 then
-      local from = r.t + r.span
+      local from, free = r.t + r.span, r.idle and (not before or before.idle)
       if not before or o.is_gap and o.is_gap(0.5 * (before.t + r.t)) then
-        if from >= o.t1 - 1e-12 * (1 + math.abs(o.t1)) then add(-r.span, r) end
-      else
+        if not free and from >= o.t1 - 1e-12 * (1 + math.abs(o.t1)) then add(-r.span, r) end
+      elseif not free then
         local share = before.span > 0 and 0 or 0.5
         add(share * (r.t - before.t), before)
         add((1 - share) * (r.t - before.t), r)
