@@ -45,8 +45,9 @@ sw_status sw_stepper_new(sw_stepper *p, const sw_integrator *method, sw_system *
   p->newton = DYNAMIC_NEWTON;
   const int explicit_ = !(method->flags & SW_INTEGRATOR_IMPLICIT);
   const size_t arrays = explicit_ ? 3 + SW_EXTRA : 9, m = system->edges;
+  const size_t pulls = sw_system_pulls(system);
   const size_t strains = !explicit_ && system->strain ? system->strains : 0;
-  double *w = sw_alloc(arrays * p->n + 5 * strains + 4 * m, sizeof *w);
+  double *w = sw_alloc(arrays * p->n + 5 * strains + 2 * m + 2 * pulls, sizeof *w);
   if (!w) return SW_ENOMEM;
   p->work = w;
   double **const implicit_arrays[] = {&p->xhat, &p->vhat, &p->y[0], &p->w[0], &p->y[1],
@@ -65,14 +66,14 @@ sw_status sw_stepper_new(sw_stepper *p, const sw_integrator *method, sw_system *
   }
   p->tension = w + arrays * p->n;
   p->first = p->tension + m;
-  p->pulled[0] = p->first + m, p->pulled[1] = p->pulled[0] + m;
+  p->pulled[0] = p->first + m, p->pulled[1] = p->pulled[0] + pulls;
   if (!strains) return SW_OK;
   p->strain_before = w + arrays * p->n; /* next to vp: both go to snapshots */
   p->tension = p->strain_before + strains, p->strain_past = p->tension + m;
   p->strain[0] = p->strain_past + strains, p->strain[1] = p->strain[0] + strains;
   p->strain_rate = p->strain[1] + strains;
   p->first = p->strain_rate + strains;
-  p->pulled[0] = p->first + m, p->pulled[1] = p->pulled[0] + m;
+  p->pulled[0] = p->first + m, p->pulled[1] = p->pulled[0] + pulls;
   return SW_OK;
 }
 
@@ -176,13 +177,14 @@ static sw_status go_onwards(sw_stepper *p, const sw_integrator *m, sw_system *s,
 static void begin_pull(const sw_stepper *p, size_t k, const sw_stage_row *row, const sw_system *s,
                        double hbar) {
   double *sum = p->pulled[k];
-  memset(sum, 0, s->edges * sizeof *sum);
-  if (row->x1 != 0) add(s->edges, row->x1, p->pulled[0], sum);
-  if (row->xv != 0) sw_system_add_pull(s, s->tension, s->strain_rate, row->xv * hbar, sum);
+  const size_t pulls = sw_system_pulls(s);
+  memset(sum, 0, pulls * sizeof *sum);
+  if (row->x1 != 0) add(pulls, row->x1, p->pulled[0], sum);
+  if (row->xv != 0) sw_system_add_pull(s, s->x, s->tension, s->strain_rate, row->xv * hbar, sum);
 }
 
 static void end_pull(const sw_stepper *p, size_t k, const sw_system *s, double hbar) {
-  sw_system_add_pull(s, s->tension, p->strain_rate, hbar, p->pulled[k]);
+  sw_system_add_pull(s, p->y[k], s->tension, p->strain_rate, hbar, p->pulled[k]);
 }
 
 /* Computes the mean over the step. Methods that look back would need that of the previous step. */
@@ -190,7 +192,7 @@ static void find_mean(sw_stepper *p, const sw_integrator *m, const sw_system *s,
   double *sum = p->pulled[m->stages - 1];
   const double share = m->flags & SW_INTEGRATOR_ONWARDS ? m->reach : 1.0;
   p->mean = (m->flags & SW_INTEGRATOR_HISTORY) || m->keeps > 0 ? NULL : sum;
-  for (size_t e = 0; p->mean && e < s->edges; e++) sum[e] *= share / h;
+  for (size_t e = 0; p->mean && e < sw_system_pulls(s); e++) sum[e] *= share / h;
 }
 
 /* 1 if a stage only goes on from the step's start by its own velocity, and others follow. */

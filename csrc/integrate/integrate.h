@@ -75,8 +75,8 @@ struct sw_stepper {
    * stage; of the state before last. NULL without dashpots [-], [1/s] */
   double *strain_past, *strain[SW_STAGES_MAX], *strain_rate, *strain_before;
   double *tension; /* saved for a rejected step (edges) */
-  /* axial forces integrated over time from the step's start to each stage (edges); their mean over
-   * the last step, or NULL if only the forces at its end are known [N s], [N] */
+  /* axial forces integrated over time from the step's start to each stage (sw_system_pulls); their
+   * mean over the last step, or NULL if only the forces at its end are known [N s], [N] */
   double *pulled[SW_STAGES_MAX], *mean;
   double *first;                /* axial forces of the first of two stages (edges) [N] */
   sw_between between;           /* the trial's mix of both stages for read-outs */

@@ -72,12 +72,24 @@ static void curvature_extreme(const sw_scene *s, const sw_body *b, double above,
   if (out->value > above) *sharp = sw_scene_sharpness(s, b, node, clamp, out->value);
 }
 
-/* T: tensions of the wire's edges. */
+/* Number of edges, or of slices between rings, whose tension is recorded. */
+static size_t watched_edges(const sw_body *b) {
+  const sw_web *web = b->plan->web;
+  if (!web) return b->plan->edges;
+  return web->rings > 1 ? web->rings - 1 : 0;
+}
+
+static double watched_place(const sw_body *b, size_t e) {
+  const sw_web *web = b->plan->web;
+  if (!web) return 0.5 * (b->plan->s[e] + b->plan->s[e + 1]);
+  return 0.5 * (web->s[web->first[e]] + web->s[web->first[e + 1]]);
+}
+
+/* T: tensions of the wire's edges or slices. */
 static void largest_tension(const sw_body *b, const double *T, sw_extreme *out) {
   *out = (sw_extreme){.value = -HUGE_VAL};
-  for (size_t e = 0; e < b->plan->edges; e++)
-    if (T[e] > out->value)
-      *out = (sw_extreme){.value = T[e], .s = 0.5 * (b->plan->s[e] + b->plan->s[e + 1])};
+  for (size_t e = 0; e < watched_edges(b); e++)
+    if (T[e] > out->value) *out = (sw_extreme){.value = T[e], .s = watched_place(b, e)};
 }
 
 /* Returns the largest strain of the outermost fibres at hinges: from the mean axial force of both
@@ -167,19 +179,6 @@ void sw_scene_wire_now(sw_scene *s, size_t w, sw_wire_extremes *now) {
   wire_now(s, w, NULL, 0, now);
 }
 
-/* Number of edges, or of stretches between rings, whose tension is recorded. */
-static size_t watched_edges(const sw_body *b) {
-  const sw_web *web = b->plan->web;
-  if (!web) return b->plan->edges;
-  return web->rings > 1 ? web->rings - 1 : 0;
-}
-
-static double watched_place(const sw_body *b, size_t e) {
-  const sw_web *web = b->plan->web;
-  if (!web) return 0.5 * (b->plan->s[e] + b->plan->s[e + 1]);
-  return 0.5 * (web->s[web->first[e]] + web->s[web->first[e + 1]]);
-}
-
 int sw_scene_is_averaged(const sw_scene *s) {
   sw_course *course = sw_scene_course(s);
   return course->span > 0 && course->span < (1 - 1e-9) * course->window; /* times are rounded */
@@ -205,14 +204,16 @@ static void keep_mean(const sw_scene *s, size_t w, sw_extreme *kept) {
   keep_largest(kept, &mean);
 }
 
-/* Returns the edges' mean tensions over the step, if the method gives them, else NULL. The axial
- * force at the step's end is as good for a steady pull but misses impulses. Where a feed stopped at
- * once, it was up to three times too large at all step sizes, since it grows as steps get
- * shorter. */
+/* Returns the mean tensions of edges or slices over the step, if the method gives them, else NULL.
+ * The axial force at the step's end is as good for a steady pull but misses impulses. Where a feed
+ * stopped at once, it was up to three times too large at all step sizes, since it grows as steps
+ * get shorter. */
 static const double *mean_tension(const sw_scene *s, const sw_body *b) {
   const sw_course *course = sw_scene_course(s);
   if (!(course->span > 0) || !course->stepper.mean) return NULL;
-  return sw_system_mean_pull(sw_scene_system(s), b, course->stepper.mean + b->first_edge);
+  const sw_system *system = sw_scene_system(s);
+  const size_t first = sw_system_first_pull(system, b);
+  return sw_system_mean_pull(system, b, course->stepper.mean + first);
 }
 
 /* 1 if the step that led to this state is so long that it smears impacts. */
@@ -225,12 +226,12 @@ const double *sw_scene_step_tension(const sw_scene *s, const sw_body *b) {
   return mean ? mean : sw_system_pull(sw_scene_system(s), b);
 }
 
-/* Returns the tensions of the step that led to this state. NULL for a mesh or at rest: only the
- * state's own are known. */
+/* Returns the tensions of the step that led to this state. NULL where only the state's own are
+ * known: at rest, and of a mesh by methods that give no mean. */
 static const double *step_tension(const sw_scene *s, const sw_body *b) {
-  if (b->plan->web || !(sw_scene_course(s)->span > 0)) return NULL;
+  if (!(sw_scene_course(s)->span > 0)) return NULL;
   const double *mean = mean_tension(s, b);
-  return mean ? mean : sw_system_pull(sw_scene_system(s), b);
+  return mean || b->plan->web ? mean : sw_system_pull(sw_scene_system(s), b);
 }
 
 /* Adds the step that led to this state, with tensions T, or NULL: those in the window's room. */

@@ -21,29 +21,8 @@ sw_vec sw_strand_middle(const sw_web *w, const double *x, size_t ring) {
   return sw_load(at);
 }
 
-/* Returns the direction of a line of particles at one of them: the mean of the two adjacent edges,
- * the shorter edge weighing more. */
-static sw_vec line_direction(const sw_web *w, const double *x, size_t ring) {
-  const sw_vec at = sw_strand_middle(w, x, ring);
-  sw_vec before = sw_v(0, 0, 0), after = before;
-  if (ring > 0) before = sw_sub(at, sw_strand_middle(w, x, ring - 1));
-  if (ring + 1 < w->rings) after = sw_sub(sw_strand_middle(w, x, ring + 1), at);
-  const double b2 = sw_norm2(before), a2 = sw_norm2(after);
-  if (!(b2 > 0) || !(a2 > 0)) return sw_unit_or(sw_add(before, after), sw_v(1, 0, 0));
-  return sw_unit_or(sw_add(sw_scale(before, a2), sw_scale(after, b2)), sw_v(1, 0, 0));
-}
-
 sw_vec sw_strand_facing(const sw_web *w, const double *x, size_t ring) {
-  if (!sw_web_is_ring(w, ring)) return line_direction(w, x, ring);
-  const double *at = x + 3 * w->first[ring];
-  const sw_vec middle = sw_strand_middle(w, x, ring);
-  sw_vec sum = sw_v(0, 0, 0);
-  for (size_t k = 0; k < w->around_count; k++) {
-    const sw_vec p = sw_sub(sw_vec_at(at, w->around[k]), middle);
-    const sw_vec q = sw_sub(sw_vec_at(at, w->around[(k + 1) % w->around_count]), middle);
-    sum = sw_add(sum, sw_cross(p, q));
-  }
-  return sw_unit_or(sum, sw_v(1, 0, 0));
+  return sw_web_facing(w, x, ring);
 }
 
 double sw_strand_turned(const sw_web *w, const double *x, size_t ring, sw_vec t, sw_vec u) {

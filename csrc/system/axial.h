@@ -26,8 +26,8 @@ enum {
 const double *sw_system_pull(const sw_system *system, const sw_body *body);
 /* The same without the dashpots' forces [N]. */
 const double *sw_system_elastic(const sw_system *system, const sw_body *body);
-/* Returns `mean`, the axial forces of a body's springs over the last step, plus the mean of the
- * forces of system/borne.h. Valid until the next call [N]. */
+/* Returns `mean`, the axial forces of a body's edges or slices over the last step, plus the mean of
+ * the forces of system/borne.h. Valid until the next call [N]. */
 const double *sw_system_mean_pull(const sw_system *system, const sw_body *body, const double *mean);
 /* A run begins, perhaps at a state from a file, with its holds placed: computes the forces of
  * system/borne.h there. */
@@ -37,10 +37,14 @@ void sw_system_begin_borne(sw_system *system);
 void sw_system_sum_pull(const sw_system *system, const double *tension, const double *rate,
                         double *out);
 
-/* sum += share * (tension plus the dashpots' forces), only for wires that are lines (no webs)
- * [-]. */
-void sw_system_add_pull(const sw_system *system, const double *tension, const double *rate,
-                        double share, double *sum);
+/* Number of axial forces of wires: of the edges of lines, and of the slices of meshes, between two
+ * rings [-]; place of a body's first one. */
+size_t sw_system_pulls(const sw_system *system);
+size_t sw_system_first_pull(const sw_system *system, const sw_body *body);
+/* sum (pulls) += share * (axial force with dashpots), for nodes at x [m], [s]. tension, rate: of
+ * edges and springs [N], [1/s]. */
+void sw_system_add_pull(const sw_system *system, const double *x, const double *tension,
+                        const double *rate, double share, double *sum);
 
 /* The mix of both stages' axial forces that gives the true force in a step. share: weight of the
  * last stage's force, NAN where the last stage's forces need no mix [-]; behind: time from the mix

@@ -31,10 +31,10 @@ typedef struct sw_unbent {
 
 typedef struct sw_body {
   sw_plan *plan;
-  size_t first_node, first_edge; /* first place in the system's arrays */
-  double EA, EA_push;            /* axial stiffness in tension and in compression [N] */
-  int bears;                     /* 1: one of its forces has axial forces too (system/borne.h) */
-  double axial_time; /* axial dashpots: their force is EA times this times the strain rate [s] */
+  size_t first_node, first_edge, first_slice; /* first place in the system's arrays */
+  double EA, EA_push; /* axial stiffness in tension and in compression [N] */
+  int bears;          /* 1: one of its forces has axial forces too (system/borne.h) */
+  double axial_time;  /* axial dashpots: their force is EA times this times the strain rate [s] */
   size_t first_clamp, kept_clamps; /* with dashpots: first place in the system's strains; number */
   double viscosity;                /* dashpots in bending: moment per rate of curvature [N m2 s] */
   sw_term *terms;

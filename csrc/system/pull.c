@@ -34,17 +34,6 @@ void sw_system_sum_pull(const sw_system *s, const double *tension, const double 
   }
 }
 
-void sw_system_add_pull(const sw_system *s, const double *tension, const double *rate, double share,
-                        double *sum) {
-  SW_ITEMS(const sw_body, b, s->bodies, s->body_count) {
-    if (b->plan->web) continue;
-    const double c = b->axial_time > 0 ? share * b->axial_time * b->EA : 0.0;
-    const size_t end = b->first_edge + sw_plan_axial(b->plan);
-    for (size_t e = b->first_edge; e < end; e++) sum[e] += share * tension[e];
-    for (size_t e = b->first_edge; c > 0 && e < end; e++) sum[e] += c * rate[e];
-  }
-}
-
 /* An axial force: mix of both stages, `behind` ago, and its extrapolation to the step's end. */
 typedef struct evened {
   double between, now;

@@ -57,6 +57,8 @@ static sw_status new_bodies(sw_system *s, sw_plan *const *plans, size_t count) {
     if (body->roll_block) s->rolls += plans[b]->edges;
     s->nodes += plans[b]->nodes;
     s->edges += sw_plan_axial(plans[b]);
+    body->first_slice = s->slices;
+    if (plans[b]->web && plans[b]->web->rings > 1) s->slices += plans[b]->web->rings - 1;
   }
   s->freedoms = 3 * s->nodes + s->rolls + s->rail_count;
   return SW_OK;

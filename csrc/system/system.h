@@ -27,6 +27,7 @@ enum { SW_NOT_MADE = 2, SW_MAY_BE_MADE };
 
 struct sw_system {
   size_t nodes, edges;
+  size_t slices;            /* of all meshes, each between two rings */
   size_t rolls, rail_count; /* edges of wires that roll; rails */
   size_t freedoms;          /* values in each of x, v, a: 3 x nodes + rolls + rails */
   sw_body *bodies;
