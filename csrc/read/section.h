@@ -15,8 +15,8 @@ typedef struct sw_section_shape {
   sw_vec least_way, largest_way; /* normals of these planes [-] */
   double ovalisation; /* (largest - least) / (largest + least), as in API RP 1111. The widths are
                        * those of the smooth closed curve through the outline, so a round section
-                       * has none, however few its particles; for a section that is not round, those
-                       * of the outline itself [-] */
+                       * has none, however few its particles; if the outline at rest is no regular
+                       * polygon, widths of the outline over those at rest [-] */
   double area, skin;  /* area within the surface [m2], [m] */
   double turn, twist_rate;     /* about the tangent, from the start on, in addition to the turn of
                                 * the middle line [rad], [rad/m] */

@@ -132,16 +132,54 @@ static size_t smooth(const point *p, size_t n, size_t times, point *out) {
 
 static size_t even(size_t n) { return n + n % 2; }
 
+enum { DIRECTIONS = 48 }; /* in which widths are compared with those at rest [-] */
+
+/* Returns the distance between parallel lines across a direction. */
+static double width_of(const point *p, size_t n, double c, double s) {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (size_t k = 0; k < n; k++) {
+    const double at = c * p[k].x + s * p[k].y;
+    low = fmin(low, at), high = fmax(high, at);
+  }
+  return high - low;
+}
+
+/* Returns the ovalisation of the widths over those of the same outline at rest, turned as the
+ * section has turned. The steps at the edge of a round section of cubes are not oval. */
+static double against_rest(const sw_web *w, const point *p) {
+  point rest[SW_OUTLINE];
+  const size_t n = w->around_count;
+  double along = 0, across = 0, least = HUGE_VAL, most = 0, x = 0, y = 0;
+  for (size_t k = 0; k < n; k++) x += p[k].x / (double)n, y += p[k].y / (double)n;
+  for (size_t k = 0; k < n; k++) {
+    const double *at = w->section + 2 * (size_t)w->around[k];
+    rest[k] = (point){at[0], at[1]};
+    along += at[0] * (p[k].x - x) + at[1] * (p[k].y - y);
+    across += at[0] * (p[k].y - y) - at[1] * (p[k].x - x);
+  }
+  const double size = hypot(along, across), skins = 2.0 * (w->skin - w->proud);
+  if (!(size > 0)) return 0;
+  for (int d = 0; d < DIRECTIONS; d++) {
+    const double angle = M_PI * d / DIRECTIONS, c = cos(angle), s = sin(angle);
+    const double rc = (along * c - across * s) / size, rs = (across * c + along * s) / size;
+    const double now = width_of(p, n, rc, rs), before = width_of(rest, n, c, s);
+    const double share = (now + skins) / (before + skins);
+    least = fmin(least, share), most = fmax(most, share);
+  }
+  return (most - least) / (most + least);
+}
+
 double sw_outline_ovalisation(const sw_web *w, const double *outline, sw_vec tangent) {
   point p[SW_OUTLINE], fine[FINE + 2 * SW_OUTLINE], hull[2 * (FINE + 2 * SW_OUTLINE)];
   const sw_vec u = sw_perpendicular(tangent), v = sw_cross(tangent, u);
   const size_t n = w->around_count,
                times = n && sw_outline_is_round(w) ? even((FINE + n - 1) / n) : 1;
   flatten(outline, n, u, v, p);
+  if (times == 1) return against_rest(w, p);
   const size_t all = smooth(p, n, times, fine);
   const sw_widths wide = widths(fine, all, hull, u, v);
   /* a circle reaches beyond the chords between its points */
-  const double least = wide.least / (times > 1 ? cos(M_PI / (double)all) : 1.0);
+  const double least = wide.least / cos(M_PI / (double)all);
   return fmax(0.0, wide.largest - least) / (wide.largest + least + 4.0 * (w->skin - w->proud));
 }
 
