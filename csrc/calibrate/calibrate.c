@@ -289,7 +289,7 @@ static sw_status find_radius(const sw_calibrate_args *args, const sw_section *se
   if (*R <= beam->radius * (1 + 1e-9)) return try_mesh(args, section, beam, mesh, out, err);
   return sw_fail(err, SW_EINVAL,
                  "calibrate: a tube without core that has EA = %.6g N and EI = %.6g N m2 needs its "
-                 "wall at %.4g m, outside of radius = %.4g m",
+                 "wall at %.4g m, outside of radius = %.4g m; more particles need a little less",
                  beam->EA, beam->EI, *R, beam->radius);
 }
 

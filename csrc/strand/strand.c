@@ -108,11 +108,24 @@ static sw_status need_of(const sw_strand_plan *p, const sw_beam *beam, double sp
   return SW_OK;
 }
 
+/* 1 for a tube without core whose wall is put where EA and EI agree. */
+static int has_free_ring(const sw_strand_need *need) {
+  const sw_tube_args *tube = &need->lattice.tube;
+  return need->args.mesh == SW_LATTICE_TUBE && !tube->core && isnan(tube->ring_radius);
+}
+
 static sw_status calibrate(const sw_strand_plan *p, const sw_strand_need *need, sw_calibration *out,
                            sw_error *err) {
   sw_lattice_args lattice = need->lattice;
   sw_error why = {""};
-  const sw_status status = sw_calibrate(&need->args, &need->section, &lattice, out, &why);
+  sw_status status = sw_calibrate(&need->args, &need->section, &lattice, out, &why);
+  if (status == SW_EINVAL && has_free_ring(need)) { /* a thin wall needs its ring further out */
+    sw_section section = need->section;
+    section.radius *= (1.0 - THINNEST) / (1.0 - SKIN);
+    lattice = need->lattice;
+    sw_calibration_free(out);
+    status = sw_calibrate(&need->args, &section, &lattice, out, &why);
+  }
   if (status == SW_OK) return SW_OK;
   const char *text = strncmp(why.text, "calibrate: ", 11) == 0 ? why.text + 11 : why.text;
   return sw_fail(err, status, "wire '%s' as %s: %.400s", p->name, p->mesh, text);
