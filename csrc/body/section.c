@@ -131,10 +131,10 @@ static double slice_length(const sw_web *w, size_t r) {
 }
 
 /* 1 if slice r of springs has a clamp's ring (*ring) at one end; then sets *curvature to that at
- * share f of the slice, or at the clamp itself (f: NAN) [1/m]. The held ring keeps its shape, so
- * this slice bends too little; the two after it bend as the wire does. The bend is extrapolated
- * from these, if it is smooth. Sections of solid elements warp beside a clamp over more slices. */
-static int beside_clamp(const sw_plan *p, const double *x, size_t r, double f, size_t *ring,
+ * the clamp [1/m]. The held ring keeps its shape, so this slice bends too little; the two after it
+ * bend as the wire does. The bend is extrapolated from these, if it is smooth. Sections of solid
+ * elements warp beside a clamp over more slices. */
+static int beside_clamp(const sw_plan *p, const double *x, size_t r, size_t *ring,
                         double *curvature) {
   const sw_web *w = p->web;
   if (w->solids) return 0;
@@ -147,10 +147,9 @@ static int beside_clamp(const sw_plan *p, const double *x, size_t r, double f, s
   const sw_vec change = sw_sub(near, far);
   if (!(sw_norm(change) <= SMOOTH * sw_norm(near))) return 0;
   const double h = slice_length(w, r), next = slice_length(w, second);
-  const double away = isnan(f) ? 0.0 : (before ? f : 1 - f) * h;
   const double apart = 0.5 * (next + slice_length(w, third));
   *ring = before ? r : r + 1;
-  *curvature = sw_norm(sw_madd(near, change, (h + 0.5 * next - away) / apart));
+  *curvature = sw_norm(sw_madd(near, change, (h + 0.5 * next) / apart));
   return 1;
 }
 
@@ -167,16 +166,13 @@ void sw_strand_at(const sw_scene *s, const sw_scene_wire *wire, const sw_body *b
   const double h10 = f * (1 - f) * (1 - f), h01 = f * f * (3 - 2 * f), h11 = f * f * (f - 1);
   const sw_slice at =
       slice_at(b->plan, x, sw_system_elastic(system, b), sw_system_pull(system, b), r, f);
-  double curvature = fmax(0.0, at.curvature);
-  size_t ring;
-  (void)beside_clamp(b->plan, x, r, f, &ring, &curvature);
-  const double EA = wire->beam.EA, bent = curvature * wire->beam.radius;
+  const double EA = wire->beam.EA, bent = fmax(0.0, at.curvature) * wire->beam.radius;
   out->chord = sw_lerp(x0, x1, f);
   out->position = sw_add(sw_add(sw_scale(x0, h00), sw_scale(t0, l * h10)),
                          sw_add(sw_scale(x1, h01), sw_scale(t1, l * h11)));
   out->velocity = sw_lerp(sw_strand_middle(w, v, r), sw_strand_middle(w, v, r + 1), f);
   out->tangent = sw_unit_or(sw_lerp(t0, t1, f), t0);
-  out->curvature = curvature;
+  out->curvature = fmax(0.0, at.curvature);
   out->tension = at.tension;
   out->elastic = at.elastic;
   out->twist_moment = at.twist_moment;
@@ -201,7 +197,7 @@ void sw_strand_extremes(const sw_scene *s, size_t wire, double *tension, sw_wire
     const double place = 0.5 * (w->s[w->first[r]] + w->s[w->first[r + 1]]);
     size_t ring = r;
     sw_extreme bend = {.value = at.curvature, .s = place};
-    if (beside_clamp(b->plan, x, r, (double)NAN, &ring, &bend.value)) bend.s = w->s[w->first[ring]];
+    if (beside_clamp(b->plan, x, r, &ring, &bend.value)) bend.s = w->s[w->first[ring]];
     const double strain = at.elastic / EA + b->plan->beam.radius * bend.value;
     if (bend.value > now->curvature.value) now->curvature = bend;
     if (at.tension > now->tension.value)
