@@ -61,14 +61,6 @@ static double slice_excess(const sw_plan *p, const double *x, const double *T, c
   return sum;
 }
 
-/* Returns the curvature of slice r towards its centre, and its size [1/m]. */
-static sw_vec slice_bend(const sw_web *w, const double *x, size_t r, double *size) {
-  const sw_vec t0 = sw_strand_facing(w, x, r), t1 = sw_strand_facing(w, x, r + 1);
-  const double h = w->s[w->first[r + 1]] - w->s[w->first[r]];
-  *size = 2.0 * asin(fmin(1.0, 0.5 * sw_dist(t0, t1))) / h;
-  return sw_scale(sw_unit_or(sw_sub(t1, t0), sw_v(0, 0, 0)), *size);
-}
-
 sw_slice sw_strand_slice(const sw_plan *p, const double *x, const double *T, const double *pull,
                          size_t r) {
   const sw_web *w = p->web;
@@ -76,13 +68,14 @@ sw_slice sw_strand_slice(const sw_plan *p, const double *x, const double *T, con
                about = sw_lerp(a, b, 0.5);
   const sw_vec t0 = sw_strand_facing(w, x, r), t1 = sw_strand_facing(w, x, r + 1);
   const sw_vec axis = sw_unit_or(sw_add(t0, t1), t0);
-  double curvature;
-  const sw_vec bend = slice_bend(w, x, r, &curvature);
+  const double h = w->s[w->first[r + 1]] - w->s[w->first[r]];
+  const double curvature = 2.0 * asin(fmin(1.0, 0.5 * sw_dist(t0, t1))) / h;
   sw_vec force, moment;
   slice_force(p, x, T, r, about, &force, &moment);
   const double elastic = sw_dot(force, axis);
   const double more = pull == T ? 0.0 : slice_excess(p, x, T, pull, r, axis);
-  return (sw_slice){elastic + more, elastic, sw_dot(moment, axis), curvature, bend};
+  return (sw_slice){elastic + more, elastic, sw_dot(moment, axis), curvature,
+                    sw_scale(sw_unit_or(sw_sub(t1, t0), sw_v(0, 0, 0)), curvature)};
 }
 
 double sw_strand_moment(const sw_plan *p, const double *x, const double *T, double place) {
@@ -113,44 +106,6 @@ static sw_slice slice_at(const sw_plan *p, const double *x, const double *T, con
   if (k + 1 >= slices) k = slices - 2;
   const double at = (double)r + f - ((double)k + 0.5);
   return blend(sw_strand_slice(p, x, T, pull, k), sw_strand_slice(p, x, T, pull, k + 1), at);
-}
-
-/* --- beside clamps ------------------------------------------------------------------ */
-
-/* A bend is smooth if it changes by at most this share from slice to slice [-]. */
-static const double SMOOTH = 0.3;
-
-static int is_held(const sw_plan *p, size_t ring) {
-  for (size_t i = p->web->first[ring]; i < p->web->first[ring + 1]; i++)
-    if (p->held[i] == SW_FREE) return 0;
-  return 1;
-}
-
-static double slice_length(const sw_web *w, size_t r) {
-  return w->s[w->first[r + 1]] - w->s[w->first[r]];
-}
-
-/* 1 if slice r of springs has a clamp's ring (*ring) at one end; then sets *curvature to that at
- * the clamp [1/m]. The held ring keeps its shape, so this slice bends too little; the two after it
- * bend as the wire does. The bend is extrapolated from these, if it is smooth. Sections of solid
- * elements warp beside a clamp over more slices. */
-static int beside_clamp(const sw_plan *p, const double *x, size_t r, size_t *ring,
-                        double *curvature) {
-  const sw_web *w = p->web;
-  if (w->solids) return 0;
-  const int before = is_held(p, r), after = is_held(p, r + 1);
-  if (before == after || (before ? r + 3 >= w->rings : r < 2)) return 0;
-  const size_t second = before ? r + 1 : r - 1, third = before ? r + 2 : r - 2;
-  if (is_held(p, before ? r + 2 : r - 1) || is_held(p, before ? r + 3 : r - 2)) return 0;
-  double size;
-  const sw_vec near = slice_bend(w, x, second, &size), far = slice_bend(w, x, third, &size);
-  const sw_vec change = sw_sub(near, far);
-  if (!(sw_norm(change) <= SMOOTH * sw_norm(near))) return 0;
-  const double h = slice_length(w, r), next = slice_length(w, second);
-  const double apart = 0.5 * (next + slice_length(w, third));
-  *ring = before ? r : r + 1;
-  *curvature = sw_norm(sw_madd(near, change, (h + 0.5 * next) / apart));
-  return 1;
 }
 
 void sw_strand_at(const sw_scene *s, const sw_scene_wire *wire, const sw_body *b, double place,
@@ -195,14 +150,12 @@ void sw_strand_extremes(const sw_scene *s, size_t wire, double *tension, sw_wire
     const sw_slice at = sw_strand_slice(b->plan, x, T, pull, r);
     if (tension) tension[r] = at.tension;
     const double place = 0.5 * (w->s[w->first[r]] + w->s[w->first[r + 1]]);
-    size_t ring = r;
-    sw_extreme bend = {.value = at.curvature, .s = place};
-    if (beside_clamp(b->plan, x, r, &ring, &bend.value)) bend.s = w->s[w->first[ring]];
-    const double strain = at.elastic / EA + b->plan->beam.radius * bend.value;
-    if (bend.value > now->curvature.value) now->curvature = bend;
+    const double strain = at.elastic / EA + b->plan->beam.radius * at.curvature;
+    if (at.curvature > now->curvature.value)
+      now->curvature = (sw_extreme){.value = at.curvature, .s = place};
     if (at.tension > now->tension.value)
       now->tension = (sw_extreme){.value = at.tension, .s = place};
-    if (strain > now->strain.value) now->strain = (sw_extreme){.value = strain, .s = bend.s};
+    if (strain > now->strain.value) now->strain = (sw_extreme){.value = strain, .s = place};
     if (GJ > 0 && fabs(at.twist_moment) / GJ > now->torsion.value)
       now->torsion = (sw_extreme){.value = fabs(at.twist_moment) / GJ, .s = place};
   }
