@@ -300,7 +300,7 @@ static int mod_frames_flat(lua_State *L) {
 }
 
 /* core.frames_lever(scene, w, start [s]) -> largest change of wire w's tension by the lever of
- * friction along it, over the largest tension [-] */
+ * friction along it, 0 to 1 [-] */
 static int mod_frames_lever(lua_State *L) {
   const sw_scene *scene = lsw_check_scene(L);
   const size_t w = wire_index(L, 2, scene);

@@ -5,18 +5,24 @@
  * roll leave it out. */
 #include "read/frames.h"
 
-/* The change in one frame, over the largest tension [-]. */
+/* Tensions below this share of the largest one count as this share: there a change matters no more
+ * [-]. */
+static const double LEAST = 0.1;
+
+/* The change in one frame: along the wire, changes multiply [-]. */
 static double lever_in(const float *x, const float *v, size_t count, double radius) {
-  double change = 0, tension = 0;
-  for (size_t i = 0; i < count; i++, v += SW_FRAME_VALUES) {
+  double sum = 0, largest = 0;
+  for (size_t i = 0; i < count; i++)
+    largest = fmax(largest, fabs((double)v[SW_FRAME_VALUES * i + SW_FRAME_TENSION]));
+  for (size_t i = 0; i < count && largest > 0; i++, v += SW_FRAME_VALUES) {
     const size_t from = i > 0 ? i - 1 : i, to = i + 1 < count ? i + 1 : i;
     const sw_vec chord = sw_sub(sw_vec_of(x + 3 * to), sw_vec_of(x + 3 * from));
     const sw_vec along = sw_unit_or(chord, sw_v(0, 0, 0));
     const double friction = fabs(sw_dot(sw_vec_of(v + SW_FRAME_FORCE), along));
-    change += friction * radius * (double)v[SW_FRAME_CURVATURE];
-    tension = fmax(tension, fabs((double)v[SW_FRAME_TENSION]));
+    const double tension = fmax(fabs((double)v[SW_FRAME_TENSION]), LEAST * largest);
+    sum += friction * radius * (double)v[SW_FRAME_CURVATURE] / tension;
   }
-  return change < tension ? change / tension : change > 0;
+  return -expm1(-sum);
 }
 
 double sw_scene_frames_lever(const sw_scene *s, double start, size_t w) {

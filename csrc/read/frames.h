@@ -86,8 +86,7 @@ sw_status sw_scene_frames_apart(const sw_scene *scene, double start, size_t w, s
  * tools turn only about the plane's normal. Friction does not twist such a wire. */
 int sw_scene_frames_flat(const sw_scene *scene, double start, size_t w);
 
-/* Largest change of wire w's tension by the lever of friction along it, over its largest tension,
- * in one frame: 0 to 1 [-]. */
+/* Largest change of wire w's tension in a frame by the lever of friction along it: 0 to 1 [-]. */
 double sw_scene_frames_lever(const sw_scene *scene, double start, size_t w);
 
 /* --- pressure on lines -------------------------------------------------------------------- */

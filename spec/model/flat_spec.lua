@@ -45,7 +45,7 @@ describe("a wire that stays in a plane", function()
   end)
 
   -- Friction along a wire that rolls has a lever about its axis. frames_lever reckons its effect from the
-  -- tension that it changes; here it also bends the wire.
+  -- tension and the curvature; this stiff wire touches the peg at one place only, and the lever bends it.
   it("is drawn with another force where it rubs, by about what the lever amounts to", function()
     local share = off({ rolls = true, segments = 160 }, { segments = 160 })
     local _, _, _, lever = drawn { segments = 160 }
@@ -102,37 +102,35 @@ describe("a wire that stays in a plane", function()
     local _, _, run = drawn { auto = true }
     assert.equal("held", run.model.twist, tostring(run:why()))
     assert.truthy(tostring(run:why()):find("forces on it stay in a plane", 1, true), tostring(run:why()))
-    assert.truthy(tostring(run:why()):find("the lever of friction along 'w' changes its tension by", 1, true))
+    assert.is_nil(tostring(run:why()):find("acts at its axis", 1, true), tostring(run:why()))
   end)
 
-  -- Half round a thin peg the pull has a ratio of 2.17 instead of 2.57.
-  it("is computed with rolling where the lever of friction matters", function()
-    local values, R, r = {}, 0.01, 0.002
-    for _, model in ipairs { "auto", "rod" } do
-      local scene = sw.scene { name = "thin", gravity = { 0, 0, 0 } }
-      scene:force { kind = "damping", mass = 20, stiffness = 1e-3 }
-      scene:obstacle { name = "peg", shape = "cylinder", radius = R, length = 0.1, friction = 0.3,
-        rotation = vec.turn({ 1, 0, 0 }, math.pi / 2) }
-      local path, a = {}, R + r
-      for k = 0, 10 do path[#path + 1] = { -a, 0, -0.06 * (1 - k / 10) } end
-      for k = 1, 40 do
-        path[#path + 1] = { -a * math.cos(math.pi * k / 40), 0, a * math.sin(math.pi * k / 40) }
-      end
-      for k = 1, 5 do path[#path + 1] = { a, 0, -0.01 * k } end
-      local w = scene:wire { name = "w", EA = 1000, EI = 2e-5, GJ = 2e-5, density = 1200, radius = r,
-        path = path, segments = 50, model = model, rolls = model == "rod" or nil }
-      scene:force { kind = "point", on = w, s = 0, force = { 0, 0, -10 } }
-      local hand = scene:clamp(w, { s = w.length, name = "hand" })
-      assert(scene:settle().ok)
-      hand:follow { points = { { 0, 0, 0 }, { 0, 0, -0.03 } }, relative = true, duration = 0.6,
-        law = "linear" }
-      local run = scene:run(model == "rod" and { dt = 0.005, duration = 0.55, frames = false }
-        or { duration = 0.55, tolerance = { ["hand.force"] = { relative = 0.05 } } })
-      assert.is_true(run.ok, run.reason)
-      if model == "auto" then assert.equal("rolling", run.model.twist, tostring(run:why())) end
-      values[model] = vec.norm(hand:force())
+  -- Half round a thin peg the pull has a ratio of 2.17 instead of 2.57 with friction at the surface.
+  it("is not computed with rolling where the lever of friction matters, and the answer says so", function()
+    local R, r = 0.01, 0.002
+    local scene = sw.scene { name = "thin", gravity = { 0, 0, 0 } }
+    scene:force { kind = "damping", mass = 20, stiffness = 1e-3 }
+    scene:obstacle { name = "peg", shape = "cylinder", radius = R, length = 0.1, friction = 0.3,
+      rotation = vec.turn({ 1, 0, 0 }, math.pi / 2) }
+    local path, a = {}, R + r
+    for k = 0, 10 do path[#path + 1] = { -a, 0, -0.06 * (1 - k / 10) } end
+    for k = 1, 40 do
+      path[#path + 1] = { -a * math.cos(math.pi * k / 40), 0, a * math.sin(math.pi * k / 40) }
     end
-    print(("measured: %.2f N, with a rod that rolls %.2f N"):format(values.auto, values.rod))
-    assert.is_near(values.rod, values.auto, 0.05 * values.rod)
+    for k = 1, 5 do path[#path + 1] = { a, 0, -0.01 * k } end
+    local w = scene:wire { name = "w", EA = 1000, EI = 2e-5, GJ = 2e-5, density = 1200, radius = r,
+      path = path, segments = 50, model = "auto" }
+    scene:force { kind = "point", on = w, s = 0, force = { 0, 0, -10 } }
+    local hand = scene:clamp(w, { s = w.length, name = "hand" })
+    assert(scene:settle().ok)
+    hand:follow { points = { { 0, 0, 0 }, { 0, 0, -0.03 } }, relative = true, duration = 0.6, law = "linear" }
+    local run = scene:run { duration = 0.55, tolerance = { ["hand.force"] = { relative = 0.05 } } }
+    assert.is_true(run.ok, run.reason)
+    assert.equal("held", run.model.twist, tostring(run:why()))
+    local share = tostring(run:why()):match "its lever would change the tension by about ([%d.]+) %%"
+    assert.truthy(share, tostring(run:why()))
+    print(("measured: %.2f N, lever %s %%"):format(vec.norm(hand:force()), share))
+    local expected = 100 * (1 - math.exp(-math.pi * 0.3 * r / (R + r)))
+    assert.is_near(expected, tonumber(share), 0.3 * expected) -- by the coarse edges of the choice
   end)
 end)

@@ -66,7 +66,8 @@ local function drop(self, wire)
   local left = {}
   for _, grip in ipairs(self.grips) do
     if grip.wire == wire then
-      if stand.is_moving(self) and not self.carrier then -- its move goes on without the wire
+      -- its move goes on without the wire, unless the wire was removed and the hold with it
+      if stand.is_moving(self) and not self.carrier and grip.hold.held then
         stand.make_carrier(self)
         self.carrier:take(grip.hold)
         self.spans[#self.past].carried = self.scene.time

@@ -104,7 +104,7 @@ end
 --- True if wire w stays in a plane, with everything that pushes and turns it.
 function facts.flat(w) return core.frames_flat(kept.scene, w, kept.start) end
 
---- Returns how much the lever of friction along wire w changes its tension, over the largest tension [-].
+--- Returns how much the lever of friction along wire w changes its tension: 0 to 1 [-].
 function facts.lever(w) return core.frames_lever(kept.scene, w, kept.start) end
 
 return facts

@@ -9,9 +9,9 @@ local twist = { name = "twist", rungs = {
   { name = "held", as = "no rolling", leaves = "rolling, and twist by friction: friction acts on the axis" },
   { name = "rolling", as = "rolling", leaves = "nothing" } } }
 
--- Largest effect of friction's lever along a wire that a free check leaves out, over the tolerance [-]. It
--- is a bound: not every quantity depends on the tension.
-local LEFT = 0.5
+-- The lever of friction along a wire is told if it changes the tension by more than this share of the
+-- tolerance [-]. It is no reason to roll: a rod means friction at the axis, as in the capstan equation.
+local TOLD = 0.5
 
 -- True if the wire can be made to roll.
 local function may_roll(wire) return wire.model == "rod" and not wire:get().spin_inertia end
@@ -40,7 +40,7 @@ function twist.look(context, run)
   for i, w in ipairs(context.data.wires) do
     if core.exists(w.object) and w.object.model == "rod" then
       f.rods, f.flat = f.rods + 1, f.flat and facts.flat(i)
-      if f.flat and facts.lever(i) > f.lever then f.lever, f.wire = facts.lever(i), w.name end
+      if f.flat and #f.rubs > 0 and facts.lever(i) > f.lever then f.lever, f.wire = facts.lever(i), w.name end
     end
   end
   return f
@@ -51,23 +51,18 @@ function twist.free(_, rung, f, share)
   if rung == 1 and #f.rubs == 0 and not f.met then
     return "no friction torque: nothing with friction touches a wire"
   end
-  if rung == 1 and f.flat and f.lever <= LEFT * share then
+  if rung == 1 and f.flat then
     local text = "no friction torque: each wire and the forces on it stay in a plane, nothing turns out of "
       .. "that plane"
-    if f.lever < 5e-4 then return text end
-    return ("%s; the lever of friction along '%s' changes its tension by %s (limit %s)"):format(text, f.wire,
-      facts.percent(f.lever), facts.percent(LEFT * share))
+    if f.lever <= TOLD * share then return text end
+    return ("%s. Friction along '%s' acts at its axis; at its surface, which rolls = true has, its lever "
+      .. "would change the tension by about %s"):format(text, f.wire, facts.percent(f.lever))
   end
 end
 
 --- Returns why wires must roll from here on, by what the run showed so far, or nil.
-function twist.broken(f, share)
-  if f.rods == 0 then return nil end -- meshes roll by themselves
-  if f.flat then
-    if f.lever <= LEFT * share then return nil end
-    return ("the lever of friction along '%s' changed its tension by %s (limit %s)"):format(f.wire,
-      facts.percent(f.lever), facts.percent(LEFT * share))
-  end
+function twist.broken(f)
+  if f.rods == 0 or f.flat then return nil end -- meshes roll by themselves
   if #f.rubs > 0 then return ("'%s' rubs"):format(f.rubs[1]) end
   return f.met and "wires touch each other" or nil
 end
