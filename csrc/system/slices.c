@@ -7,12 +7,13 @@
 
 /* Axial forces of a body's springs. */
 typedef struct pulls {
-  const double *tension, *rate; /* of the body's springs [N], [1/s] */
+  const double *tension, *rate; /* of the body's springs; rate: or NULL [N], [1/s] */
   double time;                  /* of its dashpots [s] */
 } pulls;
 
 static double spring_pull(const sw_body *b, const pulls *p, size_t e) {
-  return p->tension[e] + (p->time > 0 ? p->time * sw_body_axial(b, e) * p->rate[e] : 0.0);
+  return p->tension[e] +
+         (p->rate && p->time > 0 ? p->time * sw_body_axial(b, e) * p->rate[e] : 0.0);
 }
 
 /* Returns the force along the axis of an element on the corners of its first ring [N]. */
@@ -60,13 +61,13 @@ void sw_system_add_pull(const sw_system *s, const double *x, const double *tensi
                         const double *rate, double share, double *sum) {
   SW_ITEMS(const sw_body, b, s->bodies, s->body_count) {
     const size_t first = b->first_edge;
-    const pulls p = {tension + first, rate ? rate + first : NULL, rate ? b->axial_time : 0.0};
+    const pulls p = {tension + first, rate ? rate + first : NULL, b->axial_time};
     if (b->plan->web && b->plan->web->rings > 1)
       add_slices(b, &p, x + 3 * b->first_node, share, sum + sw_system_first_pull(s, b));
     if (b->plan->web) continue;
-    const double c = b->axial_time > 0 ? share * b->axial_time * b->EA : 0.0;
+    const double c = rate && b->axial_time > 0 ? share * b->axial_time * b->EA : 0.0;
     const size_t end = first + sw_plan_axial(b->plan);
     for (size_t e = first; e < end; e++) sum[e] += share * tension[e];
-    for (size_t e = first; c > 0 && e < end; e++) sum[e] += c * rate[e];
+    for (size_t e = first; rate && c > 0 && e < end; e++) sum[e] += c * rate[e];
   }
 }
