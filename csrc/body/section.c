@@ -64,9 +64,9 @@ static double slice_excess(const sw_plan *p, const double *x, const double *T, c
 sw_slice sw_strand_slice(const sw_plan *p, const double *x, const double *T, const double *pull,
                          size_t r) {
   const sw_web *w = p->web;
-  const sw_vec a = sw_strand_middle(w, x, r), b = sw_strand_middle(w, x, r + 1),
+  const sw_vec a = sw_web_centre(w, x, r), b = sw_web_centre(w, x, r + 1),
                about = sw_lerp(a, b, 0.5);
-  const sw_vec t0 = sw_strand_facing(w, x, r), t1 = sw_strand_facing(w, x, r + 1);
+  const sw_vec t0 = sw_web_facing(w, x, r), t1 = sw_web_facing(w, x, r + 1);
   const sw_vec axis = sw_unit_or(sw_add(t0, t1), t0);
   const double h = w->s[w->first[r + 1]] - w->s[w->first[r]];
   const double curvature = 2.0 * asin(fmin(1.0, 0.5 * sw_dist(t0, t1))) / h;
@@ -81,10 +81,9 @@ sw_slice sw_strand_slice(const sw_plan *p, const double *x, const double *T, con
 double sw_strand_moment(const sw_plan *p, const double *x, const double *T, double place) {
   double f;
   const size_t r = sw_plan_locate(p, place, &f);
-  const sw_vec about =
-      sw_lerp(sw_strand_middle(p->web, x, r), sw_strand_middle(p->web, x, r + 1), 0.5);
+  const sw_vec about = sw_lerp(sw_web_centre(p->web, x, r), sw_web_centre(p->web, x, r + 1), 0.5);
   const sw_vec axis = sw_unit_or(
-      sw_add(sw_strand_facing(p->web, x, r), sw_strand_facing(p->web, x, r + 1)), sw_v(1, 0, 0));
+      sw_add(sw_web_facing(p->web, x, r), sw_web_facing(p->web, x, r + 1)), sw_v(1, 0, 0));
   sw_vec force, moment;
   slice_force(p, x, T, r, about, &force, &moment);
   return sw_norm(sw_madd(moment, axis, -sw_dot(moment, axis)));
@@ -115,8 +114,8 @@ void sw_strand_at(const sw_scene *s, const sw_scene_wire *wire, const sw_body *b
   const double *x = system->x + 3 * b->first_node, *v = system->v + 3 * b->first_node;
   double f;
   const size_t r = sw_plan_locate(b->plan, place, &f);
-  const sw_vec x0 = sw_strand_middle(w, x, r), x1 = sw_strand_middle(w, x, r + 1);
-  const sw_vec t0 = sw_strand_facing(w, x, r), t1 = sw_strand_facing(w, x, r + 1);
+  const sw_vec x0 = sw_web_centre(w, x, r), x1 = sw_web_centre(w, x, r + 1);
+  const sw_vec t0 = sw_web_facing(w, x, r), t1 = sw_web_facing(w, x, r + 1);
   const double l = sw_dist(x0, x1), h00 = (1 + 2 * f) * (1 - f) * (1 - f);
   const double h10 = f * (1 - f) * (1 - f), h01 = f * f * (3 - 2 * f), h11 = f * f * (f - 1);
   const sw_slice at =
@@ -125,7 +124,7 @@ void sw_strand_at(const sw_scene *s, const sw_scene_wire *wire, const sw_body *b
   out->chord = sw_lerp(x0, x1, f);
   out->position = sw_add(sw_add(sw_scale(x0, h00), sw_scale(t0, l * h10)),
                          sw_add(sw_scale(x1, h01), sw_scale(t1, l * h11)));
-  out->velocity = sw_lerp(sw_strand_middle(w, v, r), sw_strand_middle(w, v, r + 1), f);
+  out->velocity = sw_lerp(sw_web_centre(w, v, r), sw_web_centre(w, v, r + 1), f);
   out->tangent = sw_unit_or(sw_lerp(t0, t1, f), t0);
   out->curvature = fmax(0.0, at.curvature);
   out->tension = at.tension;

@@ -49,8 +49,8 @@ static sw_status take(sw_scene *scene, size_t w) {
   else if (b->axial_time > 0)
     return SW_ENOMEM;
   for (size_t r = 0; r < p->web->rings; r++) {
-    sw_store(wire->mesh.x + 3 * r, sw_strand_middle(p->web, p->x, r));
-    sw_store(wire->mesh.v + 3 * r, sw_strand_middle(p->web, p->v, r));
+    sw_store(wire->mesh.x + 3 * r, sw_web_centre(p->web, p->x, r));
+    sw_store(wire->mesh.v + 3 * r, sw_web_centre(p->web, p->v, r));
   }
   return SW_OK;
 }

@@ -49,7 +49,7 @@ static sw_vec inside(const sw_scene *s, size_t wire, const sw_contact_push *p) {
   const double *x = system->x + 3 * b->first_node;
   const sw_vec one = sw_vec_at(system->x, p->node), two = sw_vec_at(system->x, p->other);
   const sw_vec at = sw_lerp(one, two, p->node == p->other ? 0.0 : p->at);
-  const sw_vec middle = sw_strand_middle(web, x, sw_web_ring_of(web, p->node - b->first_node));
+  const sw_vec middle = sw_web_centre(web, x, sw_web_ring_of(web, p->node - b->first_node));
   const sw_vec in = sw_unit_or(sw_sub(middle, at), sw_v(0, 0, 0));
   return sw_madd(at, in, INSIDE * b->plan->beam.radius);
 }

@@ -112,14 +112,14 @@ static sw_status fill_strand(sw_scene *s, const sw_body *b, float **to, sw_error
   if (!pressed) return sw_fail(err, SW_ENOMEM, "out of memory for frames");
   sw_strand_pressed(s, b, pressed, NULL);
   *p++ = (float)web->rings;
-  for (size_t r = 0; r < web->rings; r++, p += 3) sw_vec_to(p, sw_strand_middle(web, x, r));
+  for (size_t r = 0; r < web->rings; r++, p += 3) sw_vec_to(p, sw_web_centre(web, x, r));
   *p++ = SW_FRAME_VALUES;
   sw_scene_node_values(s, (size_t)(b - system->bodies), web->rings, p);
   p += SW_FRAME_VALUES * web->rings;
   *p++ = (float)around;
   for (size_t r = 0; r < web->rings; r++) {
     sw_strand_outline(web, x, r, outline);
-    sw_outline_widen(outline, around, sw_strand_facing(web, x, r), web->skin - web->proud, wide);
+    sw_outline_widen(outline, around, sw_web_facing(web, x, r), web->skin - web->proud, wide);
     for (size_t k = 0; k < around; k++, p += SW_FRAME_SURFACE) {
       sw_vec_to(p, sw_vec_at(wide, k));
       p[3] = (float)pressed[web->first[r] + (sw_web_is_ring(web, r) ? web->around[k] : 0)];

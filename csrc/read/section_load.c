@@ -79,7 +79,7 @@ sw_status sw_scene_wire_pressed(sw_scene *s, sw_handle h, double *force, double 
   for (size_t p = 0; p < w->particles; p++) arc[p] = w->s[p] - w->s[0];
   for (size_t r = 0; r < w->rings; r++) {
     if (!sw_web_is_ring(w, r)) continue; /* a line has no surface of its own */
-    const sw_vec t = sw_strand_facing(w, x, r);
+    const sw_vec t = sw_web_facing(w, x, r);
     sw_strand_outline(w, x, r, outline);
     for (size_t k = 0; k < w->around_count; k++)
       area[w->first[r] + w->around[k]] =

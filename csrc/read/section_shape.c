@@ -63,8 +63,8 @@ static sw_status open_place(sw_scene *s, sw_handle h, double place, spot *p, sw_
 
 /* Returns the tangent of the middle line at the spot, interpolated between the rings. */
 static sw_vec tangent_of(const spot *p) {
-  const sw_vec a = sw_strand_facing(p->web, p->x, p->ring);
-  return sw_unit_or(sw_lerp(a, sw_strand_facing(p->web, p->x, p->ring + 1), p->f), a);
+  const sw_vec a = sw_web_facing(p->web, p->x, p->ring);
+  return sw_unit_or(sw_lerp(a, sw_web_facing(p->web, p->x, p->ring + 1), p->f), a);
 }
 
 static void outline_of(const spot *p, double *out) {
@@ -82,14 +82,14 @@ static void torsion(const spot *p, sw_section_shape *out) {
   const size_t last = p->ring + 1 > p->slice + 2 ? p->ring + 1 : p->slice + 2;
   size_t start = p->ring; /* where the mesh of this spot begins */
   while (start > 0 && sw_web_is_ring(w, start - 1)) start--;
-  sw_vec t = sw_strand_facing(w, p->x, start), u = sw_perpendicular(t);
+  sw_vec t = sw_web_facing(w, p->x, start), u = sw_perpendicular(t);
   double before = sw_strand_turned(w, p->x, start, t, u), sum = 0, ends[2] = {0, 0},
          rate[2] = {0, 0};
   u = sw_turned(u, t, before);
   before = 0;
   sw_vec carried = u;
   for (size_t r = start + 1; r <= last && r < w->rings && sw_web_is_ring(w, r); r++) {
-    const sw_vec next = sw_strand_facing(w, p->x, r);
+    const sw_vec next = sw_web_facing(w, p->x, r);
     u = sw_carry_unit(u, t, next);
     t = next;
     const double now = sw_strand_turned(w, p->x, r, t, u), step = remainder(now - before, 2 * M_PI);
@@ -102,7 +102,7 @@ static void torsion(const spot *p, sw_section_shape *out) {
   }
   out->turn = ends[0] + p->f * (ends[1] - ends[0]);
   out->twist_rate = rate[0] + p->between * (rate[1] - rate[0]);
-  carried = sw_carry_unit(carried, sw_strand_facing(w, p->x, p->ring), out->tangent);
+  carried = sw_carry_unit(carried, sw_web_facing(w, p->x, p->ring), out->tangent);
   out->axis = sw_turned(carried, out->tangent, out->turn);
 }
 
@@ -173,8 +173,7 @@ sw_status sw_scene_wire_section(sw_scene *s, sw_handle h, double place, sw_secti
   out->count = w->around_count;
   out->skin = w->skin - w->proud;
   out->tangent = tangent_of(&p);
-  out->middle =
-      sw_lerp(sw_strand_middle(w, p.x, p.ring), sw_strand_middle(w, p.x, p.ring + 1), p.f);
+  out->middle = sw_lerp(sw_web_centre(w, p.x, p.ring), sw_web_centre(w, p.x, p.ring + 1), p.f);
   outline_of(&p, out->particles);
   sw_outline_widen(out->particles, out->count, out->tangent, out->skin, out->surface);
   const sw_widths wide = sw_outline_widths(out->particles, out->count, out->tangent);

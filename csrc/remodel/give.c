@@ -42,7 +42,7 @@ typedef struct cell {
 
 /* Axes of a ring: along the wire, across it towards the pads, along the pads' faces. */
 static void axes_of(const cell *c, size_t ring, sw_vec out[3]) {
-  out[0] = sw_strand_facing(c->web, c->x, ring);
+  out[0] = sw_web_facing(c->web, c->x, ring);
   const sw_vec across = sw_madd(c->across, out[0], -sw_dot(c->across, out[0]));
   out[1] = sw_unit_or(across, sw_perpendicular(out[0]));
   out[2] = sw_cross(out[0], out[1]);
@@ -76,7 +76,7 @@ static double turn_of(const cell *c, size_t ring, int axis, const sw_vec axes[3]
 static void try_ways(const cell *c, int side, double load[WAYS][WAYS], double motion[WAYS][WAYS]) {
   sw_vec axes[3];
   const size_t ring = c->read[side], from = c->web->first[c->moved[side]];
-  const sw_vec middle = sw_strand_middle(c->web, c->x, ring);
+  const sw_vec middle = sw_web_centre(c->web, c->x, ring);
   axes_of(c, ring, axes);
   for (int way = 0; way < WAYS; way++) {
     sw_vec force = sw_v(0, 0, 0), moment = force;
@@ -130,7 +130,7 @@ enum { PARTS = 64 }; /* parts of the rod between the ring and its end [-] */
 static void follow(const cell *c, int side, double length, sw_grip_end *out) {
   const sw_beam *beam = &sw_scene_system(c->s)->bodies[c->wire].plan->beam;
   const sw_clamp_give *give = &out->give;
-  sw_vec axes[3], force, moment, at = sw_strand_middle(c->web, c->x, c->read[side]);
+  sw_vec axes[3], force, moment, at = sw_web_centre(c->web, c->x, c->read[side]);
   axes_of(c, c->read[side], axes);
   load_of(c, side, at, &force, &moment);
   const double part = length / PARTS, bends = length - fmax(0.0, give->shorter);
@@ -227,7 +227,7 @@ static sw_status condense(sw_scene *s, const sw_tool *t, cell *c, const sw_froze
 static void rigid_end(const cell *c, const sw_frozen *f, int side, sw_grip_end *out) {
   const size_t ring = side ? f->last : f->first;
   *out = (sw_grip_end){.s = f->stations.s[ring],
-                       .at = sw_strand_middle(c->web, c->x, ring),
+                       .at = sw_web_centre(c->web, c->x, ring),
                        .director = sw_load(f->frame + 6 * ring),
                        .ring = ring};
 }

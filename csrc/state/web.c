@@ -111,7 +111,7 @@ void sw_web_middle(const sw_web *w, const double *x, size_t ring, double out[3])
     for (size_t k = 0; k < 3; k++) out[k] += w->share[i] * at[3 * i + k];
 }
 
-static sw_vec middle_of(const sw_web *w, const double *x, size_t ring) {
+sw_vec sw_web_centre(const sw_web *w, const double *x, size_t ring) {
   double at[3];
   sw_web_middle(w, x, ring, at);
   return sw_load(at);
@@ -120,10 +120,10 @@ static sw_vec middle_of(const sw_web *w, const double *x, size_t ring) {
 /* Returns the direction of a line of particles at one of them: the mean of the two adjacent edges,
  * the shorter edge weighing more. */
 static sw_vec line_direction(const sw_web *w, const double *x, size_t ring) {
-  const sw_vec at = middle_of(w, x, ring);
+  const sw_vec at = sw_web_centre(w, x, ring);
   sw_vec before = sw_v(0, 0, 0), after = before;
-  if (ring > 0) before = sw_sub(at, middle_of(w, x, ring - 1));
-  if (ring + 1 < w->rings) after = sw_sub(middle_of(w, x, ring + 1), at);
+  if (ring > 0) before = sw_sub(at, sw_web_centre(w, x, ring - 1));
+  if (ring + 1 < w->rings) after = sw_sub(sw_web_centre(w, x, ring + 1), at);
   const double b2 = sw_norm2(before), a2 = sw_norm2(after);
   if (!(b2 > 0) || !(a2 > 0)) return sw_unit_or(sw_add(before, after), sw_v(1, 0, 0));
   return sw_unit_or(sw_add(sw_scale(before, a2), sw_scale(after, b2)), sw_v(1, 0, 0));
@@ -132,7 +132,7 @@ static sw_vec line_direction(const sw_web *w, const double *x, size_t ring) {
 sw_vec sw_web_facing(const sw_web *w, const double *x, size_t ring) {
   if (!sw_web_is_ring(w, ring)) return line_direction(w, x, ring);
   const double *at = x + 3 * w->first[ring];
-  const sw_vec middle = middle_of(w, x, ring);
+  const sw_vec middle = sw_web_centre(w, x, ring);
   sw_vec sum = sw_v(0, 0, 0);
   for (size_t k = 0; k < w->around_count; k++) {
     const sw_vec p = sw_sub(sw_vec_at(at, w->around[k]), middle);

@@ -135,6 +135,8 @@ sw_status sw_web_bound_slides(sw_web *web);
 /* Computes the mass-weighted middle of ring i, for positions or any other values of particles
  * (particles x 3). */
 void sw_web_middle(const sw_web *web, const double *x, size_t ring, double out[3]);
+/* The same as a vector, for particles at x [m]. */
+sw_vec sw_web_centre(const sw_web *web, const double *x, size_t ring);
 /* Returns the normal of the area that the surface of ring i encloses; at a particle of a line, the
  * line's direction [-]. */
 sw_vec sw_web_facing(const sw_web *web, const double *x, size_t ring);

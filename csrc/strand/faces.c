@@ -91,7 +91,7 @@ sw_extreme sw_strand_folding(const sw_web *w, const double *x) {
   for (size_t r = 0; r < w->rings && w->faces; r++) {
     if (!sw_web_is_ring(w, r)) continue;
     const double *at = x + 3 * w->first[r];
-    const sw_vec t = sw_strand_facing(w, x, r);
+    const sw_vec t = sw_web_facing(w, x, r);
     for (size_t k = 0; k < w->faces; k++) {
       const uint32_t *face = w->face + 3 * k;
       const sw_vec a = sw_vec_at(at, face[0]);

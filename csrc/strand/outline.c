@@ -233,7 +233,7 @@ static size_t likely_ring(const sw_web *w, const double *x) {
   for (size_t r = 0; r < w->rings; r++) {
     if (!sw_web_is_ring(w, r)) continue;
     sw_strand_outline(w, x, r, outline);
-    const double now = out_of_round(w, outline, sw_strand_facing(w, x, r));
+    const double now = out_of_round(w, outline, sw_web_facing(w, x, r));
     if (now > most) most = now, ring = r;
   }
   return ring;
@@ -252,11 +252,11 @@ sw_extreme sw_strand_ovalisation(const sw_web *w, const double *x) {
     roots[k] = (point){cos(angle), sin(angle)};
   }
   sw_strand_outline(w, x, likely, outline);
-  sw_extreme most = {.value = sw_outline_ovalisation(w, outline, sw_strand_facing(w, x, likely)),
+  sw_extreme most = {.value = sw_outline_ovalisation(w, outline, sw_web_facing(w, x, likely)),
                      .s = w->s[w->first[likely]]};
   for (size_t r = 0; r < w->rings; r++) {
     if (r == likely || !sw_web_is_ring(w, r)) continue;
-    const sw_vec tangent = sw_strand_facing(w, x, r);
+    const sw_vec tangent = sw_web_facing(w, x, r);
     sw_strand_outline(w, x, r, outline);
     if (round && bound_of(w, outline, tangent, roots) <= most.value + SAME) continue;
     const double now = sw_outline_ovalisation(w, outline, tangent);
@@ -285,7 +285,7 @@ double sw_strand_walls_apart(const sw_web *w, const double *x, double s) {
   while (r + 1 < w->rings && !(sw_web_is_ring(w, r) && w->s[w->first[r]] >= s)) r++;
   if (w->per_ring != n || !sw_web_is_ring(w, r)) return least;
   sw_strand_outline(w, x, r, outline);
-  const sw_vec tangent = sw_strand_facing(w, x, r), u = sw_perpendicular(tangent);
+  const sw_vec tangent = sw_web_facing(w, x, r), u = sw_perpendicular(tangent);
   flatten(outline, n, u, sw_cross(tangent, u), p);
   for (size_t i = 0; i < n; i++)
     for (size_t away = n / 4 + 1; away + n / 4 + 1 < n; away++) { /* beyond the bend of a fold */
@@ -313,7 +313,7 @@ void sw_strand_outline(const sw_web *w, const double *x, size_t ring, double *ou
     return;
   }
   /* a line's particle: the undeformed section, at an arbitrary rotation */
-  const sw_vec t = sw_strand_facing(w, x, ring), u = sw_perpendicular(t), v = sw_cross(t, u);
+  const sw_vec t = sw_web_facing(w, x, ring), u = sw_perpendicular(t), v = sw_cross(t, u);
   for (size_t k = 0; k < w->around_count; k++) {
     const double *rest = w->section + 2 * (size_t)w->around[k];
     sw_store(out + 3 * k, sw_madd(sw_madd(sw_load(at), u, rest[0]), v, rest[1]));

@@ -15,19 +15,9 @@ void sw_strand_rings(const sw_mesh *m, double *s1, double *s2) {
   *s1 = m->s[first], *s2 = m->s[last];
 }
 
-sw_vec sw_strand_middle(const sw_web *w, const double *x, size_t ring) {
-  double at[3];
-  sw_web_middle(w, x, ring, at);
-  return sw_load(at);
-}
-
-sw_vec sw_strand_facing(const sw_web *w, const double *x, size_t ring) {
-  return sw_web_facing(w, x, ring);
-}
-
 double sw_strand_turned(const sw_web *w, const double *x, size_t ring, sw_vec t, sw_vec u) {
   const double *at = x + 3 * w->first[ring];
-  const sw_vec middle = sw_strand_middle(w, x, ring), v = sw_cross(t, u);
+  const sw_vec middle = sw_web_centre(w, x, ring), v = sw_cross(t, u);
   double sine = 0, cosine = 0;
   for (size_t k = 0; k < w->around_count; k++) {
     const double *rest = w->section + 2 * (size_t)w->around[k];

@@ -11,10 +11,6 @@
 /* Sets s1 and s2 to the first and last ring between them, or to the ring nearest their middle if
  * there is none between [m]. */
 void sw_strand_rings(const sw_mesh *mesh, double *s1, double *s2);
-/* Returns the centre of ring number r for particles at x [m], and the normal of the area that its
- * surface encloses [-]. */
-sw_vec sw_strand_middle(const sw_web *web, const double *x, size_t ring);
-sw_vec sw_strand_facing(const sw_web *web, const double *x, size_t ring);
 /* Returns the angle by which a ring's outline is rotated about its tangent relative to u, the x
  * axis of the undeformed section: the angle of the best-fitting rotation [rad]. */
 double sw_strand_turned(const sw_web *web, const double *x, size_t ring, sw_vec tangent, sw_vec u);

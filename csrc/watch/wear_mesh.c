@@ -16,13 +16,12 @@
 #include "watch/wear.h"
 
 static sw_vec section_axis(const sw_web *w, const double *x, size_t r) {
-  const sw_vec t = sw_strand_facing(w, x, r), u = sw_perpendicular(t);
+  const sw_vec t = sw_web_facing(w, x, r), u = sw_perpendicular(t);
   return sw_turned(u, t, sw_strand_turned(w, x, r, t, u));
 }
 
 static void carry(const sw_web *w, const double *x, size_t from, size_t to, sw_vec *across) {
-  across[to] =
-      sw_carry_unit(across[from], sw_strand_facing(w, x, from), sw_strand_facing(w, x, to));
+  across[to] = sw_carry_unit(across[from], sw_web_facing(w, x, from), sw_web_facing(w, x, to));
 }
 
 /* Fills the directions from begin to before end, between two rings that have theirs, or beside
@@ -78,7 +77,7 @@ void sw_wear_count_mesh(const sw_system *s, const sw_body *b, sw_wear *wear) {
            next = w->rings > 2 ? sw_strand_slice(p, x, T, T, 1) : near;
   for (size_t r = 0; r < w->rings; r++) {
     const double f = r == 0 ? -0.5 : r > 1 && r + 1 == w->rings ? 1.5 : 0.5;
-    const sw_vec t = sw_strand_facing(w, x, r);
+    const sw_vec t = sw_web_facing(w, x, r);
     const sw_vec bend = sw_lerp(sw_wear_towards(near.bend, t, sw_norm(near.bend)),
                                 sw_wear_towards(next.bend, t, sw_norm(next.bend)), f);
     const sw_wear_load load = {.tangent = t,

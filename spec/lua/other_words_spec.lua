@@ -31,6 +31,7 @@ describe("another word for a name", function()
       scene:run{ duration = 1, integrator = "backward-euler" }
     end },
     ["a clamp's at"] = { "s", function() scene:clamp(wire, { at = 0 }) end },
+    ["a channel's path"] = { "points", function() scene:channel{ path = {} } end },
     ["a path's waypoints"] = { "points", function() hold:follow{ waypoints = {} } end },
     ["scene:step"] = { "run", function() scene:step() end },
     ["a force spring"] = { "tether", function() scene:force{ kind = "spring" } end },

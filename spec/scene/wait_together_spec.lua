@@ -31,6 +31,14 @@ local function times(first, dt)
   return list
 end
 
+-- A scene with a wire that hangs from a clamp.
+local function hanging()
+  local scene = sw.scene{}
+  local wire = scene:wire{ cable = "GXL 1.5", segments = 20, from = { 0, 0, 0.3 }, to = { 0.4, 0, 0.3 } }
+  scene:clamp(wire, { s = 0 })
+  return scene
+end
+
 describe("processes that wait for each other", function()
   it("go on at the same time", function()
     for _, dt in ipairs{ 0.01, 0.0025 } do
@@ -45,9 +53,7 @@ describe("processes that wait for each other", function()
 
   -- Conditions are asked again at one time only if another process has gone on.
   it("are asked once per step if nothing else goes on", function()
-    local scene = sw.scene{}
-    local wire = scene:wire{ cable = "GXL 1.5", segments = 20, from = { 0, 0, 0.3 }, to = { 0.4, 0, 0.3 } }
-    scene:clamp(wire, { s = 0 })
+    local scene = hanging()
     local asked = 0
     for _ = 1, 2 do
       scene:process(function(p)
@@ -63,9 +69,7 @@ describe("processes that wait for each other", function()
 
   -- Two that pass a flag to and fro without end let time pass all the same.
   it("do not stop the time", function()
-    local scene = sw.scene{}
-    local wire = scene:wire{ cable = "GXL 1.5", segments = 20, from = { 0, 0, 0.3 }, to = { 0.4, 0, 0.3 } }
-    scene:clamp(wire, { s = 0 })
+    local scene = hanging()
     local turn = 1
     for k = 1, 2 do
       scene:process(function(p)
