@@ -61,6 +61,7 @@ typedef struct sw_scene_wire {
   sw_twisted *twisted;
   size_t twisted_count;
   double blow;   /* its hardest blow of this run that was followed in parts [N] */
+  double grown;  /* growth of its bend while it is pushed, as a logarithm, see step/buckle.c [-] */
   int untwisted; /* 1: lies as drawn, without its unloaded twist; nothing has moved */
   int remade;    /* 1: has just become a mesh; nothing has moved since */
 } sw_scene_wire;

@@ -5,6 +5,7 @@
 #include "scene/course.h"
 #include "scene/parts.h"
 #include "step/blow.h"
+#include "step/buckle.h"
 #include "step/coarse.h"
 #include "step/restart.h"
 #include "system/system.h"
@@ -74,9 +75,18 @@ sw_status sw_step_adaptive(sw_ladder *p, double left, double t1, sw_error *err) 
       h = sw_blow_part(s, h);
       continue;
     }
+    const int follows = fine && p->args->parts && sw_coarse_applies(s);
+    const double grows = follows ? sw_buckle_of(s, h) : 0.0, shorter = sw_buckle_part(h, grows);
+    if (fine && shorter < h) {
+      sw_ladder_undo(p);
+      h = shorter;
+      continue;
+    }
+    if (grows > 0) next = fmin(next, fmax(h, h / grows));
     if (fine) {
       const double before = sw_scene_time(s);
       sw_ladder_accept(p, h, last ? t1 : before + h);
+      sw_buckle_taken(s, h);
       if (!(sw_scene_time(s) > before))
         return sw_fail(err, SW_ENOCONV, "a step of %g s is too short to advance the time", h);
       course->next_dt = uncut > 0 ? uncut : last && next > h ? fmax(next, course->next_dt) : next;

@@ -8,6 +8,7 @@
 #include "body/guide.h"
 #include "scene/course.h"
 #include "step/blow.h"
+#include "step/buckle.h"
 #include "step/coarse.h"
 #include "step/energy.h"
 #include "step/jaw.h"
@@ -102,10 +103,11 @@ static int is_too_long(const sw_ladder *p, parts *k, int *may_grow) {
   const int divides = p->args->parts && sw_coarse_applies(p->s);
   const double closes = divides ? sw_jaw_closes(p->s, k->part) : 0.0;
   const double passes = fmax(closes, sw_passing_of(p->s, sw_scene_course(p->s)->stepper.trial_x));
-  const double shorter = sw_passing_part(k->part, passes);
+  const double grows = divides ? sw_buckle_of(p->s, k->part) : 0.0;
+  const double shorter = sw_buckle_part(sw_passing_part(k->part, passes), grows);
   if (!(shorter < k->part)) {
     const int coarse = is_coarse(p, k, may_grow);
-    *may_grow &= passes <= 0.5;
+    *may_grow &= passes <= 0.5 && grows <= 0.5;
     return coarse;
   }
   k->part = shorter;
@@ -133,6 +135,7 @@ static sw_status take(sw_ladder *p, parts *k, int may_grow, sw_error *err) {
   k->left = 0;
   sw_ladder_accept(p, k->part, k->done < k->h ? k->t0 + k->done : k->t1);
   if (p->redo != SW_AS_IS) sw_blow_refused(p->s, k->part);
+  sw_buckle_taken(p->s, k->part);
   SW_TRY(sw_ladder_record(p, k->part, err));
   k->part = k->starts || k->cut ? k->h : may_grow ? 2 * k->part : k->part;
   if (k->whole > k->part) k->part = k->whole;

@@ -10,7 +10,7 @@
 #include "scene/events.h"
 #include "scene/parts.h"
 #include "scene/wire.h"
-#include "system/system.h"
+#include "system/pushed.h"
 #include "watch/observe.h"
 
 /* Directions of all edges of a straight wire differ from its chord by at most this. Real wires are
@@ -23,79 +23,10 @@ static const double FLAT = 0.02;
 /* A wire in a plane may bear a push a little above its buckling load for long, as it bends in that
  * plane. It is told of from this share of the push under which a real wire buckles [-]. */
 static const double ABOVE = 1.5;
-/* Bend of a real wire over its length [-]. */
-static const double CROOKED = 1e-3;
 /* After this much growth, as its logarithm, the bend of a real wire would be its own length three
  * times over. A wire that is bent by a few millionths of its length, as by its weight, has left its
  * line, too [-]. */
 static const double GROWTH = 8.0;
-/* Edges with at least this share of the largest push are pushed [-]. */
-static const double PUSHED = 0.5;
-
-/* A piece of a wire that is pushed. */
-typedef struct pushed {
-  double push, length; /* mean [N], [m] */
-  size_t edge;         /* in its middle */
-} pushed;
-
-static double push_in(const sw_system *system, const sw_body *b, size_t e) {
-  return fmax(0, -system->tension[b->first_edge + e]);
-}
-
-/* Returns the piece around the largest push from edge `first` to the next held node; *end: the edge
- * after that. */
-static pushed next_piece(const sw_system *system, const sw_body *b, size_t first, size_t *end) {
-  const sw_plan *p = b->plan;
-  size_t most = first, e = first;
-  for (; e < p->edges; e++) {
-    if (e > first && p->held[e] != SW_FREE) break;
-    if (push_in(system, b, e) > push_in(system, b, most)) most = e;
-  }
-  *end = e;
-  const double least = PUSHED * push_in(system, b, most);
-  size_t from = most, to = most + 1;
-  while (from > first && push_in(system, b, from - 1) >= least) from--;
-  while (to < *end && push_in(system, b, to) >= least) to++;
-  pushed out = {.edge = (from + to) / 2};
-  for (size_t k = from; k < to; k++)
-    out.push += push_in(system, b, k) * p->rest[k], out.length += p->rest[k];
-  out.push /= out.length;
-  return out;
-}
-
-/* Returns the rate at which the bend of a real wire grows; 0: it does not [1/s]. A wave of
- * wavenumber k grows at the rate r, m r^2 = k^2 (P - EI k^2): at most at k^2 = P/(2 EI), but no
- * wave is longer than a piece whose ends are held. On a table the weight must be lifted off the
- * bend that the wire has. */
-static double rate_of(const sw_scene *s, const sw_beam *beam, const pushed *p) {
-  const double longest = 2 * M_PI / p->length;
-  const double k2 = fmax(p->push / (2 * beam->EI), longest * longest);
-  const double r2 = k2 * (p->push - beam->EI * k2) / beam->mass -
-                    sw_norm(sw_scene_gravity(s)) / (CROOKED * p->length);
-  return r2 > 0 ? sqrt(r2) : 0;
-}
-
-/* 0 if no push is large enough for the wire's longest wave: most wires, at once. */
-static int may_buckle(const sw_system *system, const sw_body *b) {
-  const double *T = system->tension + b->first_edge, k = 2 * M_PI / b->plan->length;
-  const double enough = -b->plan->beam.EI * k * k;
-  int any = 0;
-  for (size_t e = 0; e < b->plan->edges; e++) any |= T[e] < enough;
-  return any;
-}
-
-/* Returns the fastest such rate of the wire's pieces, and that piece [1/s]. */
-static double fastest(const sw_scene *s, const sw_body *b, pushed *most) {
-  const sw_system *system = sw_scene_system((sw_scene *)s);
-  double rate = 0;
-  for (size_t e = 0; e < b->plan->edges;) {
-    const pushed p = next_piece(system, b, e, &e);
-    const double r = p.push > 0 ? rate_of(s, &b->plan->beam, &p) : 0;
-    if (r > rate) rate = r, *most = p;
-  }
-  return rate;
-}
-
 /* How far a wire has left its line. */
 enum { STRAIGHT_ON, IN_PLANE, LEFT };
 
@@ -135,10 +66,10 @@ void sw_scene_watch_unbent(sw_scene *s, size_t wire) {
   sw_body *b = &system->bodies[wire];
   sw_unbent *u = &b->unbent;
   const double time = sw_scene_time(s), since = time - u->seen;
-  pushed most = {0};
+  sw_pushed most = {0};
   u->seen = time;
   if (b->plan->web || b->waits || !(b->plan->beam.EI > 0)) return;
-  const double rate = may_buckle(system, b) ? fastest(s, b, &most) : 0;
+  const double rate = sw_pushed_rate(system, b, sw_norm(sw_scene_gravity(s)), &most);
   const int shape = rate > 0 && since > 0 ? shape_of(system, b) : LEFT;
   const int was_straight = u->due > 0 && !u->plane; /* it buckles in a plane */
   if (shape == STRAIGHT_ON || (shape == IN_PLANE && !was_straight)) {

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Wires that are pushed along their length by more than their buckling load: how fast their bend
+ * grows. */
+#ifndef SW_SYSTEM_PUSHED_H
+#define SW_SYSTEM_PUSHED_H
+
+#include "system/system.h"
+
+/* A piece of a wire that is pushed. */
+typedef struct sw_pushed {
+  double push, length; /* mean [N], [m] */
+  size_t edge;         /* in its middle */
+} sw_pushed;
+
+/* Bend of a real wire over its length [-]. */
+#define SW_CROOKED 1e-3
+
+/* Returns the fastest rate at which a small bend of one of the wire's pieces grows under the
+ * tensions evaluated last; 0: no push is large enough [1/s]. *most: that piece. gravity [m/s2]. */
+double sw_pushed_rate(const sw_system *system, const sw_body *body, double gravity,
+                      sw_pushed *most);
+
+#endif
