@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Finds the places of a candidate near its obstacle: of its node, samples, chord, or smooth
  * curve. */
+#include "contact/pads.h"
 #include "contact/round.h"
 
 /* Appends the place after the last one; `near` is already filled. wire: the wire's position. */
@@ -20,6 +21,14 @@ static void near_point(const sw_shape *shape, sw_vec wire, double at, double rea
   take(list, wire);
 }
 
+static void near_rim(const sw_contact *c, const sw_candidate *k, sw_vec wire, double reach,
+                     sw_places *list) {
+  sw_closest *near = &list->place[list->count].near;
+  if (!sw_pad_point(c, k, wire, reach, near)) return;
+  near->at = 0;
+  take(list, wire);
+}
+
 void sw_contact_near(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                      const sw_contact_at *at, const double *x, double reach, sw_places *list) {
   const sw_shape *shape = c->obstacles[k->obstacle].shape;
@@ -32,7 +41,10 @@ void sw_contact_near(const sw_contact *c, const sw_system *s, const sw_candidate
   const sw_pose *pose = &at[k->obstacle].pose;
   const sw_vec a = sw_pose_local(*pose, sw_contact_where(c, x, k->node, k->node, 0));
   if (!k->segment) {
-    near_point(shape, a, 0, reach, list);
+    if (sw_pad_has_rims(c, k->obstacle))
+      near_rim(c, k, a, reach, list);
+    else
+      near_point(shape, a, 0, reach, list);
     if (list->count && k->smooth && sw_contact_is_segments(c, s, k, at, x, &list->place[0].near))
       list->count = 0;
     return;

@@ -73,6 +73,9 @@ void sw_scene_watch_pads_press(sw_scene *scene, size_t wire);
 /* In poses: the same where pads squeeze a mesh of springs on an obstacle. */
 void sw_scene_watch_sinking(sw_scene *scene, size_t wire);
 
+/* Reports pads that hold a mesh along them by more than their friction. */
+sw_status sw_scene_watch_caught(sw_scene *scene, size_t wire, sw_error *err);
+
 /* Reports a wire or object whose solid elements a damping's stiffness does not damp. */
 void sw_scene_watch_undamped(sw_scene *scene, size_t wire);
 

@@ -24,6 +24,7 @@ local kinds = {
   integrator = { "the integrator gains energy in contact: take tr-bdf2", always = true },
   crash = { "forces are wrong after a crash", always = true },
   pressed = { "a hold presses a wire into something: depth or edges decide the force" },
+  caught = { "pads hold a mesh by more than their friction: forces are too large", always = true },
   overload = { "a hold overloads a wire: forces are wrong", always = true },
   breaking = { "the wire would have broken; the run went on as if it held", always = true },
   walls = { "walls of a mesh meet, which its springs do not feel", own = true, always = true },

@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reports pads that hold a mesh by more than their friction: a slice that is not squeezed yet
+ * stands before a pad's end. Only particles and edges of a mesh touch, so such a slice holds the
+ * wire harder than the smooth surface of a real wire would. */
+#include <math.h>
+
+#include "scene/drive.h"
+#include "scene/events.h"
+#include "scene/gripper.h"
+#include "scene/obstacle.h"
+#include "scene/parts.h"
+#include "scene/wire.h"
+#include "watch/observe.h"
+
+/* The least force along the pads that is reported, over the largest friction there. Slices that
+ * glide past the pads' rims add up to 0.15 [-]. */
+static const double COUNTS = 1.25;
+/* The same as a share of the pads' force, for pads with little friction [-]. */
+static const double LEAST = 0.05;
+
+/* Forces of a tool's pads on one wire [N]. */
+typedef struct grasp {
+  sw_vec along;    /* along the pads' width */
+  double friction; /* largest that the pads' squeeze allows */
+  double squeeze;  /* sum of the forces along the way on which pads close */
+  double place;    /* of the touch that holds hardest [m] */
+  double hardest;
+} grasp;
+
+static sw_status add_touch(sw_scene *s, const sw_contact_push *p, grasp *g, sw_error *err) {
+  const sw_scene_obstacle *o = sw_scene_obstacle_in(s, p->obstacle);
+  sw_motion_state at;
+  SW_TRY(sw_drive_eval(s, &o->drive, sw_scene_time(s), &at, err));
+  const sw_vec force = sw_unrotate(at.pose.q, p->force);
+  const double side = copysign(1.0, sw_pose_local(at.pose, p->point).y);
+  g->along = sw_add(g->along, sw_rotate(at.pose.q, sw_v(force.x, 0, 0)));
+  g->squeeze += side * force.y, g->friction += p->friction * side * force.y;
+  if (fabs(force.x) > g->hardest) g->hardest = fabs(force.x), g->place = p->place;
+  return SW_OK;
+}
+
+static sw_status look_at(sw_scene *s, size_t wire, const sw_tool *t, sw_error *err) {
+  const sw_contact *contact = sw_scene_contact(s);
+  const sw_system *system = sw_scene_system(s);
+  const sw_body *b = &system->bodies[wire];
+  grasp g = {.hardest = 0};
+  size_t first, end;
+  sw_contact_touches_of(contact, b->first_node, b->first_node + b->plan->nodes, &first, &end);
+  for (size_t k = first; k < end; k++) {
+    sw_contact_push p;
+    if (sw_tool_is_pad(t, sw_contact_pusher(contact, k)) &&
+        sw_contact_push_at(contact, system, k, &p))
+      SW_TRY(add_touch(s, &p, &g, err));
+  }
+  const double along = sw_norm(g.along);
+  if (!(along > COUNTS * g.friction + LEAST * g.squeeze)) return SW_OK;
+  sw_scene_tell(s, "caught", t->name, g.place, along,
+                "the pads of '%s' hold wire '%s', a mesh, with %.3g N along them; friction gives "
+                "%.3g N at most. A slice that is not squeezed stands before a pad's end: this "
+                "force is too large. Take a rod, or less squeeze",
+                t->name, sw_scene_wire_in(s, wire)->name, along, g.friction);
+  return SW_OK;
+}
+
+sw_status sw_scene_watch_caught(sw_scene *s, size_t wire, sw_error *err) {
+  const sw_web *web = sw_scene_system(s)->bodies[wire].plan->web;
+  if (!sw_scene_contact(s) || !web || !web->per_ring) return SW_OK;
+  SW_EACH(tool, t, s) {
+    if (t->alive && t->pads && !t->frozen && t->jaw.status == SW_JAW_HOLDS)
+      SW_TRY(look_at(s, wire, t, err));
+  }
+  return SW_OK;
+}
