@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reports pads that hold a mesh by more than their friction: a slice that is not squeezed yet
- * stands before a pad's end. Only particles and edges of a mesh touch, so such a slice holds the
- * wire harder than the smooth surface of a real wire would. */
+/* Reports pads that hold a mesh by more than their friction. Only particles and edges of a mesh
+ * touch, so that a slice that is not squeezed yet may stand before a pad's end, and the corners of
+ * a section resist a turn as those of a nut do. A smooth surface would do neither. */
 #include <math.h>
 
 #include "scene/drive.h"
@@ -10,33 +10,65 @@
 #include "scene/obstacle.h"
 #include "scene/parts.h"
 #include "scene/wire.h"
+#include "strand/ring.h"
 #include "watch/observe.h"
 
-/* The least force along the pads that is reported, over the largest friction there. Slices that
- * glide past the pads' rims add up to 0.15 [-]. */
+/* The least force along the pads, or moment about this direction, that is reported, over the
+ * largest that friction gives. Slices that glide past the pads' rims add up to 0.15 [-]. */
 static const double COUNTS = 1.25;
-/* The same as a share of the pads' force, for pads with little friction [-]. */
+/* The same as a share of the pads' force, or of this times the radius, for pads with little
+ * friction [-]. */
 static const double LEAST = 0.05;
 
 /* Forces of a tool's pads on one wire [N]. */
 typedef struct grasp {
   sw_vec along;    /* along the pads' width */
+  sw_vec turning;  /* moment about this direction, at the middles of sections [N m] */
   double friction; /* largest that the pads' squeeze allows */
   double squeeze;  /* sum of the forces along the way on which pads close */
   double place;    /* of the touch that holds hardest [m] */
   double hardest;
 } grasp;
 
-static sw_status add_touch(sw_scene *s, const sw_contact_push *p, grasp *g, sw_error *err) {
+static sw_vec middle_of(const sw_system *system, const sw_body *b, size_t node) {
+  const sw_web *web = b->plan->web;
+  const size_t ring = sw_web_ring_of(web, node - b->first_node);
+  return sw_web_centre(web, system->x + 3 * b->first_node, ring);
+}
+
+static sw_status add_touch(sw_scene *s, const sw_body *b, const sw_contact_push *p, grasp *g,
+                           sw_error *err) {
   const sw_scene_obstacle *o = sw_scene_obstacle_in(s, p->obstacle);
   sw_motion_state at;
   SW_TRY(sw_drive_eval(s, &o->drive, sw_scene_time(s), &at, err));
   const sw_vec force = sw_unrotate(at.pose.q, p->force);
   const double side = copysign(1.0, sw_pose_local(at.pose, p->point).y);
-  g->along = sw_add(g->along, sw_rotate(at.pose.q, sw_v(force.x, 0, 0)));
+  const sw_vec arm = sw_sub(p->acts, middle_of(sw_scene_system(s), b, p->node));
+  const sw_vec width = sw_rotate(at.pose.q, sw_v(1, 0, 0));
+  g->along = sw_madd(g->along, width, force.x);
+  g->turning = sw_madd(g->turning, width, sw_dot(width, sw_cross(arm, p->force)));
   g->squeeze += side * force.y, g->friction += p->friction * side * force.y;
   if (fabs(force.x) > g->hardest) g->hardest = fabs(force.x), g->place = p->place;
   return SW_OK;
+}
+
+static void tell(sw_scene *s, size_t wire, const sw_tool *t, const grasp *g) {
+  const char *name = sw_scene_wire_in(s, wire)->name;
+  const double r = sw_scene_system(s)->bodies[wire].plan->beam.radius;
+  const double along = sw_norm(g->along), turning = sw_norm(g->turning);
+  const double counts = COUNTS * g->friction + LEAST * g->squeeze;
+  if (along > counts)
+    sw_scene_tell(s, "caught", t->name, g->place, along,
+                  "the pads of '%s' hold wire '%s', a mesh, with %.3g N along them; friction gives "
+                  "%.3g N at most. A slice that is not squeezed stands before a pad's end: this "
+                  "force is too large. Take a rod, or less squeeze",
+                  t->name, name, along, g->friction);
+  if (turning > counts * r)
+    sw_scene_tell(s, "caught", t->name, g->place, turning,
+                  "the pads of '%s' turn wire '%s', a mesh, with %.3g N m about its axis; friction "
+                  "gives %.3g N m at most. Corners of its section resist: this moment is too "
+                  "large. Take more particles, or a rod with rolls = true",
+                  t->name, name, turning, g->friction * r);
 }
 
 static sw_status look_at(sw_scene *s, size_t wire, const sw_tool *t, sw_error *err) {
@@ -50,15 +82,9 @@ static sw_status look_at(sw_scene *s, size_t wire, const sw_tool *t, sw_error *e
     sw_contact_push p;
     if (sw_tool_is_pad(t, sw_contact_pusher(contact, k)) &&
         sw_contact_push_at(contact, system, k, &p))
-      SW_TRY(add_touch(s, &p, &g, err));
+      SW_TRY(add_touch(s, b, &p, &g, err));
   }
-  const double along = sw_norm(g.along);
-  if (!(along > COUNTS * g.friction + LEAST * g.squeeze)) return SW_OK;
-  sw_scene_tell(s, "caught", t->name, g.place, along,
-                "the pads of '%s' hold wire '%s', a mesh, with %.3g N along them; friction gives "
-                "%.3g N at most. A slice that is not squeezed stands before a pad's end: this "
-                "force is too large. Take a rod, or less squeeze",
-                t->name, sw_scene_wire_in(s, wire)->name, along, g.friction);
+  tell(s, wire, t, &g);
   return SW_OK;
 }
 

@@ -7,7 +7,8 @@ local t = require "spec.physics.tools"
 local MU, FORCE, L, r = 0.5, 10, 0.08, 0.003
 
 -- Pads draw a rubber wire that is clamped at its start. Returns the largest pull of the clamp once the pads
--- have closed, and the pull at the end [N].
+-- have closed, and the pull at the end [N]; the run; the largest moment of the clamp [N m]. With turn they
+-- turn about the wire instead [rad].
 local function drawn(mesh, dt, more)
   local o = more or {}
   local scene = sw.scene { gravity = { 0, 0, 0 } }
@@ -23,10 +24,12 @@ local function drawn(mesh, dt, more)
     hand:grasp(wire, { s = 0.06, approach = "plates", force = o.force or FORCE })
     p:wait(0.1)
     began = scene.time
-    hand:move { by = { o.way or 0.015, 0, 0 }, speed = 0.03 }
+    if o.turn then hand:rotate { axis = { 1, 0, 0 }, angle = o.turn, duration = 1 }
+    else hand:move { by = { o.way or 0.015, 0, 0 }, speed = 0.03 } end
   end)
   local run = t.fine(scene:run { dt = dt, frames = false })
-  return clamp:over(began, run.time).peak_force, -clamp:force()[1], run
+  return clamp:over(began, run.time).peak_force, -clamp:force()[1], run,
+    clamp:over(began, run.time).peak_moment
 end
 
 describe("a mesh drawn out of closed pads", function()
@@ -65,5 +68,12 @@ describe("a mesh drawn out of closed pads", function()
     t.near(peak, event.value, 0.1 * peak, "force of the event")
     assert.is_falsy(run:check { limits = { peak_force = 1e9 } }.ok)
     assert.is_falsy(caught(select(3, drawn(solid, 5e-3))))
+  end)
+
+  it("tells of corners that resist a turn as those of a nut do", function()
+    local _, _, run, moment = drawn({ model = "radial", body = "solid" }, 5e-3, { turn = 2 * math.pi })
+    local event = caught(run)
+    t.above(1.25 * 2 * MU * FORCE * r, moment, "largest moment")
+    assert.is_truthy(event and event.text:find("Corners", 1, true))
   end)
 end)
