@@ -72,6 +72,13 @@ function remarks.early(what)
     .. "call scene:run or scene:settle")
 end
 
+--- Remarks that a script tells an event while no run is under way.
+function remarks.untold()
+  if not remarks.wanted() then return end
+  tell("untold", "scene:tell: no run is under way, so no run has this event; tell it in a process or an "
+    .. "observer")
+end
+
 -- Returns the first unit in which the value would be usual, as a question.
 local function question(value, rule)
   for i = 4, #rule do

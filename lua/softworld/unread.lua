@@ -15,23 +15,35 @@ local notes = new_notes() -- a list; .noted: runs with events so far; .others: t
 local bad = 0  -- runs that failed or were stopped, looked at or not
 local verdicts = { PASS = 0, FAIL = 0, OPEN = 0 } -- of checks
 
-local idle -- place of the first process while nothing uses it; false: something did, or has been told
+local idle = {} -- { at = place }: scenes with processes that nothing has used yet
+local waits = setmetatable({}, { __mode = "k" }) -- by key: its entry
 
---- A process was made.
-function unread.process()
-  if idle == nil then idle = require "softworld.place".of_caller() end
+--- A process of a scene was made; key: the scene's data.
+function unread.process(key)
+  if not idle or waits[key] or #idle >= MOST then return end
+  local entry = { at = require "softworld.place".of_caller() }
+  idle[#idle + 1], waits[key] = entry, entry
 end
 
---- Something was computed, shown or saved, so the script's processes have a use.
-function unread.used() idle = false end
+--- A scene was computed or saved, so its processes have a use; without key something was shown or studied,
+-- and all processes of the script have.
+function unread.used(key)
+  if not key then idle = nil end
+  if not (idle and waits[key]) then return end
+  for k, entry in ipairs(idle) do
+    if entry == waits[key] then table.remove(idle, k) end
+  end
+  waits[key] = nil
+end
 
 -- Remarks on a script that describes a process and computes nothing: scene:run is forgotten.
 local function tell_idle()
   local remarks, host = package.loaded["softworld.remarks"], package.loaded["softworld.host"]
-  if idle and remarks and remarks.wanted() and not (type(host) == "table" and host.interactive) then
-    remarks.write(idle, "this process never ran: scene:run{...} computes what it describes")
+  local typed = type(host) == "table" and host.interactive
+  if idle and idle[1] and remarks and remarks.wanted() and not typed then
+    remarks.write(idle[1].at or "?", "this process never ran: scene:run{...} computes what it describes")
   end
-  idle = false
+  idle = nil
 end
 
 --- Stores a failure and returns its mark. rest: it is no run but an equilibrium that was not found, which

@@ -38,7 +38,8 @@ local function impose(self, wire, s)
     s = stand.nearest_place(wire, at)
   end
   if type(s) == "number" then checks.number(("gripper '%s': s"):format(self.name), s, 0, " m", 0) end
-  local count = #self.past
+  local count, flies = #self.past, stand.is_moving(self)
+  local from = not flies and self:position() or nil
   local hold = self.scene:grip(wire, { s = s, width = self.width, -- first, for it may be refused
     name = self.name .. (count > 0 and "#" .. count + 1 or "") })
   if #self.grips > 0 and not self.carrier then
@@ -48,12 +49,13 @@ local function impose(self, wire, s)
   end
   local span = { from = self.scene.time }
   if self.carrier then
-    local flies = stand.is_moving(self) -- it keeps its way, and the wire its place beside it
+    -- a gripper that flies keeps its way, and the wire its place beside it
     if #self.grips == 0 and not flies then self.carrier:pose(hold:pose()) end
     if flies then stand.tell_distance(self, wire, s, wire.radius) end
     self.carrier:hold(hold)
     span.carried = self.scene.time
   end
+  if s then stand.tell_far(self, wire, s, from, #self.grips == 0 and stand.JUMPS or stand.STAYS) end
   self.past[count + 1], self.spans[count + 1] = hold, span
   local grips = table.move(self.grips, 1, #self.grips, 1, {})
   grips[#grips + 1] = { wire = wire, hold = hold }
@@ -237,7 +239,8 @@ function Methods:grasp(wire, args)
   build.call(3, check_free, self, wires, approach, args)
   remarks.on("grasp", ("gripper '%s': grasp"):format(self.name), args)
   approach_words.check(self, approach, args)
-  if approach == "mixed" and not process.current() then
+  local p = approach ~= "imposed" and build.call(3, process.of, self.scene, "gripper:grasp")
+  if approach == "mixed" and not p then
     error(("gripper '%s': a mixed grasp takes time; call it in a process"):format(self.name), 2)
   end
   if args.on_slip ~= nil then reactions.set_on_slip(self, args.on_slip, 3) end
@@ -255,7 +258,7 @@ function Methods:grasp(wire, args)
     error(build.plain(why), 2)
   end
   self.held = true
-  self.unchecked = not process.current() or nil
+  self.unchecked = not p or nil
   reactions.watch(self)
   if approach == "mixed" and args.freeze ~= false then mixed.settle(self, args) end
   return self

@@ -28,6 +28,7 @@ local pads = require "softworld.grip.pads"
 local press = require "softworld.grip.press"
 local process = require "softworld.run.process"
 local rating = require "softworld.grip.rating"
+local replaced = require "softworld.run.replaced"
 local remarks = require "softworld.remarks"
 local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
@@ -155,6 +156,7 @@ local move = rows.call("gripper:move", "{...}", "moves the tool; in a process it
 function Gripper:move(args)
   check_place(self, "move")
   args = move:read(args)
+  local p = build.call(3, process.of, self.scene, "gripper:move")
   if not (args.path or args.points or args.to or args.by or args.turn or args.func) then
     error(("gripper '%s': move has no target; give path, points, to, by, turn or func"):format(self.name), 2)
   end
@@ -166,8 +168,8 @@ function Gripper:move(args)
   local held = make_moved(self)
   if args.on_slip ~= nil then reactions.set_on_slip(self, args.on_slip, 3) end
   local duration = build.call(3, held.follow, held, motion)
+  replaced.tell(self.scene, self.name, ("gripper '%s'"):format(self.name), "move", self.busy_until)
   self.busy_until = self.scene.time + duration
-  local p = process.current()
   if p then process.sleep_until(p, self.scene.time + duration) end
   return self
 end
@@ -220,10 +222,11 @@ local press_call = rows.call("gripper:press", "{...}", "moves until the wire pus
 function Gripper:press(args)
   check_place(self, "press")
   args = press_call:read(args)
-  local p = process.current()
+  local p = build.call(3, process.of, self.scene, "gripper:press")
   if not p then error("gripper:press works inside a process only", 2) end
   local way = vec.unit(args.direction)
   if not way then error("gripper:press: direction must not be zero", 2) end
+  replaced.tell(self.scene, self.name, ("gripper '%s'"):format(self.name), "press", self.busy_until)
   return press.run(self, p, make_moved(self), way, args)
 end
 
@@ -260,7 +263,7 @@ local fields = {}
 for _, key in ipairs{ "gone", "wires", "hold", "at", "rotation", "tool", "wire", "way", "frozen", "on_slip",
   "opening", "order", "obstacles", "held", "unchecked", "s", "free_height", "margin", "segments",
   "mesh_model", "rod_model", "slip_event", "crash_time", "on_crash", "carrier", "facing",
-  "busy_until", "left", "bereft", "rating" } do
+  "busy_until", "left", "bereft", "rating", "unlooked" } do
   fields[key] = true
 end
 

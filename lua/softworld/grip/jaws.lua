@@ -1,9 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Closes and opens the jaws of a gripper: to a force, an opening, or until contact.
 -- @module softworld.grip.jaws
+local build = require "softworld.scene.build"
 local mixed = require "softworld.grip.mixed"
 local number = require "softworld.output.number"
 local process = require "softworld.run.process"
+local replaced = require "softworld.run.replaced"
 local rows = require "softworld.rows"
 local stand = require "softworld.grip.stand"
 local tension = require "softworld.check.tension"
@@ -125,9 +127,13 @@ end
 
 --- Gives an order to the jaws. In a process it waits until they are done and returns their state.
 function jaws.move(self, order)
+  local p = build.call(3, process.of, self.scene, "an order to the jaws")
+  if self.order and self.tool:state().jaws == "moves" then
+    replaced.tell(self.scene, self.name, ("gripper '%s'"):format(self.name), "order to its jaws", true)
+  end
   self.order = order
   self.tool:jaws(order)
-  local p = process.current()
+  self.unlooked = not p and order.force and not self.wire or nil
   return p and wait_for_jaws(self, p, order)
 end
 

@@ -20,7 +20,7 @@ local function this_process(self, verb)
     error(("gripper:%s is a method: call it with a colon"):format(verb), 3)
   end
   stand.check_scene(self, 4)
-  local p = process.current()
+  local p = build.call(3, process.of, self.scene, "gripper:" .. verb)
   if not p then error(("gripper:%s takes time; call it in a process"):format(verb), 3) end
   return p
 end

@@ -76,6 +76,13 @@ local function tell(self, args, seen, f)
       number.text(f, "N")) }
 end
 
+-- Tells that nothing stopped the wire.
+local function tell_unreached(self, args, f, way)
+  self.scene:tell{ kind = "unreached", object = self.name, value = f, text = ("gripper '%s': the press was "
+    .. "to end at %s, and went all of its %s with a push of %s at its end"):format(self.name,
+      number.text(args.force, "N"), number.text(way, "m"), number.text(f, "N")) }
+end
+
 --- Presses by the held object in the process p; way: a unit vector. Returns the push [N], the way [m], and
 -- whether the push was reached.
 function press.run(self, p, held, way, args)
@@ -102,6 +109,7 @@ function press.run(self, p, held, way, args)
     held:follow(nil)
     done = f >= args.force
   end
+  if not done then tell_unreached(self, args, f, gone()) end
   return f, gone(), done
 end
 

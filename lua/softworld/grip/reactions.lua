@@ -63,8 +63,15 @@ local function lost_text(self, event)
   return ("gripper '%s': nothing is left between the pads at t = %.4g s"):format(self.name, event.time)
 end
 
---- Stores a note for each gripper from which the wire slipped or was lost since a time, unless something
--- reacts to it or the script asks for it. what: the run in words. Returns their marks.
+local function missed_text(self, event)
+  return ("gripper '%s' closed on nothing at t = %.4g s"):format(self.name, event.time)
+end
+
+local texts = { slip = slip_text, lost = lost_text, missed = missed_text }
+
+--- Stores a note for each gripper from which the wire slipped or was lost since a time, or that closed on
+-- nothing, unless something reacts to it or the script asks for it. what: the run in words. Returns their
+-- marks.
 function reactions.tell(scene, since, what)
   local list = {}
   for _, self in ipairs(build.data(scene).grippers) do
@@ -72,7 +79,7 @@ function reactions.tell(scene, since, what)
     local quiet = own.on_slip == nil or own.on_slip == "record"
     local said
     for _, e in ipairs(quiet and not looked[self] and own.events or {}) do
-      local text = e.kind == "lost" and lost_text or e.kind == "slip" and slip_text
+      local text = (e.kind ~= "missed" or e.alone) and texts[e.kind] -- else an error told it
       if text and e.time >= since then said = text(self, e) end
     end
     if said then
@@ -117,6 +124,12 @@ local function look_at(self)
   if self.unchecked and self.held and now.squeeze > 0 and now.jaws ~= "moves" then
     self.unchecked = nil
     grasped.check(self) -- outside a process: logs an event, and the run goes on
+  end
+  if self.unlooked and now.jaws ~= "moves" then -- outside a process nothing waits for the jaws
+    self.unlooked = nil
+    if now.jaws == "empty" then
+      self.events[#self.events + 1] = { kind = "missed", time = self.scene.time, alone = true }
+    end
   end
   if self.held and now.normal == 0 and not now.frozen then
     self.held = false

@@ -2,8 +2,10 @@
 --- The place of a gripper: its pads and its carrier, and the place of a wire near it.
 -- @module softworld.grip.stand
 local build = require "softworld.scene.build"
+local number = require "softworld.output.number"
 local pads = require "softworld.grip.pads"
 local remarks = require "softworld.remarks"
+local told = require "softworld.run.told"
 local vec = require "softworld.vec"
 
 local stand = {}
@@ -74,6 +76,24 @@ function stand.tell_distance(self, wire, s, free)
     .. "the wire there"):format(self.name, wire.name, s, 1e3 * distance) }
 end
 
+-- Returns the longest way to a wire that a gripper takes without a word: its pads reach so far [m].
+local function reach(self, wire)
+  return math.max(self.pads.opening or 0, self.width, 4 * wire.radius)
+end
+
+--- Tells that a gripper at rest is farther away from the wire than it reaches. from: its centre, or nil: it
+-- has no place yet; text: what happens.
+function stand.tell_far(self, wire, s, from, text)
+  local distance = from and vec.norm(vec.sub(wire:position(s), from)) or 0
+  if distance <= reach(self, wire) then return end
+  told.tell(self.scene, { kind = "grasp", object = self.name, s = s, value = distance, text = ("gripper '%s' "
+    .. "grasps wire '%s' at s = %.4g m, which is %s from its centre: %s"):format(self.name, wire.name, s,
+      number.text(distance, "m"), text) })
+end
+
+stand.JUMPS = "it jumps there at once; let it move or approach first"
+stand.STAYS = "it holds the wire there"
+
 --- Makes a carrier, a moving place, for a gripper without pads: while it holds nothing, or for several wires.
 function stand.make_carrier(self)
   local at, q = self.at or { 0, 0, 0 }, self.rotation or self.facing or nil
@@ -90,6 +110,9 @@ function stand.place_tool(self, wire, s, level)
         self.busy_until), level)
     end
     self.at = (self.carrier:pose())
+  end
+  if s and not stand.is_moving(self) then
+    stand.tell_far(self, wire, s, self.tool and self.tool:pose() or self.at, stand.JUMPS)
   end
   if not self.tool then return stand.make_tool(self, level + 1, wire, s) end
   if s and stand.is_moving(self) then

@@ -38,7 +38,7 @@ local function checked(self, args)
   if not (self.hold or self.wire) then -- imposed, or between pads
     error(what .. ": it holds nothing; grasp a wire before", 0)
   end
-  if not process.current() then
+  if not process.of(self.scene, "gripper:clip") then
     error(what .. ": works inside a process only, because it watches the force during the move", 0)
   end
   args = into:read(args, what)
@@ -161,7 +161,11 @@ local function run(self, given)
   local way, radius = line_up(self, clip, args, what)
   local begun = self.scene.time
   local most, why = press(self, clip, args, way, radius)
-  if why and args.fail == false then return nil, why end
+  if why and args.fail == false then
+    self.scene:tell{ kind = "unreached", object = clip.name, value = most,
+      text = ("%s: wire not in '%s': %s"):format(what, clip.name, why) }
+    return nil, why
+  end
   if why then error(("%s: wire not in '%s': %s"):format(what, clip.name, why), 0) end
   return { clip = clip, force = most, duration = self.scene.time - begun,
     peak_force = clip.peak_insertion_force, s = clip.inserted and clip.inserted.s }
@@ -171,7 +175,8 @@ end
 -- The tool lines up over the mouth (unless align = false), goes towards the seat until the wire
 -- snaps in, 1/40 of the lips' way further, and stays there. Returns { force = largest of the gripper [N],
 -- peak_force = largest of the lips [N], s = [m], duration = [s] }. If the wire does not go in, the tool stops
--- and an error says which force was reached; with fail = false the call returns nil and this text instead.
+-- and an error says which force was reached; with fail = false an event says so, and the call returns nil and
+-- this text.
 function Gripper.clip(self, args)
   -- not by build.call: the process yields on the way
   local result = table.pack(pcall(run, self, args))

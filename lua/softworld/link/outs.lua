@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Wires that came out of clips (event `out`): a script that asks the clip needs no note about it.
+--- Wires that came out of clips (event `out`) or did not go in (event `unreached`): a script that asks the
+-- clip needs no note about it.
 -- @module softworld.link.outs
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
@@ -20,7 +21,7 @@ function outs.seen(clip)
 end
 
 local function clip_of(scene, event)
-  if event.kind ~= "out" then return nil end
+  if event.kind ~= "out" and event.kind ~= "unreached" then return nil end
   for _, entry in ipairs(build.data(scene).fixings) do
     if entry.name == event.object then return entry.fixing end
   end

@@ -103,8 +103,10 @@ fixing.made(Tie, function(scene, wire, given)
   local a = checked(scene, wire, given)
   local self = { name = a.name, wire = wire, s = a.s, other = a.other, strength = a.strength }
   if a.other then
-    self.object = scene:join{ ends = { { wire, s = a.s }, { a.other, s = a.other_s } }, slack = a.slack,
-      stiffness = a.stiffness, strength = a.strength, name = a.name }
+    local fine, made = pcall(scene.join, scene, { ends = { { wire, s = a.s }, { a.other, s = a.other_s } },
+      slack = a.slack, stiffness = a.stiffness, strength = a.strength, name = a.name })
+    if not fine then error(made:gsub("scene:join: ", ("tie '%s': "):format(a.name), 1), 0) end
+    self.object = made
   else
     self.object = scene:force{ kind = "tether", on = wire, s = a.s, to = a.to, slack = a.slack,
       stiffness = a.stiffness, strength = a.strength }

@@ -186,6 +186,8 @@ end
 --- Draws a strip of ray-traced pictures: { path = "x.png", count = 6, ... }.
 function Run:pictures(options)
   local o = pictures:read(options or {})
+  if o.times and o.count then error("run:pictures: times and count do not go together", 0) end
+  if o.times and #o.times == 0 then error("run:pictures: times is empty", 0) end
   runfiles.check_camera(o.camera, "run:pictures")
   readable(self, "frames", true)
   runfiles.check_times(self, o.times, "run:pictures")

@@ -16,6 +16,7 @@ local reactions = require "softworld.grip.reactions"
 local released = require "softworld.check.released"
 local save = require "softworld.scene.save"
 local tables = require "softworld.rows"
+local told = require "softworld.run.told"
 local waiting = require "softworld.run.waiting"
 
 local go = {}
@@ -116,6 +117,7 @@ local function begin(scene, args)
   kept.begin(scene)
   data.origin = data.origin or save.origin(scene)
   if not data.going then build.call(3, core.begin_run, scene, args.wear) end -- else the file's run goes on
+  told.begin(scene)
   data.going = nil
   observe.begin(scene, args)
   total.drawn = document.wires(scene)

@@ -8,8 +8,10 @@ local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local counted = require "softworld.output.number".count
 local methods = require "softworld.methods"
+local place = require "softworld.place"
 local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
+local unread = require "softworld.unread"
 
 local observe = {}
 local Observer = { __name = "observer" }
@@ -97,8 +99,19 @@ local function tell(what, ...)
   for _, follower in ipairs(observe.followers) do follower[what](...) end
 end
 
+-- Keeps in mind an observer that no run was long enough for, until one is.
+local function note_uncalled(scene, own)
+  if own.calls > 0 or own.note or not own.every or scene.time <= own.from then return end
+  own.note = unread.note(("softworld: note: the observer%s was never called: every = %g s is longer than the "
+    .. "run of '%s', %.4g s"):format(own.at_line and " at " .. own.at_line or "", own.every, scene.name,
+    scene.time - own.from))
+end
+
 --- Called at the end of a run.
-function observe.finish(scene, ok, reason) tell("finish", scene, ok, reason) end
+function observe.finish(scene, ok, reason)
+  tell("finish", scene, ok, reason)
+  for _, observer in ipairs(list_of(scene)) do note_uncalled(scene, fields(observer)) end
+end
 
 --- Called at the start of a run: times are counted from here.
 function observe.begin(scene, args)
@@ -117,6 +130,7 @@ local function look(scene)
     local own = fields(observer)
     if not own.gone and is_due(own, scene.time) then
       own.calls, own.inside = own.calls + 1, true
+      if own.note then unread.seen(own.note) end
       local fine, message = pcall(own.call, observer)
       own.inside = nil
       if not fine then error(message, 0) end
@@ -153,7 +167,7 @@ end
 
 local function make(scene, args)
   local own = new:read(args)
-  own.scene, own.calls = scene, 0
+  own.scene, own.calls, own.at_line = scene, 0, place.of_caller()
   begin(own, scene.time)
   local list = list_of(scene)
   list[#list + 1] = sealed.new(Observer, own)
@@ -205,6 +219,7 @@ end
 --- Removes the observer; it is not called any more.
 function Observer:remove()
   local own = fields(self)
+  if own.note then unread.seen(own.note) end
   own.gone, own.wants, own.reason = true, nil, own.inside and own.reason or nil
   local list = list_of(own.scene)
   for i = #list, 1, -1 do

@@ -39,6 +39,30 @@ function process.current()
   return current[coroutine.running()]
 end
 
+local resumed -- the process that has its turn
+
+--- Gives a process its turn. Returns what coroutine.resume returns.
+function process.resume(self)
+  local before = resumed
+  resumed = self
+  local function done(...)
+    resumed = before
+    return ...
+  end
+  return done(coroutine.resume(self.thread, self))
+end
+
+--- Returns the running process of this scene, or nil outside of one. A call that takes time raises an error
+-- in a coroutine within a process, where it could not wait; what: its name.
+function process.of(scene, what)
+  local self = process.current()
+  if self then return self.scene == scene and self or nil end
+  if resumed and resumed.scene == scene and coroutine.status(resumed.thread) == "normal" then
+    error(("%s takes time, and works only in the process itself, not in a coroutine beside it")
+      :format(what), 0)
+  end
+end
+
 local function check_inside(self, what)
   if process.current() ~= self then
     error(what .. " works only inside its own process, not in a function or coroutine beside it", 3)
@@ -142,7 +166,10 @@ function Process:wait_until(condition, options)
   check_inside(self, "p:wait_until")
   process.guard "p:wait_until"
   while not condition() do
-    if process.reached(self.scene, last) then return false end
+    if process.reached(self.scene, last) then
+      if told then waiting.ran_out(self, options.timeout) end
+      return false
+    end
     if last == math.huge then waiting.goes_on(self, impossible) end
     if asked then self.moves = self.moves - 1 end -- it is where it was; but a function may have a memory
     asked = told
@@ -215,6 +242,9 @@ end
 
 --- Ends the process where it waits.
 function Process:finish()
+  if process.current() == self then
+    error("p:finish ends a process where it waits; within itself it ends by return", 2)
+  end
   if coroutine.status(self.thread) == "suspended" then coroutine.close(self.thread) end
 end
 
@@ -265,7 +295,7 @@ function core.class.scene.process(scene, body)
   end
   current[self.thread] = self
   data.processes[#data.processes + 1] = self
-  unread.process()
+  unread.process(data)
   return self
 end
 
@@ -286,6 +316,7 @@ function process.renew(scene, bodies)
   for _, p in ipairs(data.processes) do p:finish() end
   data.processes = {}
   for _, body in ipairs(bodies) do scene:process(body) end
+  unread.used(data)
 end
 
 --- Returns how far the living processes are, for process.is_at: { [process] = moves }.

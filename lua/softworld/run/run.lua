@@ -122,7 +122,7 @@ end
 function core.class.scene.run(scene, args)
   build.check(scene, "scene:run", 3)
   build.call(3, reading.check, scene)
-  unread.used()
+  unread.used(build.data(scene))
   if args == nil then args = {} end
   if type(args) == "table" then
     if checks.kind(args) ~= "table" then

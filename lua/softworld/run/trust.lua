@@ -290,7 +290,7 @@ function trust.open(job)
   kept.begin(scene)
   local start, restores = scene:snapshot(), data.restores
   function job.restore()
-    scene:restore(start)
+    scene:restore(start, true)
     data.restores = restores -- the records of earlier runs still exist
   end
   function job.close() start:close() end

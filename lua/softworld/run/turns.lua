@@ -3,6 +3,7 @@
 -- place of the script's line.
 -- @module softworld.run.turns
 local build = require "softworld.scene.build"
+local checks = require "softworld.checks"
 local place = require "softworld.place"
 local process = require "softworld.run.process"
 
@@ -23,6 +24,12 @@ local function place_in(thread)
     end
   end
   return ""
+end
+
+-- Returns the line of the user's script at which a process has yielded by itself.
+local function place_of_yield(thread)
+  local info = debug.getinfo(thread, 1, "Sl")
+  return info and info.currentline > 0 and ("%s:%d: "):format(info.short_src, info.currentline) or ""
 end
 
 -- Raises an error if a process has ended before it had all the steps in the file.
@@ -50,7 +57,7 @@ end
 local function resume(self)
   self.wake, self.watching, self.asks, self.begun, self.between = nil, nil, nil, true, nil
   self.moves = self.moves + 1
-  local ok, message = coroutine.resume(self.thread, self)
+  local ok, message = process.resume(self)
   if not ok and is_bereft(self, message) then return end
   if not ok then
     self.failed, self.traceback = true, debug.traceback(self.thread)
@@ -59,7 +66,11 @@ local function resume(self)
     end
     error(message, 0)
   end
-  if coroutine.status(self.thread) == "dead" then check_end(self) end
+  if coroutine.status(self.thread) == "dead" then check_end(self)
+  elseif message ~= nil then -- the library yields nothing
+    error(("%scoroutine.yield does not wait for %s: the process goes on after the next step; wait by "
+      .. "p:wait(seconds)"):format(place_of_yield(self.thread), checks.got(message)), 0)
+  end
   if not self.wake then self.watching, self.wake = true, math.huge end -- a plain yield
 end
 
@@ -79,7 +90,7 @@ end
 -- late, or not, by the order in which the processes were made. turn.made: how often a process has gone on,
 -- other than to find its condition still false.
 local function go_on(data, which, turn)
-  local alive, wake, watching, between, inside = {}, math.huge, false, false, false
+  local alive, between, inside = {}, false, false
   for _, p in ipairs(data.processes) do
     if is_due(p, which, turn.made) then
       resume(p)
@@ -88,14 +99,12 @@ local function go_on(data, which, turn)
     end
     if coroutine.status(p.thread) == "suspended" then
       alive[#alive + 1] = p
-      wake = math.min(wake, p.wake)
-      watching = watching or p.watching or false
       between = between or p.between or false
       inside = inside or not p.between
     end
   end
   data.processes = alive
-  return wake, watching, between, inside
+  return between, inside
 end
 
 local function is_any_due(data, which, made)
@@ -105,20 +114,35 @@ local function is_any_due(data, which, made)
   return false
 end
 
+-- Forgets processes that another one has finished meanwhile. Returns the next wake-up
+-- time [s] and whether one of the others watches a condition.
+local function forget_dead(scene, data)
+  local alive, wake, watching = {}, math.huge, false
+  for _, p in ipairs(data.processes) do
+    if coroutine.status(p.thread) == "suspended" then
+      alive[#alive + 1] = p
+      wake, watching = math.min(wake, p.wake or scene.time), watching or p.watching or false
+    end
+  end
+  data.processes = alive
+  return wake, watching
+end
+
 --- Continues every process whose time has come. Returns the number of living
 -- processes, the next wake-up time [s] and whether one watches a condition.
 function turns.step(scene)
   local data, turn = build.data(scene), { made = 0 }
   for _, p in ipairs(data.processes) do p.asked = 0 end
-  local wake, watching, between, inside = go_on(data, DUE, turn)
+  local between, inside = go_on(data, DUE, turn)
   for _ = 1, MOST do
     while between do
       if data.saving and not inside then data.saving() end
-      wake, watching, between, inside = go_on(data, STEPS, turn)
+      between, inside = go_on(data, STEPS, turn)
     end
     if not is_any_due(data, AGAIN, turn.made) then break end
-    wake, watching, between, inside = go_on(data, AGAIN, turn)
+    between, inside = go_on(data, AGAIN, turn)
   end
+  local wake, watching = forget_dead(scene, data)
   return #data.processes, wake, watching
 end
 

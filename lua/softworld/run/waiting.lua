@@ -35,6 +35,14 @@ function waiting.goes_on(p, impossible)
   end
 end
 
+--- Called when the time for a condition given as a table has run out: a script may not look at the result.
+function waiting.ran_out(p, timeout)
+  local at = place.of_caller()
+  p.scene:tell{ kind = "timeout", object = ("process %d"):format(p.number), value = timeout,
+    text = ("process %d went on%s after %g s: its condition had not come true"):format(p.number,
+      at and " at " .. at or "", timeout) }
+end
+
 function waiting.ended(p) waits[p] = nil end
 
 local function text_of(p, w, verb)

@@ -163,7 +163,7 @@ local function follow_snapshots()
     marks[result] = { count = #log, missed = log.missed }
     return result
   end
-  function class.restore(scene, from)
+  function class.restore(scene, from, own)
     local function go(...)
       local log, mark = record.of(scene), marks[from]
       if mark then
@@ -172,7 +172,7 @@ local function follow_snapshots()
       end
       return ...
     end
-    return go(build.through(restore, scene, from))
+    return go(build.through(restore, scene, from, own))
   end
 end
 

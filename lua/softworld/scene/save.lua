@@ -138,7 +138,7 @@ end
 --- scene:save(file): writes the whole state of the scene, for scene:resume and sw.load.
 function class.scene.save(scene, file)
   build.check(scene, "scene:save", 3)
-  unread.used()
+  unread.used(build.data(scene))
   return build.call(3, save_now, scene, file)
 end
 

@@ -16,6 +16,7 @@ local core_settle = core.class.scene.settle
 local function settle(scene, args)
   build.check(scene, "scene:settle", 4)
   local before, data = rest.events(scene), build.data(scene)
+  unread.used(data)
   kept.begin(scene)
   data.runs = (data.runs or 0) + 1 -- peaks start again, as in a run
   local result = build.call(3, core_settle, scene, args)
@@ -61,7 +62,6 @@ end
 -- the result has error bars, see help "tolerance"; progress = true then prints every level.
 function core.class.scene.settle(scene, args)
   process.guard "scene:settle"
-  unread.used()
   local result, events
   if trust.wanted(args) then
     build.check(scene, "scene:settle", 3)

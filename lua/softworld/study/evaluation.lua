@@ -179,7 +179,7 @@ function evaluation.keep(own)
 end
 
 local function all(own, p)
-  for _, kept in ipairs(own.kept) do kept[1]:restore(kept[2]) end
+  for _, kept in ipairs(own.kept) do kept[1]:restore(kept[2], true) end
   return own.evaluate(p, table.unpack(own.built, 1, own.built.n))
 end
 
