@@ -276,3 +276,45 @@ describe("words of calls", function()
     has(why, "run:pictures: times is empty")
   end)
 end)
+
+describe("an argument that a method does not take", function()
+  it("is refused with the call's name", function()
+    local scene, wire, hand = made()
+    local ball = scene:obstacle{ name = "ball", shape = "sphere", radius = 0.01, at = { 0, 0, 1 } }
+    local run = scene:run{ duration = 0.05 }
+    for text, call in pairs{ ["obstacle:force takes no arguments, got a wire"] = function() ball:force(wire) end,
+      ["wire:positions takes no arguments, got 0.1"] = function() wire:positions(0.1) end,
+      ["scene:contacts takes no arguments, got a wire"] = function() scene:contacts(wire) end,
+      ["gripper:series takes no arguments, got 5"] = function() hand:series(5) end,
+      ["run:series takes no arguments, got 'hand.force'"] = function() run:series "hand.force" end,
+      ["run:save takes (path), got 'hand.force' too"] = function() run:save("x.csv", "hand.force") end,
+      ["scene:remove takes (object or name), got 'w' too"] = function() scene:remove("ball", "w") end } do
+      local fine, why = pcall(call)
+      assert.is_false(fine)
+      has(why, "ignored_spec.lua:")
+      has(why, text)
+    end
+    assert.is_true(ball.present)
+    assert.same(ball:force(), ball:force(nil))
+  end)
+
+  it("is refused: captions without pictures, means longer than the run", function()
+    local scene = made()
+    local run = scene:run{ duration = 0.05 }
+    for text, call in pairs{
+      ["captions has 3 texts for 2 pictures"] = function()
+        run:pictures{ path = "x.png", count = 2, captions = { "a", "b", "c" } }
+      end,
+      ["caption is for one picture, and there are 2"] = function()
+        run:pictures{ path = "x.png", times = { 0, 0.05 }, caption = "a" }
+      end,
+      ["captions has 2 texts for 1 picture"] = function()
+        run:picture{ path = "x.png", captions = { "a", "b" } }
+      end,
+      ["mean = 5 s is longer than the run, 0.05 s"] = function() run:chart{ path = "x.svg", mean = 5 } end } do
+      local fine, why = pcall(call)
+      assert.is_false(fine)
+      has(why, text)
+    end
+  end)
+end)

@@ -226,6 +226,7 @@ function Gripper:press(args)
   if not p then error("gripper:press works inside a process only", 2) end
   local way = vec.unit(args.direction)
   if not way then error("gripper:press: direction must not be zero", 2) end
+  remarks.on("press", ("gripper '%s': press"):format(self.name), args)
   replaced.tell(self.scene, self.name, ("gripper '%s'"):format(self.name), "press", self.busy_until)
   return press.run(self, p, make_moved(self), way, args)
 end

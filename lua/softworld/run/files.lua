@@ -3,6 +3,7 @@
 -- @module softworld.run.files
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
+local counted = require "softworld.output.number".count
 local rows = require "softworld.rows"
 
 local runfiles = { methods = {} }
@@ -29,11 +30,12 @@ local chart = rows.call("run:chart", "{...}", "draws series over time; needs gnu
     usual = "as the curves need" },
 })
 
+local USUAL = 6 -- pictures of a strip
 local pictures = rows.call("run:pictures", "{...}", "a strip of ray-traced pictures; needs POV-Ray", {
   gives = "path, width, height [px], thickness, note",
   example = 'run:pictures { path = "run.png", count = 6 }',
   { "path", "text", "-", "a .png file", required = true },
-  { "count", "integer", "-", "moments from the first to the last frame", min = 1, max = 1000, usual = 6 },
+  { "count", "integer", "-", "moments from the first to the last frame", min = 1, max = 1000, usual = USUAL },
   { "times", "list", "s", "of the moments instead", of = "number", min = 0 },
   { "captions", "list", "-", "words after the times" },
   { "caption", "text", "-", "of a single picture", empty = true },
@@ -81,6 +83,16 @@ function runfiles.check_times(self, times, what)
       error(("%s = %.9g s is not in the run, which goes from %.9g s to %.9g s"):format(name, t, self.start,
         self.time), 0)
     end
+  end
+end
+
+--- Raises an error if there are more captions than pictures; count: of these.
+function runfiles.check_captions(o, what, count)
+  if o.captions and #o.captions > count then
+    error(("%s: captions has %d texts for %s"):format(what, #o.captions, counted(count, "picture")), 0)
+  end
+  if o.caption and count > 1 then
+    error(("%s: caption is for one picture, and there are %d; give captions"):format(what, count), 0)
   end
 end
 
@@ -179,6 +191,10 @@ function Run:chart(options)
   check_size(o.size)
   check_names(o.columns)
   readable(self, "series")
+  local length = self.time - self.start
+  if o.mean and o.mean > length and length > 0 then
+    error(("run:chart: mean = %g s is longer than the run, %.4g s"):format(o.mean, length), 0)
+  end
   o.run = self:document()
   return require("softworld.output.chart").series(o)
 end
@@ -188,6 +204,7 @@ function Run:pictures(options)
   local o = pictures:read(options or {})
   if o.times and o.count then error("run:pictures: times and count do not go together", 0) end
   if o.times and #o.times == 0 then error("run:pictures: times is empty", 0) end
+  runfiles.check_captions(o, "run:pictures", o.times and #o.times or o.count or USUAL)
   runfiles.check_camera(o.camera, "run:pictures")
   readable(self, "frames", true)
   runfiles.check_times(self, o.times, "run:pictures")

@@ -211,6 +211,7 @@ local function picture_of_run(self, args)
   runfiles.check_times(self, o.times or { o.t }, "run:picture")
   local times = core.frame_times(self.scene)
   o.times, o.t, o.count = times_of(self, times, o), nil, nil
+  runfiles.check_captions(o, "run:picture", math.max(1, #o.times))
   return draw(moments(self, times, o.times), o)
 end
 

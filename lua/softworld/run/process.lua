@@ -18,6 +18,7 @@ local rows = require "softworld.rows"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local conditions = require "softworld.run.conditions"
+local remarks = require "softworld.remarks"
 local sealed = require "softworld.sealed"
 local stages = require "softworld.run.stages"
 local unread = require "softworld.unread"
@@ -195,6 +196,7 @@ function Process:feed(feed, args)
     error("p:feed expects what scene:feed returns, got " .. (core.type(feed) or type(feed)), 2)
   end
   check_inside(self, "p:feed")
+  remarks.on("feed", "p:feed", args)
   process.sleep_until(self, self.scene.time + build.call(3, feed.feed, feed, args))
 end
 
