@@ -282,7 +282,8 @@ describe("an argument that a method does not take", function()
     local scene, wire, hand = made()
     local ball = scene:obstacle{ name = "ball", shape = "sphere", radius = 0.01, at = { 0, 0, 1 } }
     local run = scene:run{ duration = 0.05 }
-    for text, call in pairs{ ["obstacle:force takes no arguments, got a wire"] = function() ball:force(wire) end,
+    for text, call in pairs{
+      ["obstacle:force takes no arguments, got a wire"] = function() ball:force(wire) end,
       ["wire:positions takes no arguments, got 0.1"] = function() wire:positions(0.1) end,
       ["scene:contacts takes no arguments, got a wire"] = function() scene:contacts(wire) end,
       ["gripper:series takes no arguments, got 5"] = function() hand:series(5) end,
@@ -311,7 +312,9 @@ describe("an argument that a method does not take", function()
       ["captions has 2 texts for 1 picture"] = function()
         run:picture{ path = "x.png", captions = { "a", "b" } }
       end,
-      ["mean = 5 s is longer than the run, 0.05 s"] = function() run:chart{ path = "x.svg", mean = 5 } end } do
+      ["mean = 5 s is longer than the run, 0.05 s"] = function()
+        run:chart{ path = "x.svg", mean = 5 }
+      end } do
       local fine, why = pcall(call)
       assert.is_false(fine)
       has(why, text)

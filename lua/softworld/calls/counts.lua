@@ -9,8 +9,8 @@ local rows = require "softworld.rows"
 
 local counts = {}
 
--- Methods of the core that take no arguments, by class. Those that take some stay as they are: they are called
--- often.
+-- Methods of the core that take no arguments, by class. Those that take some stay as they are: they are
+-- called often.
 local bare = {
   scene = "energy contacts penetration touches stable_dt frame_count clear_frames snapshot names",
   obstacle = "force remove", wire = "positions velocities particles bend_energy folded",

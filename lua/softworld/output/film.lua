@@ -8,6 +8,7 @@ local progress = require "softworld.output.progress"
 local sheet = require "softworld.output.sheet"
 local sink = require "softworld.output.sink"
 local solid = require "softworld.output.solid"
+local whole = require "softworld.output.whole"
 
 local film = {}
 
@@ -91,7 +92,7 @@ local function make(run, o, kind, rate, layout, look, numbers)
   local ended = pipe:close()
   local said = sink.read_file(log)
   sink.discard(log)
-  if fine and ended then return sink.commit(output, o.path) end
+  if fine and ended then return whole.commit(output, o.path) end
   sink.discard(output)
   if not fine then error(why, 0) end
   sink.fail("cannot write %s: ffmpeg failed: %s", o.path, complaint(said))

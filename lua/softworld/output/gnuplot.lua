@@ -4,6 +4,7 @@
 
 local letters = require "softworld.output.letters"
 local sink = require "softworld.output.sink"
+local whole = require "softworld.output.whole"
 
 local gnuplot = {}
 
@@ -140,7 +141,7 @@ function gnuplot.draw(script, path, size)
   end
   local output = sink.temporary(path)
   run(kind, size, script, output, "c_" .. sink.base(path):gsub("[^%w]", "_"))
-  sink.commit(output, path)
+  whole.commit(output, path)
   return path
 end
 

@@ -9,6 +9,7 @@ local looks = require "softworld.output.looks"
 local povscene = require "softworld.output.povscene"
 local sink = require "softworld.output.sink"
 local solid = require "softworld.output.solid"
+local whole = require "softworld.output.whole"
 
 local povray = {}
 
@@ -78,12 +79,12 @@ end
 
 local function render(sheet, run, frames, look, options)
   local path = options.path
-  local folder, names = sink.temporary(path, true), { "sheet.pov", "sheet.png" }
+  local folder, names = sink.temporary(path, true), { "sheet.pov", "sheet.png", "sheet.pov-state" }
   local settings = { threads = options.threads or 2, aa = options.draft and "-A" or "+A0.15 +AM2 +R3 -J" }
   local ok, why = pcall(function()
     for i, frame in ipairs(frames) do
       local name = "f" .. i
-      names[#names + 1], names[#names + 2] = name .. ".pov", name .. ".png"
+      for _, kind in ipairs{ ".pov", ".png", ".pov-state" } do names[#names + 1] = name .. kind end
       sink.write_file(folder .. "/" .. name .. ".pov", povscene.text(run, frame, look))
       trace(folder, name, sheet.panel_width, sheet.panel_height, settings)
       sheet.panels[i] = { name = name, caption = looks.caption(run, frame, i, options) }
@@ -91,7 +92,7 @@ local function render(sheet, run, frames, look, options)
     sink.write_file(folder .. "/sheet.pov", flat_scene(sheet))
     settings.aa = "+A0.1 +AM1 +R4 -J"
     trace(folder, "sheet", sheet.width, sheet.height, settings)
-    sink.commit(folder .. "/sheet.png", path)
+    whole.commit(folder .. "/sheet.png", path)
   end)
   sink.remove_folder(folder, names)
   if not ok then error(why, 0) end
