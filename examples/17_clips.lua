@@ -21,12 +21,15 @@ local keeper = scene:gripper { name = "keeper", pads = { width = mm(12) } }
 
 scene:process(function(p)
   keeper:grasp(wire, { s = mm(400) })
-  for _, clip in ipairs(clips) do
-    guide:grasp(wire, { s = clip.at[1] + mm(14) })
+  for i, clip in ipairs(clips) do
+    local place = { s = clip.at[1] + mm(14) }
+    if i > 1 then guide:approach(wire, place) end -- it begins at the first place
+    guide:grasp(wire, place)
     local done = guide:clip { into = clip, speed = 0.05, max_force = 40 }
     print(("%s: wire in at t = %.2f s, s = %.1f mm; lips %.2f N, gripper %.2f N"):format(clip.name,
       clip.inserted.time, done.s * 1e3, done.peak_force, done.force))
     guide:release()
+    guide:retreat { distance = mm(30) }
     keeper:move { by = mm { -0.7, 0, -8 }, speed = 0.1 }
     p:wait_until(function() return clip:seated() end, { timeout = 1 })
     p:wait(0.3)
@@ -48,6 +51,7 @@ if arg and arg[1] then run:pictures { path = arg[1], count = 4 } end
 
 -- Pull the cable out of the first clip: it releases the cable at its retention force.
 scene:process(function()
+  guide:approach(wire, { s = clips[1].at[1] })
   guide:grasp(wire, { s = clips[1].at[1] })
   guide:move { by = mm { 0, 0, 8 }, speed = 0.02 }
 end)
