@@ -74,6 +74,12 @@ function remarks.early(what)
     .. "call scene:run or scene:settle")
 end
 
+--- Remarks that wires lie in each other. at: a place [m]; time [s].
+function remarks.passing(a, b, at, time)
+  tell("passing", ("wires '%s' and '%s' pass through each other near (%.4g, %.4g, %.4g) m at t = %.4g s: "
+    .. "they touch only after scene:wire_contact{}"):format(a, b, at[1], at[2], at[3], time))
+end
+
 --- Remarks that a script tells an event while no run is under way.
 function remarks.untold()
   if not remarks.wanted() then return end

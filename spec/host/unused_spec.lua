@@ -44,6 +44,19 @@ describe("what no run uses is told:", function()
     assert.equal("", err)
   end)
 
+  it("wires that pass through each other, unless they touch or are joined", function()
+    local other = "local o = scene:wire{ name = 'o', cable = 'GXL 1.5', from = { 0.1, %s, 0 }, "
+      .. "to = { 0.1, 0.1, %g } }\n%s\nscene:run{ duration = 0.01 }"
+    local _, err = script(made .. other:format("-0.1", 0, ""))
+    assert.truthy(err:find("remark: wires 'wire1' and 'o' pass through each other near (0.09, 0, 0) m at t = "
+      .. "0.01 s: they touch only after scene:wire_contact{}", 1, true), err)
+    for _, fine in ipairs{ other:format("-0.1", 0, "scene:wire_contact{}"), other:format("0.004", 0, ""),
+      other:format("0", 0, "scene:join{ ends = { { wire, s = 0.1 }, { o, s = 0 } } }") } do
+      _, err = script(made .. fine)
+      assert.is_nil(err:find("pass through", 1, true), err)
+    end
+  end)
+
   it("an observer", function()
     local _, err = script(made .. "scene:observe{ every = 50, call = print }\nscene:run{ duration = 0.1 }")
     assert.truthy(err:find("note: the observer at script.lua:5 was never called: every = 50 s is longer than "

@@ -14,6 +14,7 @@ local outs = require "softworld.link.outs"
 local reactions = require "softworld.grip.reactions"
 local methods = require "softworld.methods"
 local counted = require "softworld.output.number".count
+local passing = require "softworld.run.passing"
 local place = require "softworld.place"
 local refine = require "softworld.run.refine"
 local reading = require "softworld.run.reading"
@@ -60,6 +61,7 @@ end
 
 local function run_once(scene, args, level, hindrance)
   local run = sealed.new(Run, go.once(scene, args, level, hindrance))
+  passing.look(scene)
   kept.ended(scene, run, summary.of)
   return run
 end
