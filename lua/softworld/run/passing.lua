@@ -7,8 +7,8 @@ local remarks = require "softworld.remarks"
 
 local passing = {}
 
-local DEEP = 0.8  -- axes nearer than this share of both radii: wires side by side are farther apart [-]
-local MOST = 1e6  -- pairs of edges that are compared at most
+local DEEP = 0.8 -- axes nearer than this share of both radii: wires side by side are farther apart [-]
+local MOST = 1e6 -- pairs of edges that are compared at most
 
 -- Returns the wires: nodes as a flat list, radius, and the box round them.
 local function wires_of(data)
@@ -62,8 +62,8 @@ local function distance2(x, i, y, j)
   return px * px + py * py + pz * pz
 end
 
--- Returns where two wires lie in each other, {x, y, z} [m], or nil; and how many pairs were compared, of
--- those that are left.
+-- Returns where two wires lie in each other, {x, y, z} [m], or nil; and how many pairs of edges were
+-- compared. left: how many may be.
 local function place(a, b, left)
   local reach = DEEP * (a.radius + b.radius)
   for k = 1, 3 do
@@ -80,19 +80,42 @@ local function place(a, b, left)
   return nil, #first * #second
 end
 
+-- Sorts the wires along the axis on which they are spread most. Returns this axis, 1 to 3.
+local function sort(list)
+  local axis, most = 1, -1
+  for k = 1, 3 do
+    local low, high = math.huge, -math.huge
+    for _, w in ipairs(list) do low, high = math.min(low, w.low[k]), math.max(high, w.low[k]) end
+    if high - low > most then axis, most = k, high - low end
+  end
+  table.sort(list, function(a, b) return a.low[axis] < b.low[axis] end)
+  return axis
+end
+
+-- Calls a function with each pair of wires that may meet, until it returns true.
+local function each_pair(list, call)
+  local axis, thickest = sort(list), 0
+  for _, w in ipairs(list) do thickest = math.max(thickest, w.radius) end
+  for k, a in ipairs(list) do
+    local last = a.high[axis] + 2 * DEEP * thickest
+    for m = k + 1, #list do
+      if list[m].low[axis] > last then break end
+      if call(a, list[m]) then return end
+    end
+  end
+end
+
 --- Called at the end of a run. Joined wires meet, so scenes with joins get no remark.
 function passing.look(scene)
   local data = build.data(scene)
   if data.touching or #data.wires < 2 or #data.joins > 0 or not remarks.wanted() then return end
-  local list, left = wires_of(data), MOST
-  for k, a in ipairs(list) do
-    for m = k + 1, #list do
-      local b = list[m]
-      local at, used = place(a, b, left)
-      left = left - used
-      if at then return remarks.passing(a.name, b.name, at, scene.time) end
-    end
-  end
+  local left = MOST
+  each_pair(wires_of(data), function(a, b)
+    local at, used = place(a, b, left)
+    left = left - used
+    if at then remarks.passing(a.name, b.name, at, scene.time) end
+    return at or left <= 0
+  end)
 end
 
 return passing
