@@ -17,6 +17,9 @@ local bare = {
   clamp = "force release", join = "release", force = "release",
 }
 
+-- These refuse arguments themselves, and say what to do.
+local own = checks.set "channel:force channel:close channel:open scene:tie"
+
 -- Returns how many arguments a call takes, from its arguments in words; nil: any number.
 local function count_of(arguments)
   if not arguments or arguments:find("...", 1, true) and not arguments:find "{%.%.%.}" then return nil end
@@ -68,7 +71,7 @@ function counts.install(made)
   end
   for name, call in pairs(rows.all) do
     local kind, verb = name:match "^([%a_]+):([%a_]+)$"
-    local most = count_of(call.arguments)
+    local most = not own[name] and count_of(call.arguments) or nil
     local is_bare = bare[kind] and (" " .. bare[kind] .. " "):find(" " .. verb .. " ", 1, true)
     local class = made[kind] or core.class[kind]
     local method = class and rawget(class, verb)
