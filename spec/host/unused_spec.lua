@@ -57,6 +57,18 @@ describe("what no run uses is told:", function()
     end
   end)
 
+  it("lengths in mm that are read as m", function()
+    for code, text in pairs{
+      ["scene:run{ duration = 0.01, tolerance = 1 }"] = "tolerance = 1 m is above 0.02 m",
+      ["scene:obstacle{ shape = 'box', size = { 100, 1, 1 }, at = { 0, 0, 9 } }"] =
+        "size = 100 m is above 50 m",
+      ["scene:obstacle{ shape = 'sphere', radius = 5, at = { 0, 0, 9 } }"] =
+        "radius = 5 m is above 4 m" } do
+      local _, err = script(made .. code)
+      assert.truthy(err:find(text .. "; did you mean sw.units.mm(", 1, true), err)
+    end
+  end)
+
   it("an observer", function()
     local _, err = script(made .. "scene:observe{ every = 50, call = print }\nscene:run{ duration = 0.1 }")
     assert.truthy(err:find("note: the observer at script.lua:5 was never called: every = 50 s is longer than "

@@ -22,6 +22,31 @@ describe("a file of another program", function()
     return folder
   end
 
+  -- Stands for gnuplot and ffmpeg on a full disk: they write a part and report no error.
+  it("is refused by run:chart and run:film if it is cut short", function()
+    local folder = program.folder()
+    for _, name in ipairs{ "gnuplot", "ffmpeg" } do
+      program.write(folder .. "/" .. name, "#!/bin/sh\ncat >/dev/null </dev/stdin\nprintf '<svg>'\n")
+    end
+    program.write(folder .. "/a.lua", [[
+local sw = require "softworld"
+local scene = sw.scene{}
+scene:clamp(scene:wire{ cable = "GXL 1.5", segments = 8, from = { 0, 0, 0 }, to = { 0.3, 0, 0 } }, { s = 0 })
+local run = scene:run{ duration = 0.1 }
+print(select(2, pcall(run.chart, run, { path = arg[1] .. "/a.svg" })))
+print(select(2, pcall(run.film, run, arg[1] .. "/a.gif", { width = 100 })))
+]])
+    os.execute("chmod +x " .. program.quote(folder) .. "/gnuplot " .. program.quote(folder) .. "/ffmpeg")
+    local command = "PATH=%s:$PATH %s %s/a.lua %s 2>&1 </dev/null"
+    local pipe = assert(io.popen(command:format(folder, program.path, folder, folder)))
+    local out = pipe:read "a"
+    pipe:close()
+    for _, kind in ipairs{ "svg", "gif" } do
+      assert.truthy(out:find(("a.%s: the file was cut short"):format(kind), 1, true), out)
+      assert.is_nil(io.open(folder .. "/a." .. kind))
+    end
+  end)
+
   it("is kept if it is whole, and refused if it is cut short", function()
     local folder = written()
     for _, kind in ipairs{ "svg", "png", "pdf", "gif", "webm" } do
