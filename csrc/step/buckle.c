@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Divides steps in which a pushed wire buckles. The bend of a wire that is pushed along its length
- * grows like exp(r t). Methods for long steps damp what a step cannot follow, also this growth, so
- * a stiff cable bears the more the longer the steps are. */
+ * grows like exp(r t), with 1/r of about a millisecond for a cable. In a step of several 1/r an
+ * implicit method lets it grow too fast or not at all, so the step decides the push that the wire
+ * bears. */
 #include "step/buckle.h"
 
 #include <math.h>
@@ -50,13 +51,13 @@ double sw_buckle_part(double h, double over) {
   return fmin(h, fmax(SHORTEST, h * exp2(-ceil(log2(over)))));
 }
 
+/* Tells of a part that is too long, because parts are not shorter or steps are not divided. */
 static void tell(sw_scene *s, size_t w, double h, double rate) {
   const char *name = sw_scene_wire_in(s, w)->name;
-  sw_scene_tell(
-      s, "coarse", name, NAN, rate * h,
-      "wire '%s' is pushed and buckles: its bend grows %.3g times in a step or part of "
-      "%.3g ms: the push may be wrong; run again with dt = %.2g s and compare",
-      name, exp(fmin(rate * h, 99.0)), 1e3 * h, MOST / rate);
+  sw_scene_tell(s, "coarse", name, NAN, rate * h,
+                "wire '%s' is pushed and buckles: its bend grows %.3g times in a step or part of "
+                "%.3g ms: the push may be wrong; run again with dt = %.2g s and compare",
+                name, exp(fmin(rate * h, 99.0)), 1e3 * h, MOST / rate);
 }
 
 void sw_buckle_taken(sw_scene *s, double h) {

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- A straight cable lies on a table. A gripper pushes one end towards the other, which is held. The cable
 -- bears the push while its bend grows like exp(r t), with 1/r of about a millisecond. Steps of 5 to 20 ms
--- damped this growth, and peaks depended on the step: of the 60 pushes drawn by seeds 1 to 60, 40 had
+-- follow this growth wrongly, and peaks depended on the step: of the 60 pushes drawn by seeds 1 to 60, 40 had
 -- a peak or a radius that was off by more than 5 % at one of the steps below. Now such a step is divided into
 -- parts (substeps), and one of the 60 has: seed 24 at 20 ms buckles to another side.
 local sw = require "softworld"
