@@ -21,8 +21,8 @@
 static const double MOST = 0.5;
 /* The event "coarse" comes above this growth in a part that was taken [-]. */
 static const double TOLD = 4.0;
-/* Shortest part [s]. */
-static const double SHORTEST = 1e-4;
+/* Shortest part; rounding of parts [s], [-]. */
+static const double SHORTEST = 1e-4, ROUNDING = 1e-6;
 /* After this much growth, as its logarithm, even a bend from rounding is as large as the wire. A
  * push that goes on is borne: by walls on both sides, or by perfect symmetry [-]. */
 static const double ENOUGH = 40.0;
@@ -46,8 +46,9 @@ double sw_buckle_of(const sw_scene *s, double h) {
   return most;
 }
 
+/* A part that is cut by rounding only would be tried for ever. */
 double sw_buckle_part(double h, double over) {
-  if (!(over > 1.0)) return h;
+  if (!(over > 1.0) || h <= SHORTEST * (1.0 + ROUNDING)) return h;
   return fmin(h, fmax(SHORTEST, h * exp2(-ceil(log2(over)))));
 }
 

@@ -35,6 +35,8 @@ typedef struct parts {
   double doubted;    /* coarse part instead of which a shorter one is tried; 0: none [s] */
   double struck; /* part in which a blow was found; 0: none, or a part short enough for the blow has
                     converged [s] */
+  double grew;   /* part instead of which a shorter one is tried, because a pushed wire buckles; 0:
+                    none [s] */
   int unfollowed;  /* 1: that part is tried again and taken */
   double over;     /* error of the last part tried, over the allowed one [-] */
   double left;     /* the same of a part that cannot be shorter; 0: its error is allowed [-] */
@@ -103,13 +105,14 @@ static int is_too_long(const sw_ladder *p, parts *k, int *may_grow) {
   const int divides = p->args->parts && sw_coarse_applies(p->s);
   const double closes = divides ? sw_jaw_closes(p->s, k->part) : 0.0;
   const double passes = fmax(closes, sw_passing_of(p->s, sw_scene_course(p->s)->stepper.trial_x));
-  const double grows = divides ? sw_buckle_of(p->s, k->part) : 0.0;
+  const double grows = divides && !k->rough ? sw_buckle_of(p->s, k->part) : 0.0;
   const double shorter = sw_buckle_part(sw_passing_part(k->part, passes), grows);
   if (!(shorter < k->part)) {
     const int coarse = is_coarse(p, k, may_grow);
     *may_grow &= passes <= 0.5 && grows <= 0.5;
     return coarse;
   }
+  if (grows > 1) k->grew = k->part;
   k->part = shorter;
   return 1;
 }
@@ -126,7 +129,7 @@ static double first_part(const sw_scene *s, double h) {
 
 static sw_status take(sw_ladder *p, parts *k, int may_grow, sw_error *err) {
   k->done += k->part;
-  k->struck = 0, k->unfollowed = 0;
+  k->struck = k->grew = 0, k->unfollowed = 0;
   k->longest = fmax(k->longest, k->part);
   const int applies = sw_coarse_applies(p->s);
   if (!k->rough || (p->args->parts && !applies)) sw_coarse_tell(p->s, k->part);
@@ -144,12 +147,14 @@ static sw_status take(sw_ladder *p, parts *k, int may_grow, sw_error *err) {
   return SW_OK;
 }
 
-/* Returns the size of an earlier part that converged and may be taken after all: a coarse one, or
- * one with a blow that cannot be resolved; 0: there is none [s]. */
+/* Returns the size of an earlier part that converged and may be taken after all: a coarse one, one
+ * with a blow that cannot be resolved, or one in which a pushed wire buckles; 0: there is none
+ * [s]. */
 static double part_that_went(const sw_ladder *p, const parts *k) {
   const int followed = isfinite(sw_blow_part(p->s, HUGE_VAL));
   if (k->cut) return 0;
-  return k->doubted > 0 ? k->doubted : followed ? 0.0 : k->struck;
+  if (k->doubted > 0) return k->doubted;
+  return !followed && k->struck > 0 ? k->struck : k->grew;
 }
 
 /* Sets a smaller part, or an earlier one that converged; returns the status if there is none. */
@@ -169,7 +174,7 @@ static sw_status refuse(sw_ladder *p, parts *k, sw_status status, const sw_error
   }
   if (went > 0) {
     k->rough = 1, k->unfollowed = 1;
-    k->part = went, k->doubted = k->struck = 0;
+    k->part = went, k->doubted = k->struck = k->grew = 0;
     return SW_OK;
   }
   k->part = k->cut ? p->soonest : 0.5 * k->part;
