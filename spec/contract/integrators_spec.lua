@@ -39,7 +39,8 @@ end
 
 -- Returns the share that one step leaves of an axial wave a thousand times too fast for it (mean of forty
 -- equal steps), and what is left after three steps. The wave is started with steps that resolve it, because
--- a method's start may damp it.
+-- a method's start may damp it. A wave that pushes the wire would get parts of steps (step/buckle.c), but
+-- the share is that of whole steps.
 local function left_over(method)
   local scene = sw.core.scene{ gravity = { 0, 0, 0 } }
   local wire = scene:wire{ EA = 1e4, EI = 1e-3, GJ = 1e-3, mass_per_length = 0.1, radius = 0.002,
@@ -50,7 +51,7 @@ local function left_over(method)
   scene:advance({ dt = 0.05 * period, integrator = method.name }, period)
   for i = 1, 60 do
     local dt = 1000 * period
-    assert.is_true(scene:advance({ dt = dt, integrator = method.name }, period + i * dt).ok)
+    assert.is_true(scene:advance({ dt = dt, integrator = method.name, parts = false }, period + i * dt).ok)
     local x, v = wire:positions(), wire:velocities()
     size[i] = math.abs(x[7] - 1)
     if i == 3 then size.soon = (v[4] ^ 2 + v[7] ^ 2) ^ 0.5 / 0.1 end
