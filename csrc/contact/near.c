@@ -11,21 +11,16 @@ static void take(sw_places *list, sw_vec wire) {
   place->edge = sw_v(0, 0, 0), place->wire = wire, place->faint = 0;
 }
 
-/* Adds the obstacle's nearest place to a point of the candidate's segment; `at`: place on the
- * segment. */
-static void near_point(const sw_shape *shape, sw_vec wire, double at, double reach,
-                       sw_places *list) {
+/* Adds the obstacle's nearest place to a point of the candidate's segment, or to its particle;
+ * `at`: place on the segment. */
+static void near_point(const sw_contact *c, const sw_candidate *k, sw_vec wire, double at,
+                       double reach, sw_places *list) {
   sw_closest *near = &list->place[list->count].near;
-  if (!sw_shape_point(shape, wire, reach, near)) return;
+  const int rims = !k->segment && sw_pad_has_rims(c, k->obstacle);
+  if (!(rims ? sw_pad_point(c, k, wire, reach, near)
+             : sw_shape_point(c->obstacles[k->obstacle].shape, wire, reach, near)))
+    return;
   near->at = at;
-  take(list, wire);
-}
-
-static void near_rim(const sw_contact *c, const sw_candidate *k, sw_vec wire, double reach,
-                     sw_places *list) {
-  sw_closest *near = &list->place[list->count].near;
-  if (!sw_pad_point(c, k, wire, reach, near)) return;
-  near->at = 0;
   take(list, wire);
 }
 
@@ -41,17 +36,14 @@ void sw_contact_near(const sw_contact *c, const sw_system *s, const sw_candidate
   const sw_pose *pose = &at[k->obstacle].pose;
   const sw_vec a = sw_pose_local(*pose, sw_contact_where(c, x, k->node, k->node, 0));
   if (!k->segment) {
-    if (sw_pad_has_rims(c, k->obstacle))
-      near_rim(c, k, a, reach, list);
-    else
-      near_point(shape, a, 0, reach, list);
+    near_point(c, k, a, 0, reach, list);
     if (list->count && k->smooth && sw_contact_is_segments(c, s, k, at, x, &list->place[0].near))
       list->count = 0;
     return;
   }
   const sw_vec b = sw_pose_local(*pose, sw_contact_where(c, x, k->other, k->other, 0));
   for (int i = 0; i < k->samples; i++)
-    near_point(shape, sw_lerp(a, b, sw_sample_at(k, i)), sw_sample_at(k, i), reach, list);
+    near_point(c, k, sw_lerp(a, b, sw_sample_at(k, i)), sw_sample_at(k, i), reach, list);
   const int n = k->samples ? 0 : sw_shape_segment(shape, a, b, reach, near);
   for (int i = 0; i < n; i++) {
     if (k->round && sw_contact_is_rounds(c, k, a, b, near[i].at)) continue;

@@ -106,14 +106,14 @@ static int is_too_long(const sw_ladder *p, parts *k, int *may_grow) {
   const double closes = divides ? sw_jaw_closes(p->s, k->part) : 0.0;
   const double passes = fmax(closes, sw_passing_of(p->s, sw_scene_course(p->s)->stepper.trial_x));
   const double grows = divides && !k->rough ? sw_buckle_of(p->s, k->part) : 0.0;
-  const double shorter = sw_buckle_part(sw_passing_part(k->part, passes), grows);
-  if (!(shorter < k->part)) {
+  const double passed = sw_passing_part(k->part, passes), bent = sw_buckle_part(k->part, grows);
+  if (!(fmin(passed, bent) < k->part)) {
     const int coarse = is_coarse(p, k, may_grow);
     *may_grow &= passes <= 0.5 && grows <= 0.5;
     return coarse;
   }
-  if (grows > 1) k->grew = k->part;
-  k->part = shorter;
+  if (!(passed < k->part)) k->grew = k->part; /* may be taken, if the shorter one fails */
+  k->part = fmin(passed, bent);
   return 1;
 }
 

@@ -5,6 +5,8 @@
 
 /* Edges with at least this share of the largest push are pushed [-]. */
 static const double PUSHED = 0.5;
+/* Bend of a real wire over its length [-]. */
+static const double CROOKED = 1e-3;
 
 static double push_in(const sw_system *system, const sw_body *b, size_t e) {
   return fmax(0, -system->tension[b->first_edge + e]);
@@ -38,8 +40,7 @@ static sw_pushed next_piece(const sw_system *system, const sw_body *b, size_t fi
 static double rate_of(const sw_beam *beam, double gravity, const sw_pushed *p) {
   const double longest = 2 * M_PI / p->length;
   const double k2 = fmax(p->push / (2 * beam->EI), longest * longest);
-  const double r2 =
-      k2 * (p->push - beam->EI * k2) / beam->mass - gravity / (SW_CROOKED * p->length);
+  const double r2 = k2 * (p->push - beam->EI * k2) / beam->mass - gravity / (CROOKED * p->length);
   return r2 > 0 ? sqrt(r2) : 0;
 }
 

@@ -12,9 +12,6 @@ typedef struct sw_pushed {
   size_t edge;         /* in its middle */
 } sw_pushed;
 
-/* Bend of a real wire over its length [-]. */
-#define SW_CROOKED 1e-3
-
 /* Returns the fastest rate at which a small bend of one of the wire's pieces grows under the
  * tensions evaluated last; 0: no push is large enough [1/s]. *most: that piece. gravity [m/s2]. */
 double sw_pushed_rate(const sw_system *system, const sw_body *body, double gravity,

@@ -36,20 +36,17 @@ static sw_vec middle_of(const sw_system *system, const sw_body *b, size_t node) 
   return sw_web_centre(web, system->x + 3 * b->first_node, ring);
 }
 
-static sw_status add_touch(sw_scene *s, const sw_body *b, const sw_contact_push *p, grasp *g,
-                           sw_error *err) {
-  const sw_scene_obstacle *o = sw_scene_obstacle_in(s, p->obstacle);
-  sw_motion_state at;
-  SW_TRY(sw_drive_eval(s, &o->drive, sw_scene_time(s), &at, err));
-  const sw_vec force = sw_unrotate(at.pose.q, p->force);
-  const double side = copysign(1.0, sw_pose_local(at.pose, p->point).y);
-  const sw_vec arm = sw_sub(p->acts, middle_of(sw_scene_system(s), b, p->node));
-  const sw_vec width = sw_rotate(at.pose.q, sw_v(1, 0, 0));
+/* pad: its pose. */
+static void add_touch(const sw_system *system, const sw_body *b, sw_pose pad,
+                      const sw_contact_push *p, grasp *g) {
+  const sw_vec force = sw_unrotate(pad.q, p->force);
+  const double side = copysign(1.0, sw_pose_local(pad, p->point).y);
+  const sw_vec arm = sw_sub(p->acts, middle_of(system, b, p->node));
+  const sw_vec width = sw_rotate(pad.q, sw_v(1, 0, 0));
   g->along = sw_madd(g->along, width, force.x);
   g->turning = sw_madd(g->turning, width, sw_dot(width, sw_cross(arm, p->force)));
   g->squeeze += side * force.y, g->friction += p->friction * side * force.y;
   if (fabs(force.x) > g->hardest) g->hardest = fabs(force.x), g->place = p->place;
-  return SW_OK;
 }
 
 static void tell(sw_scene *s, size_t wire, const sw_tool *t, const grasp *g) {
@@ -78,11 +75,14 @@ static sw_status look_at(sw_scene *s, size_t wire, const sw_tool *t, sw_error *e
   grasp g = {.hardest = 0};
   size_t first, end;
   sw_contact_touches_of(contact, b->first_node, b->first_node + b->plan->nodes, &first, &end);
-  for (size_t k = first; k < end; k++) {
+  for (size_t i = 0; i < t->pads; i++) {
+    const size_t pad = t->pad[i].obstacle;
+    sw_motion_state at;
     sw_contact_push p;
-    if (sw_tool_is_pad(t, sw_contact_pusher(contact, k)) &&
-        sw_contact_push_at(contact, system, k, &p))
-      SW_TRY(add_touch(s, b, &p, &g, err));
+    SW_TRY(sw_drive_eval(s, &sw_scene_obstacle_in(s, pad)->drive, sw_scene_time(s), &at, err));
+    for (size_t k = first; k < end; k++)
+      if (sw_contact_pusher(contact, k) == (int)pad && sw_contact_push_at(contact, system, k, &p))
+        add_touch(system, b, at.pose, &p, &g);
   }
   tell(s, wire, t, &g);
   return SW_OK;

@@ -27,6 +27,7 @@ static const double ABOVE = 1.5;
  * times over. A wire that is bent by a few millionths of its length, as by its weight, has left its
  * line, too [-]. */
 static const double GROWTH = 8.0;
+
 /* How far a wire has left its line. */
 enum { STRAIGHT_ON, IN_PLANE, LEFT };
 
