@@ -105,7 +105,7 @@ static int is_too_long(const sw_ladder *p, parts *k, int *may_grow) {
   const int divides = p->args->parts && sw_coarse_applies(p->s);
   const double closes = divides ? sw_jaw_closes(p->s, k->part) : 0.0;
   const double passes = fmax(closes, sw_passing_of(p->s, sw_scene_course(p->s)->stepper.trial_x));
-  const double grows = divides && !k->rough ? sw_buckle_of(p->s, k->part) : 0.0;
+  const double grows = divides && !k->unfollowed ? sw_buckle_of(p->s, k->part) : 0.0;
   const double passed = sw_passing_part(k->part, passes), bent = sw_buckle_part(k->part, grows);
   if (!(fmin(passed, bent) < k->part)) {
     const int coarse = is_coarse(p, k, may_grow);
@@ -168,7 +168,8 @@ static sw_status refuse(sw_ladder *p, parts *k, sw_status status, const sw_error
   sw_restart_refused(p, k->cut);
   const double went = part_that_went(p, k), half = 0.5 * k->part;
   const int shock = sw_coarse_is_shock(k->over); /* whole parts damp shocks, parts follow them */
-  if (k->doubted > 0 && went > 0 && !shock && half >= sw_coarse_shortest(p->args->dt)) {
+  const int halves = k->doubted > 0 ? !shock : k->grew > 0;
+  if (halves && went > 0 && half >= sw_coarse_shortest(p->args->dt)) {
     k->part = half;
     return SW_OK;
   }

@@ -71,6 +71,19 @@ describe("a straight cable that a gripper pushes to a held end", function()
     end)
   end
 
+  -- A shorter part that did not converge was once given up for the whole step of 20 ms: 7.7 for 12.3 N.
+  it("does so if a part fails on the way", function()
+    for _, cable in ipairs{ "GXL 0.5", "GXL 1.5", "H07V-K 4" } do
+      local o = { cable = cable, L = 0.45, by = { 0.135, 0.045, 0.045 }, speed = 0.2, segments = 45,
+        friction = 0.35, run = { dt = 1.25e-3 } }
+      local peak = pushed(o)
+      for _, dt in ipairs{ 0.02, 0.01 } do
+        o.run = { dt = dt }
+        t.share(peak, (pushed(o)), 0.05, "peak [N]")
+      end
+    end
+  end)
+
   it("does so in a turned scene, with its ends swapped, and with other edges", function()
     for _, seed in ipairs{ seeds[1], seeds[2] } do
       local o = drawn(seed)
