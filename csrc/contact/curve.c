@@ -9,8 +9,9 @@
 static const double QUARTER = 0.25;
 /* There is no foot between directions closer to parallel than PARALLEL. Nodes touch edges up to the
  * angle NEARLY. The two limits overlap, because a node's tangent differs from the curve's; so no
- * place is missed. Squared sines [-]. */
-static const double PARALLEL = 0.005, NEARLY = 0.02;
+ * place is missed. A known touch stays up to STILL: its push turns the wire, and with one limit it
+ * would come and go from iterate to iterate. Squared sines [-]. */
+static const double PARALLEL = 0.005, STILL = 0.00125, NEARLY = 0.02;
 enum { MOST_TURNS = 6 };                 /* most iterations for the foot [-] */
 static const double SHARP_ENOUGH = 1e-9; /* tolerance of the foot, share of an edge [-] */
 static const double NO_LENGTH = 1e-6; /* squared share of an edge that counts as no distance [-] */
@@ -77,7 +78,7 @@ static int find_foot(const sw_piece *c, sw_place *place, double low, double high
     w = sw_sub(on.x, q);
     const sw_vec off = sw_madd(w, e, -sw_dot(e, w));
     const double across2 = sw_norm2(sw_madd(on.along, e, -sw_dot(e, on.along)));
-    if (!(across2 > PARALLEL * sw_norm2(on.along))) return 0;
+    if (!(across2 > (place->known ? STILL : PARALLEL) * sw_norm2(on.along))) return 0;
     const double rise = across2 + sw_dot(on.bend, off);
     const double ahead = -sw_dot(on.along, off) / (rise > 0 ? rise : across2);
     if (turn == MOST_TURNS || fabs(ahead) < SHARP_ENOUGH) break;
@@ -151,6 +152,7 @@ sw_place sw_contact_place_of(const sw_contact *c, const sw_touch *t) {
                              .normal = sw_rotate(back, t->press.normal),
                              .feature = t->feature},
                     .sharp = t->sharp,
+                    .known = 1,
                     .edge = t->edge};
 }
 

@@ -20,6 +20,7 @@ typedef struct sw_piece {
 typedef struct sw_place {
   sw_closest near; /* in the obstacle's coordinates */
   sw_sharp sharp;
+  int known;    /* 1: it touched in the last iterate or step */
   sw_vec edge;  /* unit direction of the edge, or 0 [-] */
   sw_vec along; /* unit direction of the curve there [-] */
   sw_vec wire;  /* without an edge: the wire's position, in the obstacle's coordinates [m] */

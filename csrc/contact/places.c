@@ -107,6 +107,7 @@ static void of_segment(const sw_piece *c, const sw_shape *shape, const sw_candid
 }
 
 typedef struct search {
+  const sw_contact *c;
   const sw_piece *piece;
   const sw_shape *shape;
   const sw_candidate *k;
@@ -126,10 +127,21 @@ static int begin_at(const search *q, const sw_ridge *r, double *u) {
   return sw_norm2(sw_madd(off, r->along, -sw_dot(r->along, off))) < most * most;
 }
 
+/* 1 if the candidate touched this edge or corner in the last iterate or step. */
+static int is_known(const search *q, int feature) {
+  const sw_contact *c = q->c;
+  for (size_t i = q->k->last; i < q->k->last_end; i++)
+    if (c->last[i].sharp && c->last[i].feature == feature) return 1;
+  for (size_t i = q->k->memory; c->memory && i < q->k->memory_end; i++)
+    if (c->memory[i].feature == feature) return 1;
+  return 0;
+}
+
 static void try_ridge(void *user, const sw_ridge *r) {
   search *q = user;
   sw_place place = {.near = {.point = r->from, .normal = {0, 0, 0}, .feature = r->feature},
                     .sharp = r->sharp,
+                    .known = is_known(q, r->feature),
                     .edge = r->along};
   sw_closest *near = &place.near;
   if (!begin_at(q, r, &near->at) || !sw_contact_follow(q->piece, &place)) return;
@@ -157,7 +169,7 @@ static void put_in_order(sw_places *list) {
 void sw_contact_places(const sw_contact *c, const sw_candidate *k, const sw_piece *piece,
                        double reach, sw_places *list) {
   const sw_shape *shape = c->obstacles[k->obstacle].shape;
-  search q = {piece, shape, k, reach, list, 0};
+  search q = {c, piece, shape, k, reach, list, 0};
   list->count = 0;
   if (k->round) {
     sw_contact_round_places(piece, reach, list);
