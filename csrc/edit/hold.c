@@ -238,7 +238,8 @@ sw_status sw_scene_release_hold(sw_scene *s, sw_handle hold, sw_error *err) {
   sw_motion_state now;
   SW_TRY(sw_drive_eval(s, &h->drive, sw_scene_time(s), &now, err));
   SW_TRY(sw_scene_unbuild(s));
-  h->alive = 0; /* its own places may move */
+  if (h->watch.crashing) sw_scene_let_out(s); /* as a wire that begins inside an obstacle */
+  h->alive = 0;                               /* its own places may move */
   const sw_body_class *body = sw_body_class_of(sw_scene_wire_in(s, h->wire));
   if (body->let_go && body->let_go(s, h) != SW_OK)
     return h->alive = 1, sw_fail(err, SW_ENOMEM, "%s: out of memory", h->name);

@@ -43,17 +43,42 @@ local function driven_into(events, obstacle, wire)
   return by, since
 end
 
+-- Returns a phrase for the first of what ran deep into an obstacle, or nil.
+local function crash_of(events)
+  local first
+  for _, e in ipairs(events) do
+    local name = e.kind == "crash"
+      and (e.text:match " deep into '(.-)'; " or e.text:match " deep into '(.*)'$")
+    if name and not (first and first.first <= e.first) then
+      first = { first = e.first, by = e.object, into = name }
+    end
+  end
+  return first and ("another path: that of '%s' leads into '%s' from t = %.3f s on"):format(first.by,
+    first.into, first.first)
+end
+
 -- Returns a phrase for a wire that its own path presses against an obstacle, or nil.
 local function path_of(reason, scene)
   local name, wire = reason:match "; obstacle '(.-)' presses '(.-)' with "
-  if not name then return nil end
+  if not name then return crash_of(scene:events()) end
   local by, since = driven_into(scene:events(), name, wire)
   if by then
     return ("another path: that of '%s' leads into '%s' from t = %.3f s on"):format(by, name, since)
   end
+  local crash = crash_of(scene:events())
+  if crash then return crash end
   since = reason:find("is crushed", 1, true) and reason:match ", after touching since t = (%S+) s"
   return since and ("another path: '%s' and '%s' are pressed into each other from t = %s s on; or a smaller "
     .. "force, or a finer mesh"):format(wire, name, since)
+end
+
+--- Returns the reason of a failed run with what to try next. After a crash smaller steps do not help, but
+-- another path.
+function advice.added(reason, args, scene)
+  local smaller = reason:find("; take smaller steps", 1, true)
+  local phrase = not smaller and advice.of(reason, args, scene) or scene and path_of(reason, scene)
+  if not phrase then return reason end
+  return ("%s; try %s"):format(smaller and reason:sub(1, smaller - 1) or reason, phrase)
 end
 
 --- Returns a phrase that follows "try". scene: that of the run, if known.

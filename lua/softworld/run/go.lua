@@ -164,9 +164,7 @@ function go.once(scene, args, level, hindrance)
   note_time()
   total.reason, total.scene, total.name = reason, scene, scene.name
   ledger.close(total)
-  if not total.ok and not level and not total.reason:find("take smaller steps", 1, true) then
-    total.reason = ("%s; try %s"):format(total.reason, advice.of(total.reason, args, scene))
-  end
+  if not total.ok and not level then total.reason = advice.added(total.reason, args, scene) end
   total.restores, total.cut = data.restores, cut
   data.runs = (data.runs or 0) + 1
   total.number, total.present, total.holding = data.runs, present(data), holding.now(scene)
