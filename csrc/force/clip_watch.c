@@ -272,7 +272,8 @@ void sw_clip_begin_run(double *history) { history[SW_CLIP_RUN_PEAK] = -1; }
 static const double OFF = 0.25, WIDE = 0.6, BENDS = 0.01;
 
 void sw_clip_watch_edges(const sw_clip *c, const sw_clip_middle *m, double EI, double *h) {
-  if (h[SW_CLIP_NEWS] != SW_CLIP_NO_NEWS || h[SW_CLIP_STATE] != SW_CLIP_SEATED) return;
+  const int in = h[SW_CLIP_STATE] == SW_CLIP_SEATED || h[SW_CLIP_STATE] == SW_CLIP_INSERTING;
+  if (h[SW_CLIP_NEWS] != SW_CLIP_NO_NEWS || !in) return;
   if (!(m->edge > WIDE * c->width)) return;
   if (sw_norm(m->force) * m->edge * m->edge > 2.0 * BENDS * EI)
     tell(h, SW_CLIP_LONG_EDGES, m->edge, m->s);
@@ -281,11 +282,11 @@ void sw_clip_watch_edges(const sw_clip *c, const sw_clip_middle *m, double EI, d
 static void write_edges(const sw_clip_args *args, double edge, sw_force_news *out) {
   const double share = edge / args->width;
   out->kind = "edges";
-  snprintf(
-      out->text, sizeof out->text,
-      "edges of %.3g mm in a clip of %.3g mm: bend radii beside it may be %.0f %% off; try edges "
-      "of %.3g mm (2 %%)",
-      1e3 * edge, 1e3 * args->width, 100.0 * OFF * share * share, 250.0 * args->width);
+  snprintf(out->text, sizeof out->text,
+           "edges of %.3g mm in a clip of %.3g mm: bend radii beside it may be %.0f %% off, forces "
+           "of holds too; try edges "
+           "of %.3g mm (2 %%)",
+           1e3 * edge, 1e3 * args->width, 100.0 * OFF * share * share, 250.0 * args->width);
 }
 
 /* Says with which part of the lips' force a wire passed them, and why. */

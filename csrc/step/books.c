@@ -295,6 +295,7 @@ sw_status sw_scene_end_run(sw_scene *s, sw_error *why) {
   const double share = l->play > 0 ? l->gained / l->play : 0.0;
   sw_scene_end_breaking(s);
   sw_scene_end_corners(s);
+  sw_scene_end_bends(s);
   sw_scene_end_inside(s);
   sw_scene_end_joints(s);
   tell_retries(s, "accepted although they made energy, because smaller steps made energy too",

@@ -64,6 +64,17 @@ static double edge_at(const sw_mesh *m, double s) {
   return fmin(before, after);
 }
 
+/* Path over mesh [-]. */
+static double scale_of(const sw_scene_wire *w) {
+  return length_of(&w->drawing) / (w->drawing.length * w->mesh.scale);
+}
+
+double sw_corner_turn(const sw_scene_wire *w, double s, double reach) {
+  if (w->drawing.count < 3) return 0;
+  const double scale = scale_of(w);
+  return corner_near(&w->drawing, s * scale, reach * scale).turn;
+}
+
 static void tell(sw_scene *s, const sw_scene_wire *w, const sw_extreme *bend, corner c,
                  double edge) {
   const int rest = w->beam.curved;
@@ -83,7 +94,7 @@ static void watch(sw_scene *s, const sw_scene_wire *w) {
   const sw_drawing *d = &w->drawing;
   if (d->count < 3 || w->strand.web || !(w->beam.EI > 0) || !(bend->value > 0)) return;
   if (w->extremes.sharp.uneven < ALONE) return;
-  const double scale = length_of(d) / (d->length * w->mesh.scale); /* path over mesh [-] */
+  const double scale = scale_of(w);
   const double edge = edge_at(&w->mesh, bend->s);
   const corner c = corner_near(d, bend->s * scale, SPREAD * edge * scale);
   if (!(c.turn > 0) || edge > RESOLVED * c.apart || bend->value * edge > MOST * c.turn) return;

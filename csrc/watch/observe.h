@@ -31,6 +31,10 @@ void sw_scene_watch_between(sw_scene *scene, size_t wire, const sw_wire_extremes
 /* Reports rods whose sharpest bend of the run is a corner of the path they were drawn along. Call
  * at the end of a run. */
 void sw_scene_end_corners(sw_scene *scene);
+/* Turn of the sharpest corner of the path that a wire was drawn along, within reach of s [rad]. */
+double sw_corner_turn(const struct sw_scene_wire *wire, double s, double reach);
+/* Reports bends that take only an edge or two; once per run, at its end, after other events. */
+void sw_scene_end_bends(sw_scene *scene);
 /* Reports lines that lie inside an obstacle with edges. Call at the end of a run. */
 void sw_scene_end_inside(sw_scene *scene);
 /* Reports joints that pass no twist where this may count. Call at the end of a run. */
