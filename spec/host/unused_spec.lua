@@ -91,7 +91,7 @@ describe("what no run uses is told:", function()
 
   it("a wire that did not go into a clip, unless the script asks the clip", function()
     local clip = [[
-local clip = scene:clip{ name = "c", at = { 0.1, 0, -0.02 }, width = 0.02, insertion = 80, retention = 200 }
+local clip = scene:clip{ name = "c", at = { 0.1, 0, -0.02 }, width = 0.04, insertion = 80, retention = 200 }
 local hand = scene:gripper{ name = "hand" }
 scene:process(function()
   hand:grasp(wire, { s = 0.11 })
