@@ -18,11 +18,15 @@ local step_share = 0.02
 local longest_step = 0.01 -- default dt [s]
 local at_rest = 1e-6      -- a scene is at rest if settling moves a wire by less, over its length [-]
 
+local integrators -- by name; the core lists all its registries anew at each call, which costs half a ms
+
 -- Returns the registry's entry of an integrator.
 local function method_of(name)
-  for _, m in ipairs(core.registry().integrators) do
-    if m.name == (name or "tr-bdf2") then return m end
+  if not integrators then
+    integrators = {}
+    for _, m in ipairs(core.registry().integrators) do integrators[m.name] = m end
   end
+  return integrators[name or "tr-bdf2"]
 end
 
 -- Returns the function that gives the options of the run of level k.
