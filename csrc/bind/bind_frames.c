@@ -274,8 +274,9 @@ static int mod_frames_sweep(lua_State *L) {
   return 4;
 }
 
-/* core.frames_apart(scene, w, v, start [s], enough [m], most [m] or nil) -> least distance of the
- * axes of wires w and v [m]; the search stops below enough and ignores distances above most */
+/* core.frames_apart(scene, w, v, start [s], enough [m], most [m] or nil, straight) -> least
+ * distance of the axes of wires w and v [m]; the search stops below enough and ignores distances
+ * above most. straight: without their bow beside edges */
 static int mod_frames_apart(lua_State *L) {
   const sw_scene *scene = lsw_check_scene(L);
   const size_t w = wire_index(L, 2, scene), v = wire_index(L, 3, scene);
@@ -283,7 +284,8 @@ static int mod_frames_apart(lua_State *L) {
   const int bound = !lua_isnoneornil(L, 6);
   const sw_apart_request request = {
       .enough = lsw_number(L, 5, "frames_apart: enough", "m"),
-      .most = bound ? lsw_number(L, 6, "frames_apart: most", "m") : HUGE_VAL};
+      .most = bound ? lsw_number(L, 6, "frames_apart: most", "m") : HUGE_VAL,
+      .straight = lua_toboolean(L, 7)};
   double apart = 0;
   sw_error err = {""};
   lsw_must(L, sw_scene_frames_apart(scene, start, w, v, &request, &apart, &err), &err);

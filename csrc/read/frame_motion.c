@@ -120,7 +120,7 @@ typedef struct duo {
 } duo;
 
 /* Finds the edges of a line, one fewer than its nodes. Returns their number. */
-static size_t edges_of(const line *l, edge *edges) {
+static size_t edges_of(const line *l, int straight, edge *edges) {
   const size_t count = l->count > 0 ? l->count - 1 : 0;
   double angle = 0, turn = 0;
   for (size_t i = 0; i < count; i++) {
@@ -130,7 +130,7 @@ static size_t edges_of(const line *l, edge *edges) {
     e.half = sw_norm(e.way) / 2;
     for (size_t k = 0; k < 2 && l->before; k++)
       e.moved[k] = sw_sub(node(l->x, i + k), node(l->before, i + k));
-    e.bows = e.half * fmax(angle, next) / 4; /* sagitta of an arc */
+    e.bows = straight ? 0 : e.half * fmax(angle, next) / 4; /* sagitta of an arc */
     e.off = fmax(moved(l, i), moved(l, i + 1)) + e.bows;
     edges[i] = e, angle = next;
   }
@@ -253,8 +253,8 @@ static sw_status new_rows(const sw_scene *s, size_t w, rows *r) {
   return r->edges && r->rows ? SW_OK : SW_ENOMEM;
 }
 
-static void rows_of(const line *l, rows *r) {
-  r->edge_count = edges_of(l, r->edges);
+static void rows_of(const line *l, int straight, rows *r) {
+  r->edge_count = edges_of(l, straight, r->edges);
   make_rows(r);
 }
 
@@ -266,12 +266,12 @@ static double look_at_frames(const sw_scene *s, double start, duo *d, rows *a, r
   for (size_t f = 0; f < sw_scene_frames(s) && best > enough; f++) {
     if (sw_scene_frame_time(s, f) < start) continue;
     const line l = line_of(s, f, w, start), m = line_of(s, f, v, start);
-    rows_of(&l, a);
+    rows_of(&l, request->straight, a);
     if (w == v) {
       best = near_itself(a->edges, a->edge_count, best, enough);
       continue;
     }
-    rows_of(&m, b);
+    rows_of(&m, request->straight, b);
     d->joined = is_joined(d, &l, &m);
     best = near_other(d, a, b, best, enough);
   }

@@ -72,13 +72,14 @@ void sw_scene_frames_sweep(const sw_scene *scene, double start, size_t w, sw_swe
  * rest on the mesh. */
 double sw_scene_frames_acceleration(const sw_scene *scene, double start, size_t w, size_t stride);
 /* Limits of a search: it stops at a distance of `enough` or less, and ignores distances above
- * `most` [m]. */
+ * `most` [m]. straight: 1 if the wire does not bow beside its edges, as touches see it. */
 typedef struct sw_apart_request {
   double enough, most;
+  int straight;
 } sw_apart_request;
 /* Finds a lower bound of the distance between the axes of wires w and v [m]; out = most: they come
  * no nearer. If w = v: between places of the wire between which it turns by half a turn or more.
- * The bound allows for relative motion between frames and for the bow of the wire beside its edges.
+ * The bound allows for relative motion between frames and for the bow of the wire beside edges.
  * Places where the wires are joined are left out. */
 sw_status sw_scene_frames_apart(const sw_scene *scene, double start, size_t w, size_t v,
                                 const sw_apart_request *request, double *out, sw_error *err);

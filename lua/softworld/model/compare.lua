@@ -19,7 +19,7 @@ local FEIGNED = 16 -- change over the allowed one that coarse edges cause only i
 local HIDDEN = 4   -- coarse edges and steps that blur a change may hide this many times as much [-]
 local HIDES = 2 / 3 -- largest change with hidden part over the allowed one; the rest is for edges, steps [-]
 local SEEN = 1 / HIDDEN -- least share of a swing that steps must show; less would hide more than HIDDEN [-]
-local TOILS = 8    -- wide steps over those of the rung above which they save nothing [-]
+local TOILS = 2    -- wide steps over those of the rung above which they save nothing; mostly below 1.5 [-]
 local NONE = 0 / 0 -- value of a check's row that a computation lacks
 
 compare.levels = 3 -- coarse levels on which rungs are compared [-]
@@ -81,7 +81,7 @@ end
 local function is_doubtful(state, now, c, levels)
   local choice = state.choice
   if not choice.doubtful or c.worst == 0 or c.worst > 1 or now.k >= levels then return false end
-  return choice.doubtful(now.here.facts[choice.name])
+  return choice.doubtful(now.here.facts[choice.name], now.k)
 end
 
 -- Marks results of the level before whose poses jumped to a place where they do not go on this level: such
@@ -165,6 +165,8 @@ function compare.rungs(context, state, rungs, above, begin)
   for k = first, levels do
     local again = before and before.before and before.before.above
     if again and not doubtful and saves_nothing(context, before, again, k) then return c end
+    -- The final run can take over a third level without computing it again if it was the last to be computed.
+    if k >= compare.levels and c and c.worst <= 1 then probe.of(context, above, k) end
     local here, there = probe.of(context, rungs, k), probe.of(context, above, k)
     if k > 1 and not (here.ok and there.ok) then return c, not there.ok and rung.own and there.reason end
     local now = { k = k, here = here, above = there, rungs = rungs, before = before }

@@ -39,20 +39,22 @@ local function room_between(context, boxes, i, j, most)
   return facts.apart(i, j, wide, most < math.huge and most + wide or nil) - wide, "axes"
 end
 
--- True if wires are in each other in the last frame.
-local function cross_at_end(context, count)
+-- True if wires are in each other in the last frame. straight: by their edges alone, without the bow beside
+-- them.
+local function cross_at_end(context, count, straight)
   for i = 1, count do
     for j = i, count do
       local wide = context.data.wires[i].object.radius + context.data.wires[j].object.radius
-      if facts.apart_at_end(i, j, wide) < wide then return true end
+      if facts.apart_at_end(i, j, wide, straight) < wide then return true end
     end
   end
   return false
 end
 
---- True if this rung may stay only after a comparison on all coarse levels: wires end in each other, which is
--- no state of real wires. Touching wires may snap past each other on finer edges only.
-function contact.doubtful(f) return f.crossed end
+--- True if this rung may not stay by a comparison on level k, unless it is the last: wires end in each other,
+-- which is no state of real wires. Touching wires may snap past each other on finer edges only. Long edges
+-- may seem to be in each other by their bow alone; then the next level is asked.
+function contact.doubtful(f, k) return f.crossed or k == 1 and f.bowed or false end
 
 function contact.look(context)
   if context.data.touching then return {} end -- with touches the distance tells nothing
@@ -64,7 +66,10 @@ function contact.look(context)
       local between, sort = room_between(context, boxes, i, j, math.min(f.room, most))
       if between < f.room then f.room, f.sort = between, i == j and "itself" or sort end
       if f.room <= 0 then
-        f.crossed = not context.watching and cross_at_end(context, #boxes)
+        if not context.watching then
+          f.bowed = cross_at_end(context, #boxes)
+          f.crossed = f.bowed and cross_at_end(context, #boxes, true)
+        end
         return f
       end
     end

@@ -95,10 +95,11 @@ function facts.apart(v, w, enough, most)
   return core.frames_apart(kept.scene, v, w, kept.start, enough, most)
 end
 
---- Same in the last frame, without motion; `most` if they are not nearer.
-function facts.apart_at_end(v, w, most)
+--- Same in the last frame, without motion; `most` if they are not nearer. straight: between the edges
+-- themselves, as touches see them; else also without the bow of the wires beside them.
+function facts.apart_at_end(v, w, most, straight)
   local times = core.frame_times(kept.scene)
-  return core.frames_apart(kept.scene, v, w, times[#times], 0, most)
+  return core.frames_apart(kept.scene, v, w, times[#times], 0, most, straight)
 end
 
 --- True if wire w stays in a plane, with everything that pushes and turns it.
