@@ -32,13 +32,15 @@ end
 
 -- True if comparing on level k saves nothing and takes more than a moment: the next rung's run would need
 -- only this level more; or the next rung takes little more than the rung, so that computing both here costs
--- what the cheaper one might save on a finer level. last: both rungs on level k - 1, before: the next rung on
--- k - 2.
-local function saves_nothing(context, last, before, k)
+-- what the cheaper one might save on a finer level. Rungs that have as many levels as the next one save little
+-- in short runs too. last: both rungs on level k - 1, before: the next rung on k - 2.
+local function saves_nothing(context, state, last, before, k)
   local above = last.above
-  local growth = above.work / math.max(1, before.work)
-  if k < compare.levels or growth * above.work < MOMENT then return false end
-  if above.work < LITTLE * last.here.work then return true end
+  local work = above.work ^ 2 / math.max(1, before.work) -- expected
+  local little = above.work < LITTLE * last.here.work
+  local least = little and not state.choice.rough and compare.BRIEF or MOMENT
+  if k < compare.levels or work < least then return false end
+  if little then return true end
   for _, q in ipairs(context.job.quantities) do
     local value = above.values[q.name] or NONE
     local bar, rate = estimate.bar(q, { before.values[q.name] or NONE, value }, above.contact)
@@ -50,6 +52,14 @@ end
 
 -- True if poses jumped. On coarse edges chance decides where to, which may cause any change.
 local function jumps(result) return (result.facts.motion.jumps or 0) > 0 end
+
+--- Returns the change between a rung and the next on the coarsest level if no finer level can make it small;
+-- else nil.
+function compare.far(context, state, here, there)
+  if jumps(here) or jumps(there) then return nil end
+  local c = change.between(context, state, { k = 1, here = here, above = there }, change.left_by_others)
+  return c.worst > FAR and c or nil
+end
 
 -- True if a quantity is the largest or least of many values. Neither wide steps nor the coarsest edges show
 -- the short event that may make it: a wire's end that falls off a wall.
@@ -164,7 +174,7 @@ function compare.rungs(context, state, rungs, above, begin)
   local c, before, doubtful
   for k = first, levels do
     local again = before and before.before and before.before.above
-    if again and not doubtful and saves_nothing(context, before, again, k) then return c end
+    if again and not doubtful and saves_nothing(context, state, before, again, k) then return c end
     -- The final run can take over a third level without computing it again if it was the last to be computed.
     if k >= compare.levels and c and c.worst <= 1 then probe.of(context, above, k) end
     local here, there = probe.of(context, rungs, k), probe.of(context, above, k)

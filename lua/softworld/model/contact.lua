@@ -77,6 +77,9 @@ function contact.look(context)
   return f
 end
 
+--- True if wires may pass through each other, where touches would hold them apart.
+function contact.first(f) return f.frames and f.room <= 0 end
+
 -- How wires keep away from each other, by how that was found.
 local apart = { boxes = "the boxes that they sweep stay at least %s apart",
   axes = "they stay at least %s apart, also between frames" }

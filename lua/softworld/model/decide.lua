@@ -311,8 +311,24 @@ function decide.look(context, state)
   return climb(context, state, rungs, here)
 end
 
+-- Raises a choice at once if the coarsest edges show that its rung is far off, and that the comparisons of
+-- other choices before it would tell nothing: wires that pass through each other.
+local function raise_first(context, state)
+  local choice, rungs = state.choice, decide.rungs(context)
+  if not choice.first or state.by == "given" or state.barred or state.rung == state.last then return end
+  local here = probe.of(context, rungs, 1)
+  if not here.ok or not choice.first(here.facts[choice.name]) then return end
+  local there = probe.of(context, dearer.with(rungs, choice.name, state.rung + 1), 1)
+  if not there.ok then return end
+  local c = compare.far(context, state, here, there)
+  if not c then return end
+  decide.raise(context, state, ("with %s %s"):format(choice.rungs[state.rung + 1].as, changed_by(c)))
+  state.rose = probe.key(rungs, 1)
+end
+
 -- Decides all choices in turn. What one may leave out is reduced by what the others are known to leave out.
 local function decide_all(context)
+  for _, state in ipairs(context.states) do raise_first(context, state) end
   for _, state in ipairs(context.states) do
     if state.by ~= "given" then
       state.by, state.known, state.doubt, state.change = nil, nil, nil, nil

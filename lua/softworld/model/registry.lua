@@ -26,6 +26,7 @@
 --   free(context, rung, facts, share): if the rung is known to suffice without another computation: a
 --     sentence with number and threshold, and the share of a value that it leaves out, if that counts. Else
 --     nil, and perhaps why not. share: the smallest of the tolerances over its value
+--   first(facts): true if the rung may be so far off that no other choice can be compared with it
 --   broken(facts, share, rung): a sentence if the run so far contradicts the rung's free check
 --   onward(context, options): switches to the next rung from here on, in the run that goes on with options;
 --     raises an error if that is impossible. Without this function the run starts again
