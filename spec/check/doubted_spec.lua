@@ -94,6 +94,33 @@ describe("an event doubts", function()
     end
   end)
 
+  it("bends of the wires of a joint that passes no twist", function()
+    local bar, event = { value = 1, error = 0.1 }, { kind = "joint", object = "j",
+      text = "'j' passes no twist from wire 'a' to 'b'; between 'hand' and 'root' the holds turn" }
+    for name, doubt in pairs{ a = true, b = true, c = false } do
+      assert.equal(doubt, why(event, nil, bar, name) ~= nil, name)
+    end
+    assert.truthy(why(event, { peaks = true, on = "gripper" }, bar, "hand"))
+    assert.is_nil(why(event, { name = "cycle_time" }))
+    local scene = sw.scene{}
+    scene:force{ kind = "damping", mass = 2, stiffness = 2e-3 }
+    local function wire(name, from)
+      return scene:wire{ name = name, cable = "GXL 1.5", from = { from, 0, 0 }, to = { from + 0.2, 0, 0 },
+        segments = 8 }
+    end
+    local a, b = wire("a", 0), wire("b", 0.2)
+    scene:join{ name = "j", ends = { { a, s = 0.2 }, { b, s = 0 } } }
+    scene:clamp(a, { s = 0 })
+    scene:clamp(b, { s = 0.2 }):follow{ relative = true, duration = 0.6, points = { { 0, 0, 0 },
+      { -0.1, 0.04, -0.01 } } }
+    local check = scene:run{ duration = 1 }:check{ limits = {
+      ["a.min_bend_radius"] = 1e-3, ["b.min_bend_radius"] = 1e-3, ["a.end_bend_radius"] = 1e-3 } }
+    for _, row in ipairs{ "a.min_bend_radius", "b.min_bend_radius", "a.end_bend_radius" } do
+      assert.equal("OPEN", check:row(row).verdict)
+      assert.truthy(check:row(row).note:find("(event 'joint')", 1, true), check:row(row).note)
+    end
+  end)
+
   it("rows of wires and grippers by a false balance, a false grasp and a hand", function()
     local bar, time = { value = 1, error = 0.1 }, { name = "cycle_time" }
     local function event(kind) return { kind = kind, object = "a", text = "" } end

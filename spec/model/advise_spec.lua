@@ -74,6 +74,25 @@ describe("scene:advise", function()
     end
   end)
 
+  it("says that a wire which snaps into a clip swings, and counts periods without exponents", function()
+    local function along(clip)
+      local scene = sw.scene {}
+      if clip then
+        scene:clip { name = "c", at = { 0.1, 0, -0.05 }, width = 0.01, insertion = 2, retention = 6 }
+      end
+      local w = scene:wire { name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.2, 0, 0 } }
+      for _, s in ipairs { 0, 0.2 } do scene:clamp(w, { s = s }) end
+      scene:settle()
+      return scene:advise { tolerance = 0.02, duration = 100 }
+    end
+    local plain, snapping = along(false), along(true)
+    assert.same({ "poses", "poses" }, { plain.motion, snapping.motion })
+    assert.is_nil(tostring(plain):find("if it finds that poses suffice", 1, true))
+    assert.truthy(tostring(snapping):find("if it finds that poses suffice", 1, true), tostring(snapping))
+    assert.truthy(snapping.motion_why:find("a wire that snaps into 'c'", 1, true))
+    assert.is_nil(tostring(snapping):find("e+", 1, true), tostring(snapping))
+  end)
+
   it("takes 10 s where no duration is given, and the steps of the automatic choice", function()
     local scene = cantilever()
     scene:settle()

@@ -53,6 +53,13 @@ describe("model = 'auto' of a harness", function()
     assert.truthy(tostring(run:why()):find("wires cannot meet", 1, true))
   end)
 
+  it("says that a joint passes no twist where one wire would resist it", function()
+    local text = "not checked: joints: 'join1' passes no twist from wire"
+    local joined, held = branched(0.6, 0.02), branched(0.6, 0.02, false)
+    assert.truthy(tostring(joined:why()):find(text, 1, true), tostring(joined:why()))
+    assert.is_nil(tostring(held:why()):find("joints", 1, true), tostring(held:why()))
+  end)
+
   it("computes touches where its branches come near each other elsewhere", function()
     local run = branched(0.6, 0.2 * math.sin(0.6) - R)
     assert.is_not.equal("free", choice(run, "contact").by, tostring(run:why()))

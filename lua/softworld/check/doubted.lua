@@ -10,6 +10,7 @@ local doubted = {}
 --   own: only rows of the wire that the event names are in doubt, and those of grippers and ties, which may
 --     hold it
 --   places: places are in doubt too, not only peaks
+--   named: the event names the wires in its text
 --   all: every row is in doubt
 --   always: an error bar says nothing of it. Other doubts end with a bar, which comes from other steps
 --   only, unless: pattern of the event's text that such an event has, or has not
@@ -30,6 +31,8 @@ local kinds = {
   walls = { "walls of a mesh meet, which its springs do not feel", own = true, always = true },
   kink = { "walls in a fold do not touch each other: forces are too low", own = true, always = true },
   clip = { "the clip's model does not cover this", always = true, unless = "OVERLOADED" },
+  joint = { "a joint passes no twist, which one wire would resist: bends and forces may be off", own = true,
+    named = true, places = true, always = true },
   undamped = { "damping of solid elements is missing", own = true, always = true },
   unbalanced = { "forces after a change of model may be too large", own = true, always = true },
   grasp = { "a gripper held another wire than the one to grasp", places = true, always = true },
@@ -47,7 +50,8 @@ local function concerns(kind, e, member, entry)
   if kind.only and not e.text:find(kind.only) then return false end
   if kind.unless and e.text:find(kind.unless) then return false end
   local held = member.on == "gripper" or member.on == "tie" or member == doubted.OWN
-  return not kind.own or held or e.object == entry.name
+  local named = kind.named and e.text:find(("'%s'"):format(entry.name), 1, true)
+  return not kind.own or held or e.object == entry.name or named ~= nil
 end
 
 --- Stands for the checks of the script: what they read is unknown, so every event doubts them.

@@ -4,6 +4,7 @@
 -- @module softworld.model.advise
 local build = require "softworld.scene.build"
 local core = require "softworld.core"
+local fixing = require "softworld.link.fixing"
 local number = require "softworld.output.number"
 local quantity = require "softworld.quantity"
 local rows = require "softworld.rows"
@@ -108,6 +109,16 @@ local function periods_of(scene, a)
   a.swing = swing > 0 and swing or nil
 end
 
+-- Returns the first clip, or nil: a wire that snaps into it swings, however slowly it is pressed.
+local function clip_of(scene)
+  for _, it in ipairs(fixing.all(scene)) do
+    if getmetatable(it).__name == "clip" then return it end
+  end
+end
+
+-- Returns a number of periods as text.
+local function periods(count) return (count < 1000 and "%.3g" or "%.0f"):format(count) end
+
 local function motion_of(scene, a)
   periods_of(scene, a)
   if not a.swing then
@@ -117,14 +128,21 @@ local function motion_of(scene, a)
   local counts = a.period or a.swing
   local slow = a.duration >= PERIODS * counts
   a.motion = slow and "poses" or "dynamic"
-  a.motion_why = ("%s%s is %.3g first periods of %s%s; %s"):format(number.text(a.duration, "s"),
-    a.given and "" or " (assumed, as no duration is given)", a.duration / counts, number.text(counts, "s"),
+  a.motion_why = ("%s%s is %s first periods of %s%s; %s"):format(number.text(a.duration, "s"),
+    a.given and "" or " (assumed, as no duration is given)", periods(a.duration / counts),
+    number.text(counts, "s"),
     a.period and "" or ", of a lifted wire",
     slow and ("that is slow: %d or more"):format(PERIODS)
       or ("below %d, model = 'auto' compares poses with dynamics"):format(PERIODS))
   if slow and a.duration < PERIODS * a.swing then
     a.motion_why = ("%s; a wire lifted off what it lies on swings with up to %s: then model = 'auto' "
       .. "compares poses with dynamics"):format(a.motion_why, number.text(a.swing, "s"))
+  end
+  local clip = slow and clip_of(scene)
+  if clip then
+    a.snaps = true
+    a.motion_why = ("%s; but a wire that snaps into '%s', or out of it, swings: then model = 'auto' compares "
+      .. "poses with dynamics"):format(a.motion_why, clip.name)
   end
 end
 
@@ -193,16 +211,17 @@ local function cost_of(scene, a, nodes, given)
   a.memory = BYTES.node * nodes + BYTES.frame * nodes * FRAMES * a.duration
 end
 
--- Returns a time as text, to two digits.
+-- Returns a time as text, to two digits or whole ms.
 local function roughly(time)
-  return time < 1 and ("%.2g ms"):format(1e3 * time) or number.duration(time)
+  if time >= 1 then return number.duration(time) end
+  return (time < 0.0995 and "%.2g ms" or "%.0f ms"):format(1e3 * time)
 end
 
 -- Returns what a run that chooses its model takes, as text: with the model that is certain, or with both.
 local function text_of_auto(a)
   local poses, dynamic = roughly(a.auto_time.poses), roughly(a.auto_time.dynamic)
   local took = ("%s if it finds that poses suffice, %s if not"):format(poses, dynamic)
-  if a.swing and a.duration >= PERIODS * a.swing then took = poses end
+  if a.swing and a.duration >= PERIODS * a.swing and not a.snaps then took = poses end
   return ("  a run with model = 'auto' takes about %s; each level with finer edges than the script's takes "
     .. "%d to %d times as much"):format(took, FINER.poses, FINER.dynamic)
 end

@@ -86,6 +86,13 @@ local function widen(context, result, model)
   result.met = met
 end
 
+-- Adds what no choice covers, though the run tells of it: joints that pass no twist.
+local function add_joints(result, model)
+  for _, e in ipairs(result.events or {}) do
+    if e.kind == "joint" then model.unchecked[#model.unchecked + 1] = "joints: " .. e.text end
+  end
+end
+
 -- Returns the time of the run's levels, including those taken over from choosing [s].
 local function cost_of(result)
   local sum = 0
@@ -115,6 +122,7 @@ function answer.add(context, result)
     end
   end
   if context.spread.failed then model.unchecked[#model.unchecked + 1] = context.spread.failed end
+  add_joints(result, model)
   for _, e in ipairs(context.given_up) do result.events[#result.events + 1] = e end
   if not result.refused then widen(context, result, model) end
   result.model = model

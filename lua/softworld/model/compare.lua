@@ -32,8 +32,8 @@ end
 
 -- True if comparing on level k saves nothing and takes more than a moment: the next rung's run would need
 -- only this level more; or the next rung takes little more than the rung, so that computing both here costs
--- what the cheaper one might save on a finer level. Rungs that have as many levels as the next one save little
--- in short runs too. last: both rungs on level k - 1, before: the next rung on k - 2.
+-- what the cheaper one might save on a finer level. Rungs that have as many levels as the next one save
+-- little in short runs too. last: both rungs on level k - 1, before: the next rung on k - 2.
 local function saves_nothing(context, state, last, before, k)
   local above = last.above
   local work = above.work ^ 2 / math.max(1, before.work) -- expected

@@ -7,7 +7,7 @@ local checks = require "softworld.checks"
 local coarsest = require "softworld.run.coarsest"
 local core = require "softworld.core"
 local facts = require "softworld.model.facts"
-local kept = require "softworld.run.kept"
+local summaries = require "softworld.run.kept"
 local number = require "softworld.output.number"
 local refine = require "softworld.run.refine"
 local registry = require "softworld.model.registry"
@@ -178,7 +178,7 @@ local function compute(context, rungs, k, factors, wide)
   if time and time > LONGEST and time < math.huge then
     return { ok = false, reason = ("it would take about %s"):format(number.duration(time)) }
   end
-  kept.forget(scene)
+  summaries.forget(scene)
   context.last = nil
   job.restore()
   local steps, own = probe.arrange(context, rungs, factors), factors or wide

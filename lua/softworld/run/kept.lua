@@ -28,8 +28,8 @@ function kept.begin(scene)
   if own.ok and own.restores == build.data(scene).restores then own.summary_rows = before.summary(run) end
 end
 
---- Called when nobody will read the summary of the last run, as it was only made to choose a model. The summary
--- of a run of the script before that is stored when the job begins.
+--- Called when nobody will read the summary of the last run, as it was only made to choose a model. The
+-- summary of a run of the script before that is stored when the job begins.
 function kept.forget(scene) last[scene] = nil end
 
 --- True if a run of the scene has ended, also if the scene was restored since.
