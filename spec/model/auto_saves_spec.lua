@@ -3,6 +3,7 @@
 -- count of computations is that of the rungs and levels named beside it.
 local contact = require "softworld.model.contact"
 local motion = require "softworld.model.motion"
+local probe = require "softworld.model.probe"
 local refine = require "softworld.run.refine"
 local rod = require "spec.model.rod"
 local sealed = require "softworld.sealed"
@@ -103,6 +104,80 @@ describe("choosing a model, where dynamics change next to nothing and another ch
     assert.is_false(alike(calm, { jumps = 1, acceleration = 1 }))
     assert.is_false(alike({ jumps = 1, acceleration = 1 }, calm))
     assert.is_false(alike(calm, { jumps = 0 }))
+  end)
+end)
+
+describe("choosing a model, where touches of wires must be compared on three levels,", function()
+  local computer, free, doubtful = refine.computer, contact.free, contact.doubtful
+  after_each(function() refine.computer, contact.free, contact.doubtful = computer, free, doubtful end)
+
+  it("takes the third level over into the run", function()
+    local count = 0
+    function contact.free() return nil end
+    function contact.doubtful(_, k) return k < 3 end
+    function refine.computer(...)
+      local compute = computer(...)
+      return function(...)
+        count = count + 1
+        return compute(...)
+      end
+    end
+    local run = beside(function(on) return 1 + (on and 0.002 or 0) end, { quasistatic = true }, NEAR)
+    assert.equal("none", run.model.contact, tostring(run:why()))
+    assert.same({ 6, 6, 3 }, { run.model.probes, count, #run.levels })
+  end)
+end)
+
+describe("choosing a model, where wires pass through each other,", function()
+  local of = probe.of
+  after_each(function() probe.of = of end)
+
+  -- The upper wire comes down through the other one, by a fifth of its length.
+  it("computes no dynamics without touches", function()
+    local without, with = 0, 0
+    function probe.of(context, rungs, ...)
+      local moves = rungs.motion == 2
+      without, with = without + (moves and rungs.contact == 1 and 1 or 0), with + (moves and 1 or 0)
+      return of(context, rungs, ...)
+    end
+    local scene = sw.scene { name = "crossed" }
+    scene:force { kind = "damping", mass = 5 }
+    local a = rod.wire(scene, { name = "a", from = { -0.2, 0, 0 }, to = { 0.2, 0, 0 } })
+    local b = rod.wire(scene, { name = "b", from = { 0, -0.2, 0.02 }, to = { 0, 0.2, 0.02 } })
+    for i, s in ipairs { 0, 0.4 } do
+      scene:clamp(a, { s = s })
+      scene:clamp(b, { s = s, name = "b" .. i }):follow { relative = true, duration = 1,
+        points = { { 0, 0, 0 }, { 0, 0, -0.08 } } }
+    end
+    scene:settle()
+    local run = scene:run { duration = 1, model = "auto", tolerance = { ["b1.force"] = { relative = 0.01 } } }
+    assert.equal("wires", run.model.contact, tostring(run:why()))
+    assert.same({ 0, true }, { without, with > 0 })
+    assert.truthy(tostring(run:why()):find("with touches of wires b1.force changes by", 1, true))
+  end)
+
+  -- Half a circle of three edges, of radius R; a straight wire lies outside, 0.2 R from the middle edge. The
+  -- arc would bow by R (1 - cos 30 degrees) = 0.134 R beside this edge; its bound is a quarter of half the
+  -- edge times the angle, R/2 pi/3 / 4 = 0.131 R.
+  it("sees by their edges whether they are in each other, not by their bow", function()
+    local scene, arc, radius = sw.scene { gravity = { 0, 0, 0 } }, {}, 0.1
+    for i = 0, 3 do
+      local x = math.pi * i / 3
+      arc[i + 1] = { radius * math.cos(x), radius * math.sin(x), 0 }
+    end
+    local y = arc[2][2] + 0.2 * radius
+    for _, args in ipairs { { path = arc, rest = "path", segments = 3 },
+      { from = { -0.2, y, 0 }, to = { 0.2, y, 0 }, segments = 4 } } do
+      args.E, args.density, args.radius = 5e6, 1500, rod.radius
+      scene:clamp(scene:wire(args), { s = 0 })
+    end
+    scene:run { dt = 1e-4, duration = 1e-3, frame = 1e-3 }
+    local function apart(straight) return sw.core.frames_apart(scene, 1, 2, 0, 0, 1, straight) end
+    assert.is_near(0.2 * radius, apart(true), 1e-5)
+    assert.is_near((0.2 - math.pi / 24) * radius, apart(), 1e-5)
+    assert.same({ true, true, true, false, false }, { contact.doubtful({ crossed = true, bowed = true }, 1),
+      contact.doubtful({ crossed = true, bowed = true }, 2), contact.doubtful({ bowed = true }, 1),
+      contact.doubtful({ bowed = true }, 2), contact.doubtful({}, 1) })
   end)
 end)
 
