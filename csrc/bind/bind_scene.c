@@ -214,6 +214,14 @@ static int meth_snapshot(lua_State *L) {
   return 1;
 }
 
+/* core.whole_snapshot(snapshot): it keeps the scene's frames, too. */
+static int mod_whole_snapshot(lua_State *L) {
+  const lsw_handle *h = lsw_check(L, 1, &lsw_class_snapshot);
+  sw_error err = {""};
+  lsw_must(L, sw_snapshot_keep_frames(h->object, &err), &err);
+  return 0;
+}
+
 static int meth_restore(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
   const lsw_handle *h = lsw_check(L, 2, &lsw_class_snapshot);
@@ -284,9 +292,19 @@ const lsw_class lsw_class_snapshot = {.name = "snapshot",
                                       .gone = "the snapshot has been closed",
                                       .busy = snapshot_busy};
 
-const luaL_Reg lsw_module_scene[] = {
-    {"scene", mod_scene},   {"data", mod_data},         {"type", mod_type},
-    {"busy", mod_busy},     {"exists", mod_exists},     {"interrupted", mod_interrupted},
-    {"clock", mod_clock},   {"sleep", mod_sleep},       {"nearest", mod_nearest},
-    {"remesh", mod_remesh}, {"redraw", mod_redraw},     {"came_from", mod_came_from},
-    {"chord", mod_chord},   {"segments", mod_segments}, {NULL, NULL}};
+const luaL_Reg lsw_module_scene[] = {{"whole_snapshot", mod_whole_snapshot},
+                                     {"scene", mod_scene},
+                                     {"data", mod_data},
+                                     {"type", mod_type},
+                                     {"busy", mod_busy},
+                                     {"exists", mod_exists},
+                                     {"interrupted", mod_interrupted},
+                                     {"clock", mod_clock},
+                                     {"sleep", mod_sleep},
+                                     {"nearest", mod_nearest},
+                                     {"remesh", mod_remesh},
+                                     {"redraw", mod_redraw},
+                                     {"came_from", mod_came_from},
+                                     {"chord", mod_chord},
+                                     {"segments", mod_segments},
+                                     {NULL, NULL}};

@@ -34,6 +34,29 @@ void sw_scene_drop_frames(sw_scene *s) {
   all->bytes = 0;
 }
 
+void sw_frames_free(sw_frames *f) {
+  for (size_t i = 0; i < f->count; i++) sw_free(f->list[i].data);
+  sw_free(f->list);
+  *f = (sw_frames){0};
+}
+
+sw_status sw_frames_copy(const sw_frames *from, sw_frames *to) {
+  *to = *from;
+  to->count = 0, to->capacity = from->count;
+  to->list = sw_alloc(from->count + 1, sizeof *to->list); /* never of no size */
+  for (size_t i = 0; to->list && i < from->count; i++) {
+    sw_frame *f = &to->list[i];
+    *f = from->list[i];
+    f->data = sw_alloc(f->size + 1, sizeof *f->data);
+    if (!f->data) break;
+    memcpy(f->data, from->list[i].data, f->size * sizeof *f->data);
+    to->count++;
+  }
+  if (to->list && to->count == from->count) return SW_OK;
+  sw_frames_free(to);
+  return SW_ENOMEM;
+}
+
 sw_status sw_scene_clear_frames(sw_scene *s, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   sw_scene_drop_frames(s);

@@ -4,6 +4,7 @@
 #define SW_READ_KEPT_FRAMES_H
 
 #include "read/frames.h"
+#include "scene/lists.h"
 #include "system/system.h"
 
 /* Size of a tool's block, and of a hold's or obstacle's [-]. */
@@ -20,6 +21,11 @@ typedef struct sw_frame {
 /* Finds the size of the frame's block. Returns 0 if the block is larger than room, or its counts
  * are invalid. */
 int sw_scene_frame_walk(const sw_frame *frame, size_t room, size_t *size);
+
+/* Copies all frames to an empty list. Returns SW_ENOMEM if that fails; then the list stays empty.
+ */
+sw_status sw_frames_copy(const sw_frames *from, sw_frames *to);
+void sw_frames_free(sw_frames *frames);
 
 /* Kinetic, elastic, gravity energy of the state [J]. */
 void sw_scene_frame_energies(sw_scene *scene, double out[SW_FRAME_ENERGIES]);

@@ -22,6 +22,8 @@ int sw_scene_force_needed(const sw_scene *scene, sw_handle force);
 /* Restoring removes objects made after the snapshot. Their handles are stale from then on, unless
  * another living snapshot still knows them. */
 sw_status sw_scene_snapshot(sw_scene *scene, sw_snapshot **out, sw_error *err);
+/* The snapshot keeps the scene's present frames, too. Else restoring it only drops later ones. */
+sw_status sw_snapshot_keep_frames(sw_snapshot *snapshot, sw_error *err);
 sw_status sw_scene_restore(sw_scene *scene, const sw_snapshot *snapshot, sw_error *err);
 void sw_snapshot_free(sw_snapshot *snapshot);         /* NULL is allowed */
 double sw_snapshot_time(const sw_snapshot *snapshot); /* [s] */

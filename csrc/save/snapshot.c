@@ -23,6 +23,8 @@ struct sw_snapshot {
   double time; /* [s] */
   size_t build, holds, obstacles, tools, forces, joins, rules, zones, frames, frame_stride;
   uint32_t *force; /* (forces) generations of living forces; 0 for others */
+  sw_frames kept;  /* copies of the frames, if it keeps any */
+  int keeps;       /* 0: restoring only drops later frames */
 };
 
 int sw_snapshot_busy(const sw_snapshot *p) { return p->scene && p->scene->restoring == p; }
@@ -54,6 +56,7 @@ void sw_snapshot_free(sw_snapshot *p) {
   unlink_snapshot(p);
   sw_tape_free(&p->tape);
   sw_free(p->force);
+  sw_frames_free(&p->kept);
   sw_free(p);
 }
 
@@ -104,6 +107,23 @@ sw_status sw_scene_snapshot(sw_scene *s, sw_snapshot **out, sw_error *err) {
   p->next = s->snapshots;
   s->snapshots = p;
   *out = p;
+  return SW_OK;
+}
+
+sw_status sw_snapshot_keep_frames(sw_snapshot *p, sw_error *err) {
+  if (p->keeps || !p->scene) return SW_OK;
+  if (sw_frames_copy(&p->scene->frames, &p->kept) != SW_OK)
+    return sw_fail(err, SW_ENOMEM, "snapshot: out of memory for its frames");
+  p->keeps = 1;
+  return SW_OK;
+}
+
+/* Gives the scene the snapshot's frames instead of its own. */
+static sw_status put_frames(sw_scene *s, const sw_snapshot *p) {
+  sw_frames frames;
+  SW_TRY(sw_frames_copy(&p->kept, &frames));
+  sw_frames_free(&s->frames);
+  s->frames = frames;
   return SW_OK;
 }
 
@@ -165,10 +185,11 @@ sw_status sw_scene_restore(sw_scene *s, const sw_snapshot *p, sw_error *err) {
     return sw_fail(err, SW_EINVAL,
                    "restore: the snapshot is of the scene as it was before a file took its place");
   if (p->scene != s) return sw_fail(err, SW_EINVAL, "restore: the snapshot is of another scene");
-  const sw_status status = same_system(s, p) ? put_back(s, p, err) : make_anew(s, p, err);
+  sw_status status = same_system(s, p) ? put_back(s, p, err) : make_anew(s, p, err);
+  if (status == SW_OK && p->keeps) status = put_frames(s, p);
   if (status == SW_ENOMEM) return sw_fail(err, status, "restore: out of memory");
   SW_TRY(status);
   s->diverged = 0;
-  sw_scene_frames_back_to(s, p->frames, p->frame_stride);
+  if (!p->keeps) sw_scene_frames_back_to(s, p->frames, p->frame_stride);
   return SW_OK;
 }

@@ -14,6 +14,7 @@ local checks = require "softworld.checks"
 local core = require "softworld.core"
 local decide = require "softworld.model.decide"
 local facts = require "softworld.model.facts"
+local ended = require "softworld.model.ended"
 local finest = require "softworld.model.finest"
 local guard = require "softworld.model.guard"
 local mesh = require "softworld.model.mesh"
@@ -254,7 +255,9 @@ local function compute(context)
   if base then context.spread:look(decide.rungs(context), base) end
   for _ = 1, 2 * #context.states do
     local result = watched(context)
-    if result and is_good(context, result) then return result end
+    if result then ended.begin(context, result) end
+    if result and is_good(context, result) and ended.back(context) then return result end
+    ended.close(context)
   end
   context.unwatched = true
   return refined(context)
@@ -320,6 +323,7 @@ function choose.run(scene, given, check, run_once)
   end)
   context.spent = os.clock() - begun
   if context.guard then context.guard:close() end
+  ended.close(context)
   context.data.auto = nil
   if not fine or result.refused then
     context.data.touching = touching

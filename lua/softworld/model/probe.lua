@@ -6,6 +6,7 @@ local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local coarsest = require "softworld.run.coarsest"
 local core = require "softworld.core"
+local ended = require "softworld.model.ended"
 local facts = require "softworld.model.facts"
 local summaries = require "softworld.run.kept"
 local number = require "softworld.output.number"
@@ -178,7 +179,8 @@ local function compute(context, rungs, k, factors, wide)
   if time and time > LONGEST and time < math.huge then
     return { ok = false, reason = ("it would take about %s"):format(number.duration(time)) }
   end
-  summaries.forget(scene)
+  ended.leave(context)
+  summaries.take(scene) -- of a run that was only made to choose a model
   context.last = nil
   job.restore()
   local steps, own = probe.arrange(context, rungs, factors), factors or wide

@@ -28,9 +28,15 @@ function kept.begin(scene)
   if own.ok and own.restores == build.data(scene).restores then own.summary_rows = before.summary(run) end
 end
 
---- Called when nobody will read the summary of the last run, as it was only made to choose a model. The
--- summary of a run of the script before that is stored when the job begins.
-function kept.forget(scene) last[scene] = nil end
+--- Called when nobody will read the summary of the last run as long as the scene is in other states. Returns
+-- what kept.put takes when it is back in this one.
+function kept.take(scene)
+  local before = last[scene]
+  last[scene] = nil
+  return before
+end
+
+function kept.put(scene, before) last[scene] = before end
 
 --- True if a run of the scene has ended, also if the scene was restored since.
 function kept.ran(scene) return ever[scene] == true end

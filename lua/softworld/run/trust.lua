@@ -97,7 +97,8 @@ function trust.job(scene, what, args)
   if #data.wires + #data.particles == 0 then
     error(("%s: scene '%s': there is no wire"):format(what, scene.name), 0)
   end
-  local job = { scene = scene, what = what, values = {}, levels = {}, skipped = 0, gone = #(data.gone or {}) }
+  local job = { scene = scene, what = what, values = {}, levels = {}, skipped = 0, gone = #(data.gone or {}),
+    scripted = #bodies > 0 }
   local count = (data.process_count or 0) - #bodies
   function job.begin_processes()
     data.process_count = count -- the same numbers again
