@@ -111,10 +111,10 @@ describe("choosing a model, where touches of wires must be compared on three lev
   local computer, free, doubtful = refine.computer, contact.free, contact.doubtful
   after_each(function() refine.computer, contact.free, contact.doubtful = computer, free, doubtful end)
 
-  it("takes the third level over into the run", function()
-    local count = 0
+  local count
+  before_each(function()
+    count = 0
     function contact.free() return nil end
-    function contact.doubtful(_, k) return k < 3 end
     function refine.computer(...)
       local compute = computer(...)
       return function(...)
@@ -122,6 +122,25 @@ describe("choosing a model, where touches of wires must be compared on three lev
         return compute(...)
       end
     end
+  end)
+
+  -- Poses stay by the third level; then touches are computed on the first one.
+  it("takes over a third level after which another choice was compared", function()
+    local run = beside(function(_, moving, k)
+      return 1 + (moving and ({ 0.03, 0.02, 0.005 })[math.min(k, 3)] or 0)
+    end, {}, NEAR)
+    assert.same({ "poses", "none" }, { run.model.motion, run.model.contact }, tostring(run:why()))
+    assert.equal(run.model.probes, count, tostring(run:why()))
+    assert.equal(3, #run.levels)
+    local scene, wire = run.scene, run.scene:find "a"
+    local edges = run.levels[3].segments[1]
+    local frame = scene:frame(scene:frame_count())
+    assert.same({ edges, 0, 3 * (edges + 1) }, { sw.core.segments(wire), speed(wire), #frame.wires[1] })
+    assert.is_near(run.time, frame.t, 1e-9)
+  end)
+
+  it("takes the third level over into the run", function()
+    function contact.doubtful(_, k) return k < 3 end
     local run = beside(function(on) return 1 + (on and 0.002 or 0) end, { quasistatic = true }, NEAR)
     assert.equal("none", run.model.contact, tostring(run:why()))
     assert.same({ 6, 6, 3 }, { run.model.probes, count, #run.levels })

@@ -266,7 +266,7 @@ end
 local function new_context(scene, job, args, run_once)
   local data = build.data(scene)
   local context = { scene = scene, data = data, job = job, args = args, run_once = run_once, probes = {},
-    levels = {},
+    levels = {}, finals = {},
     probe_count = 0, skipped = 0, states = {}, given_up = {}, vain = {},
     scripted_contact = data.touching }
   context.spread = spread.new(context)
@@ -324,6 +324,7 @@ function choose.run(scene, given, check, run_once)
   context.spent = os.clock() - begun
   if context.guard then context.guard:close() end
   ended.close(context)
+  ended.forget(context)
   context.data.auto = nil
   if not fine or result.refused then
     context.data.touching = touching

@@ -181,7 +181,6 @@ local function compute(context, rungs, k, factors, wide)
   end
   ended.leave(context)
   summaries.take(scene) -- of a run that was only made to choose a model
-  context.last = nil
   job.restore()
   local steps, own = probe.arrange(context, rungs, factors), factors or wide
   if wide then steps = widened(steps, wide.choice, wide.most) end
@@ -200,7 +199,8 @@ local function compute(context, rungs, k, factors, wide)
   read_all(context, k, run, cpu, result, asked)
   if not wide then context.iterations = run.iterations / 2 ^ (k - 1) end
   if not own then note_finest(context, k, result) end
-  context.last = not own and { key = probe.key(rungs, k), run = run, level = result.level } or nil
+  context.last = not own and { key = probe.key(rungs, k), k = k, run = run,
+    level = result.level } or nil
   return result
 end
 
@@ -209,6 +209,7 @@ end
 function probe.finer(context)
   if not coarsest.finer(context.job) then return false end
   context.most, context.probes, context.levels, context.finest = context.job.most, {}, {}, nil
+  ended.forget(context)
   return true
 end
 
@@ -219,11 +220,13 @@ function probe.skip(context, rungs, n)
   if not undo then return false end
   local first = probes[probe.key(rungs, n + 1)]
   context.probes, context.levels, context.last = { [probe.key(rungs, 1)] = first }, {}, nil
+  ended.forget(context)
   context.finest = { k = 1, values = first.values }
   context.most, context.skipped = job.most, n
   function context.unskip()
     undo()
     context.probes, context.levels, context.last = probes, {}, nil
+    ended.forget(context)
     context.finest, context.most = finest, most
     context.unskip, context.skipped = nil, 0
   end
@@ -264,11 +267,12 @@ function probe.known(context, rungs, k)
   return context.probes[key]
 end
 
---- Returns the run of rungs on level k and its level, if the scene is still in its final state and its frames
--- are those that the kept run would have; else nil.
+--- Returns the run of rungs on level k and its level, if the scene is in its final state or can be put back
+-- into it, and its frames are those that the kept run would have; else nil.
 function probe.as_it_ended(context, rungs, k)
-  local last = context.last
-  return last and not has_own_frames(context) and last.key == probe.key(rungs, k) and last or nil
+  local last, key = context.last, probe.key(rungs, k)
+  if has_own_frames(context) then return nil end
+  return last and last.key == key and last or ended.resume(context, key)
 end
 
 --- Returns the values and facts of rungs (by the choices' names) on level k; each is computed only once.
