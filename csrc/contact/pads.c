@@ -36,11 +36,12 @@ static const double PRESSED_IN = 5e-6;
 /* Stiffness of a pad's touch on a particle of a mesh, over that of the section. With 1 the touch
  * would be stiffened during a squeeze, and its force would jump [-]. */
 static const double STIFFER = 3.0;
-/* The same for obstacles below a mesh in scenes where something moves and may squeeze it. A
- * squeezed section widens by some 0.01 mm and must not sink in by as much. With 3 the push of a
- * table on a wire between two pads is 13 % too small; with 30 it is right within 1 %
- * (spec/contact/squeezed_mesh_spec) [-]. */
-static const double STANDS = 10.0;
+/* The same for friction's springs of pads in motion, and for obstacles below a mesh in scenes where
+ * something moves and may squeeze it. A squeezed section widens by some 0.01 mm. It must neither
+ * slide up on friction's springs nor sink in by as much. With 3 for pads and 10 for the table the
+ * push of a table on a wire between two pads was 11 % too small; it is right within 2 %
+ * (spec/contact/squeezed_firm_spec). In statics some searches do not end with such springs [-]. */
+static const double FIRM = 40.0;
 /* In statics only places this near to a pad, in radii of the wire, have such stiff touches. The
  * rest of the wire only lies there: its depth would be below the tolerance of an equilibrium, and
  * searches would never end. The pads must be this near before they press. Twice as much gives the
@@ -155,12 +156,25 @@ static int is_near_pad(const sw_contact *c, sw_vec x, double reach) {
   return 0;
 }
 
+double sw_pad_softness(const sw_contact *c, const sw_touch *t) {
+  const double grip = t->share * (FIRM / STIFFER) * c->candidates[t->candidate].least;
+  if (c->regime != SW_CONTACT_IMPLICIT || !(c->obstacles[t->obstacle].grips > 0)) return 0.0;
+  return grip > t->press.k ? t->press.k / grip : 0.0;
+}
+
+/* Returns the length along the wire that a particle of a ring stands for; 0: it is in no ring [m].
+ * The web has the lengths to the next ring. */
+static double length_of(const sw_web *web, size_t particle) {
+  if (web->along[particle] > 0 || particle < web->per_ring) return web->along[particle];
+  return web->along[particle - web->per_ring];
+}
+
 double sw_pad_mesh_stiffness(const sw_contact *c, const sw_plan *p, size_t particle, sw_vec x,
                              size_t o) {
   const int pad = c->obstacles[o].grips > 0, still = c->regime == SW_CONTACT_STATIC;
   if (!p->web->per_ring || !(c->broad.mover_count > 0)) return 0;
   if (!pad && still && !(p->web->solid_rate2 > 0 && is_near_pad(c, x, NEAR * p->beam.radius)))
     return 0;
-  const double times = pad ? STIFFER : STANDS;
-  return times * section_of(p) * p->web->along[particle];
+  const double times = pad ? STIFFER : FIRM;
+  return times * section_of(p) * length_of(p->web, particle);
 }
