@@ -40,8 +40,9 @@ static const double STIFFER = 3.0;
  * something moves and may squeeze it. A squeezed section widens by some 0.01 mm. It must neither
  * slide up on friction's springs nor sink in by as much. With 3 for pads and 10 for the table the
  * push of a table on a wire between two pads was 11 % too small; it is right within 2 %
- * (spec/contact/squeezed_firm_spec). In statics some searches do not end with such springs [-]. */
-static const double FIRM = 40.0;
+ * (spec/contact/squeezed_firm_spec). In statics friction's springs
+ * of pads have FIRM_AT_REST: with FIRM some searches do not end [-]. */
+static const double FIRM = 40.0, FIRM_AT_REST = 12.0;
 /* In statics only places this near to a pad, in radii of the wire, have such stiff touches. The
  * rest of the wire only lies there: its depth would be below the tolerance of an equilibrium, and
  * searches would never end. The pads must be this near before they press. Twice as much gives the
@@ -157,8 +158,9 @@ static int is_near_pad(const sw_contact *c, sw_vec x, double reach) {
 }
 
 double sw_pad_softness(const sw_contact *c, const sw_touch *t) {
-  const double grip = t->share * (FIRM / STIFFER) * c->candidates[t->candidate].least;
-  if (c->regime != SW_CONTACT_IMPLICIT || !(c->obstacles[t->obstacle].grips > 0)) return 0.0;
+  const double firm = c->regime == SW_CONTACT_IMPLICIT ? FIRM : FIRM_AT_REST;
+  const double grip = t->share * (firm / STIFFER) * c->candidates[t->candidate].least;
+  if (!(c->obstacles[t->obstacle].grips > 0)) return 0.0;
   return grip > t->press.k ? t->press.k / grip : 0.0;
 }
 
