@@ -29,20 +29,22 @@ static const double ENOUGH = 40.0;
 /* Time after a push in which this growth is forgotten [s]. */
 static const double FORGOTTEN = 0.1;
 
-static double rate_of(const sw_scene *s, size_t w) {
+/* x: places of all nodes [m]. Returns the growth rate [1/s]. */
+static double rate_of(const sw_scene *s, size_t w, const double *x) {
   const sw_system *system = sw_scene_system(s);
   const sw_body *b = &system->bodies[w];
   sw_pushed most;
-  if (b->plan->web || b->waits || !(b->plan->beam.EI > 0)) return 0;
-  return sw_pushed_rate(system, b, sw_norm(sw_scene_gravity(s)), &most);
+  if (b->waits || !(b->plan->beam.EI > 0)) return 0;
+  return sw_pushed_rate(system, b, x, sw_norm(sw_scene_gravity(s)), &most);
 }
 
 /* The steps of explicit methods are shorter than any growth. */
 double sw_buckle_of(const sw_scene *s, double h) {
+  const double *x = sw_scene_course(s)->stepper.trial_x;
   double most = 0;
   if (!(sw_scene_course(s)->method->flags & SW_INTEGRATOR_IMPLICIT)) return 0;
   for (size_t w = 0; w < sw_scene_system(s)->body_count; w++)
-    if (sw_scene_wire_in(s, w)->grown < ENOUGH) most = fmax(most, rate_of(s, w) * h / MOST);
+    if (sw_scene_wire_in(s, w)->grown < ENOUGH) most = fmax(most, rate_of(s, w, x) * h / MOST);
   return most;
 }
 
@@ -65,7 +67,7 @@ void sw_buckle_taken(sw_scene *s, double h) {
   if (!(sw_scene_course(s)->method->flags & SW_INTEGRATOR_IMPLICIT)) return;
   for (size_t w = 0; w < sw_scene_system(s)->body_count; w++) {
     sw_scene_wire *wire = sw_scene_wire_in(s, w);
-    const double rate = rate_of(s, w), before = wire->grown;
+    const double rate = rate_of(s, w, sw_scene_system(s)->x), before = wire->grown;
     wire->grown = rate > 0 ? before + rate * h : fmax(0.0, before - ENOUGH * h / FORGOTTEN);
     if (rate * h > TOLD && before < ENOUGH) tell(s, w, h, rate);
   }

@@ -9,12 +9,13 @@
 /* A piece of a wire that is pushed. */
 typedef struct sw_pushed {
   double push, length; /* mean [N], [m] */
-  size_t edge;         /* in its middle */
+  size_t edge;         /* or slice, in its middle */
 } sw_pushed;
 
 /* Returns the fastest rate at which a small bend of one of the wire's pieces grows under the
- * tensions evaluated last; 0: no push is large enough [1/s]. *most: that piece. gravity [m/s2]. */
-double sw_pushed_rate(const sw_system *system, const sw_body *body, double gravity,
+ * tensions evaluated last, for a mesh under the strains of its axis; 0: no push is large enough
+ * [1/s]. x: places of all nodes of the system [m]. *most: that piece. gravity [m/s2]. */
+double sw_pushed_rate(const sw_system *system, const sw_body *body, const double *x, double gravity,
                       sw_pushed *most);
 
 #endif

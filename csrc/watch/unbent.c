@@ -70,7 +70,7 @@ void sw_scene_watch_unbent(sw_scene *s, size_t wire) {
   sw_pushed most = {0};
   u->seen = time;
   if (b->plan->web || b->waits || !(b->plan->beam.EI > 0)) return;
-  const double rate = sw_pushed_rate(system, b, sw_norm(sw_scene_gravity(s)), &most);
+  const double rate = sw_pushed_rate(system, b, system->x, sw_norm(sw_scene_gravity(s)), &most);
   const int shape = rate > 0 && since > 0 ? shape_of(system, b) : LEFT;
   const int was_straight = u->due > 0 && !u->plane; /* it buckles in a plane */
   if (shape == STRAIGHT_ON || (shape == IN_PLANE && !was_straight)) {

@@ -19,8 +19,8 @@ local function lying(o)
   local from, to = { 0, 0, r }, { LENGTH * math.cos(turn), LENGTH * math.sin(turn), r }
   if o.swapped then from, to = to, from end
   local E = not o.cable and (o.E or 1e7) or nil
-  local wire = scene:wire{ cable = o.cable, E = E, nu = E and 0.4, density = E and 1200, radius = r, from = from,
-    to = to, segments = 12 }
+  local wire = scene:wire{ cable = o.cable, E = E, nu = E and 0.4, density = E and 1200, radius = r,
+    from = from, to = to, segments = 12 }
   scene:obstacle{ shape = "plane", friction = 0 }
   local hand = scene:gripper{ pads = { width = 0.012, friction = 0.6, opening = 3 * r } }
   local s = o.s or LENGTH / 2
