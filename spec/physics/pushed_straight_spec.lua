@@ -8,8 +8,8 @@ local sw = require "softworld"
 local t = require "physics.tools"
 
 -- o: cable; model, of a mesh; L [m]; by: way of the gripper [m]; speed [m/s]; law; acceleration [m/s2];
--- segments; friction; damping: mass [1/s], stiffness [s]; turn of the scene [rad]; swapped = true: the other end is gripped;
--- held: clamp or pin; run: arguments of the run.
+-- segments; friction; damping: mass [1/s], stiffness [s]; turn of the scene [rad]; swapped = true: the other
+-- end is gripped; held: clamp or pin; run: arguments of the run.
 -- Returns the peak of the gripper [N] and the smallest bend radius [m].
 local function pushed(o)
   local scene, r = sw.scene{}, sw.cable(o.cable).outer_diameter.value / 2
