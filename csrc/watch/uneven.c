@@ -36,12 +36,21 @@ static double mean_edge(const sw_mesh *m) {
   return (m->s[m->n - 1] - m->s[0]) / (double)(m->n - 1);
 }
 
+/* Returns how uneven a bend of a taut wire at one place is: from node to node it decays by exp(-q),
+ * 2 sinh(q/2) = h sqrt(T/EI). If edges are too long for that, watch/edges.c tells it [-]. */
+static double taut_uneven(const sw_scene_wire *w, double edge) {
+  const double T = w->extremes.tension.value;
+  if (!(T > 0)) return 0;
+  return 2.0 * (1.0 - exp(-2.0 * asinh(0.5 * edge * sqrt(T / w->beam.EI))));
+}
+
 static void watch(sw_scene *s, const sw_scene_wire *w) {
   const sw_extreme *bend = &w->extremes.curvature;
   const sw_sharpness *sharp = &w->extremes.sharp;
   if (w->strand.web || !(w->beam.EI > 0) || !(bend->value * WIDEST * w->beam.radius > 1)) return;
-  if (!(sharp->uneven > UNEVEN) || sharp->round > 0 || is_told(s, "edges", w->name)) return;
+  if (sharp->round > 0 || is_told(s, "edges", w->name)) return;
   const double edge = mean_edge(&w->mesh), at = bend->s - w->mesh.s[0];
+  if (!(sharp->uneven > fmax(UNEVEN, taut_uneven(w, edge)))) return;
   if (sw_corner_turn(w, bend->s, edge) > OF_CORNER * edge * bend->value) return;
   const double segments = ceil((double)(w->mesh.n - 1) * sharp->uneven / EVEN);
   sw_scene_tell(
