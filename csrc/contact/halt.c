@@ -10,7 +10,6 @@
 
 #include <math.h>
 
-#include "contact/pads.h"
 #include "contact/surface.h"
 #include "system/part.h"
 #include "touch/same.h"
@@ -218,7 +217,7 @@ double sw_contact_landed(const sw_contact *c, const sw_system *s) {
 double sw_contact_softness(const sw_contact *c, const sw_system *s, const sw_memory *m,
                            const sw_touch *t) {
   const sw_web *web = s->bodies[t->body].plan->web;
-  if (web) return web->per_ring ? sw_pad_softness(c, t) : fmin(SW_SOFTEST, (double)web->particles);
+  if (web) return web->per_ring ? 0.0 : fmin(SW_SOFTEST, (double)web->particles);
   /* pads turn; there stiff friction locks in tension */
   if (c->regime != SW_CONTACT_IMPLICIT || c->obstacles[t->obstacle].grips > 0) return 0.0;
   if (!c->brakes && !m) return 0.0;

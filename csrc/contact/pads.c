@@ -36,13 +36,11 @@ static const double PRESSED_IN = 5e-6;
 /* Stiffness of a pad's touch on a particle of a mesh, over that of the section. With 1 the touch
  * would be stiffened during a squeeze, and its force would jump [-]. */
 static const double STIFFER = 3.0;
-/* The same for friction's springs of pads in motion, and for obstacles below a mesh in scenes where
- * something moves and may squeeze it. A squeezed section widens by some 0.01 mm. It must neither
- * slide up on friction's springs nor sink in by as much. With 3 for pads and 10 for the table the
- * push of a table on a wire between two pads was 11 % too small; it is right within 2 %
- * (spec/contact/squeezed_firm_spec). In statics friction's springs
- * of pads have FIRM_AT_REST: with FIRM some searches do not end [-]. */
-static const double FIRM = 40.0, FIRM_AT_REST = 6.0;
+/* The same for obstacles below a mesh in scenes where something moves and may squeeze it. A
+ * squeezed section widens by some 0.01 mm and must not sink in by as much. With 3 the push of a
+ * table on a wire between two pads is 13 % too small; with 30 it is right within 1 %
+ * (spec/contact/squeezed_mesh_spec) [-]. */
+static const double STANDS = 10.0;
 /* In statics only places this near to a pad, in radii of the wire, have such stiff touches. The
  * rest of the wire only lies there: its depth would be below the tolerance of an equilibrium, and
  * searches would never end. The pads must be this near before they press. Twice as much gives the
@@ -55,9 +53,6 @@ static const double NEAR = 2.0;
  * still held with 1.3 to 1.5 times it, with 0.5 with 1.1 to 1.2; with more, sections are squeezed
  * less (spec/contact/pads_drawn_spec) [-]. */
 static const double RIM = 0.5;
-/* A touch with at least this part of its normal along the closing is on a face, not on a rim
- * [-]. */
-static const double FACING = 0.999;
 
 /* Line stiffness of a wire's section [N/m2]. */
 static double section_of(const sw_plan *p) {
@@ -160,19 +155,6 @@ static int is_near_pad(const sw_contact *c, sw_vec x, double reach) {
   return 0;
 }
 
-/* 1 if a touch is on a rounded rim: there friction would carry a part of the pad's force. */
-static int is_on_rim(const sw_contact *c, const sw_touch *t) {
-  const sw_quat back = sw_quat_conj(c->now[t->obstacle].pose.q);
-  return sw_pad_has_rims(c, t->obstacle) && fabs(sw_rotate(back, t->press.normal).y) < FACING;
-}
-
-double sw_pad_softness(const sw_contact *c, const sw_touch *t) {
-  const double firm = c->regime == SW_CONTACT_IMPLICIT ? FIRM : FIRM_AT_REST;
-  const double grip = t->share * (firm / STIFFER) * c->candidates[t->candidate].least;
-  if (!(c->obstacles[t->obstacle].grips > 0)) return 0.0;
-  return grip > t->press.k && !is_on_rim(c, t) ? t->press.k / grip : 0.0;
-}
-
 /* Returns the length along the wire that a particle of a ring stands for; 0: it is in no ring [m].
  * The web has the lengths to the next ring. */
 static double length_of(const sw_web *web, size_t particle) {
@@ -186,6 +168,6 @@ double sw_pad_mesh_stiffness(const sw_contact *c, const sw_plan *p, size_t parti
   if (!p->web->per_ring || !(c->broad.mover_count > 0)) return 0;
   if (!pad && still && !(p->web->solid_rate2 > 0 && is_near_pad(c, x, NEAR * p->beam.radius)))
     return 0;
-  const double times = pad ? STIFFER : FIRM;
+  const double times = pad ? STIFFER : STANDS;
   return times * section_of(p) * length_of(p->web, particle);
 }

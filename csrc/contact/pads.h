@@ -29,8 +29,4 @@ double sw_pad_stiffness(const sw_contact *c, const sw_plan *p, const sw_candidat
 double sw_pad_mesh_stiffness(const sw_contact *c, const sw_plan *p, size_t particle, sw_vec x,
                              size_t obstacle);
 
-/* Softness of friction's spring of a pad's or obstacle's touch on a particle of a ring
- * (sw_press.soft): that of pads is stiffer than the touch. */
-double sw_pad_softness(const sw_contact *c, const sw_touch *touch);
-
 #endif
