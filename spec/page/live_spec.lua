@@ -199,6 +199,13 @@ describe("the live view", function()
     page:wait(("return player.state.get('time') > %.9f"):format(present))
   end)
 
+  -- Orders that came together were one step; the kept state below then waited for its third step in vain.
+  it("makes as many steps as are asked for at once", function()
+    local before = time()
+    page:run "for (let k = 0; k < 5; k++) player.link.order('step')"
+    page:wait(("return player.state.get('time') > %.9f"):format(before + 4.5 * 0.004))
+  end)
+
   it("goes back to a kept state, and drops what came later", function()
     local before = time()
     order "keep"

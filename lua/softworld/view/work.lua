@@ -218,9 +218,10 @@ end
 
 local now = {} -- orders done at once: they change nothing in the scene
 
-function now.pause(own) own.paused = true end
+function now.pause(own) own.paused, own.steps = true, 0 end
 function now.go(own) own.paused, own.base = false, nil end
-function now.step(own) own.paused, own.steps = true, 1 end
+-- Several steps may be asked for before the first is made.
+function now.step(own) own.paused, own.steps = true, own.paused and own.steps + 1 or 1 end
 function now.keep(own) returning.keep(own) end
 function now.stop(own) own.stopped = true end
 function now.run(own, m)
