@@ -284,8 +284,7 @@ static void write_edges(const sw_clip_args *args, double edge, sw_force_news *ou
   out->kind = "edges";
   snprintf(out->text, sizeof out->text,
            "edges of %.3g mm in a clip of %.3g mm: bend radii beside it may be %.0f %% off, forces "
-           "of holds too; try edges "
-           "of %.3g mm (2 %%)",
+           "of holds too; try edges of %.3g mm (2 %%)",
            1e3 * edge, 1e3 * args->width, 100.0 * OFF * share * share, 250.0 * args->width);
 }
 

@@ -26,16 +26,20 @@ enum { TOOL = SW_FRAME_TOOL, HOLD = SW_FRAME_HOLD, NONE = 3, LEAST = 3 }; /* NON
 
 const double SW_FRAME_MEMORY = 256e6;
 
+static void free_data(sw_frames *f) {
+  for (size_t i = 0; i < f->count; i++) sw_free(f->list[i].data);
+  f->count = 0;
+}
+
 void sw_scene_drop_frames(sw_scene *s) {
   sw_frames *all = sw_scene_frames_of(s);
-  for (size_t i = 0; i < all->count; i++) sw_free(all->list[i].data);
-  all->count = 0;
+  free_data(all);
   all->stride = 1;
   all->bytes = 0;
 }
 
 void sw_frames_free(sw_frames *f) {
-  for (size_t i = 0; i < f->count; i++) sw_free(f->list[i].data);
+  free_data(f);
   sw_free(f->list);
   *f = (sw_frames){0};
 }

@@ -61,8 +61,7 @@ void sw_scene_free(sw_scene *s) {
   sw_system_free(&s->system);
   sw_scene_forget_contact(s);
   sw_scene_forget_histories(s);
-  sw_scene_drop_frames(s);
-  sw_free(s->frames.list);
+  sw_frames_free(&s->frames);
   sw_events_clear(&s->events);
   sw_watches_clear(&s->watches);
   sw_ledger_free(&s->books);

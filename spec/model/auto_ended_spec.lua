@@ -17,7 +17,7 @@ describe("a run that is compared once more after its end", function()
 
   -- A wire that hangs between two clamps; one of them comes nearer, in a motion for which poses are compared
   -- with dynamics.
-  local function hung(process)
+  local function drawn()
     local scene = sw.scene { name = "hung" }
     scene:force { kind = "damping", mass = 5 }
     local w = rod.wire(scene)
@@ -25,13 +25,22 @@ describe("a run that is compared once more after its end", function()
     local right = scene:clamp(w, { s = 0.6, name = "right" })
     scene:settle()
     right:follow { relative = true, duration = 2, points = { { 0, 0, 0 }, { -0.2, 0.05, 0 } } }
+    return scene, w, right
+  end
+
+  local function chosen(scene)
+    return scene:run { duration = 2, model = "auto", tolerance = {
+      ["right.force"] = { relative = 0.05 }, min_bend_radius = { relative = 0.05 } } }
+  end
+
+  local function hung(process)
+    local scene, w, right = drawn()
     if process then scene:process(process(w)) end
     function probe.of(context, ...)
       after = after + (context.ended and 1 or 0)
       return of(context, ...)
     end
-    local run = scene:run { duration = 2, model = "auto", tolerance = {
-      ["right.force"] = { relative = 0.05 }, min_bend_radius = { relative = 0.05 } } }
+    local run = chosen(scene)
     assert.equal("poses", run.model.motion, tostring(run:why()))
     assert.truthy(after > 0, tostring(run:why()))
     return scene, w, right, run
@@ -79,15 +88,8 @@ describe("a run that is compared once more after its end", function()
     local x, f = w:positions(), right:force()
     change.is_elsewhere = function() return false end
     local before = after
-    local scene = sw.scene { name = "hung" }
-    scene:force { kind = "damping", mass = 5 }
-    local other = rod.wire(scene)
-    scene:clamp(other, { s = 0, name = "left" })
-    local hold = scene:clamp(other, { s = 0.6, name = "right" })
-    scene:settle()
-    hold:follow { relative = true, duration = 2, points = { { 0, 0, 0 }, { -0.2, 0.05, 0 } } }
-    local plain = scene:run { duration = 2, model = "auto", tolerance = {
-      ["right.force"] = { relative = 0.05 }, min_bend_radius = { relative = 0.05 } } }
+    local scene, other, hold = drawn()
+    local plain = chosen(scene)
     assert.equal(before, after)
     assert.equal(#plain.levels, #run.levels)
     assert.same(other:positions(), x)
