@@ -69,6 +69,10 @@ local names = {}
 for name in pairs(RUNS) do names[#names + 1] = name end
 table.sort(names)
 
+-- Returns what the program wrote as errors. Where Ctrl-C stops a whipping wire depends on the
+-- machine; the run after it may have a note about a sharp bend.
+local function errors(err) return (err:gsub("softworld: note: [^\n]*\n", "")) end
+
 describe("Ctrl-C", function()
   after_each(program.clean)
 
@@ -76,7 +80,7 @@ describe("Ctrl-C", function()
     it("ends " .. name .. ", again and again", function()
       local body = "try(function() " .. RUNS[name] .. " end)\nworks()\n"
       local out, err, code = program.script(SCENE .. body .. body, nil, TWICE)
-      assert.equal("", err)
+      assert.equal("", errors(err))
       assert.equal(("false\tinterrupted\nworks\n"):rep(2), out)
       assert.equal(0, code)
     end)
