@@ -20,8 +20,11 @@ enum { FAR = sizeof FROM_CLAMP / sizeof *FROM_CLAMP };
 /* Edges up to FINE radii get the full shift, edges above COARSE radii none. The pull of a wire
  * drawn over a cylinder depends on which part of a coarse edge touches. The mean pull is too small
  * by 1 % for edges of R/2 and by 10 % for edges of R with the shift, by 0.1 and 4 % without
- * (spec/contact/capstan_spec) [-]. */
-static const double FINE = 0.35, COARSE = 0.5;
+ * (spec/contact/capstan_spec). The first edges from a clamp are not drawn; they get all of it up to
+ * HELD radii, and none above. Without it the clamp of a winding cable pulls up to twice as hard as
+ * the brake for edges of 0.37 to 0.43 radii, with it 1.2 times, with a part of it near HELD 1.7
+ * times (spec/contact/winding_clamp_spec) [-]. */
+static const double FINE = 0.35, COARSE = 0.5, HELD = 0.47;
 /* An arc begins at SW_GOES_ROUND and is complete at BENT: curvature times radius [-]. */
 static const double BENT = 0.9;
 /* In time steps the shift of a chord is a mean over this many steps. Otherwise a cable that begins
@@ -29,14 +32,18 @@ static const double BENT = 0.9;
  * (spec/contact/winding_spec). At a clamp a growing shift is taken at once, because a clamp presses
  * a chord that comes too late into the drum [-]. */
 static const double MEAN_STEPS = 4.0;
+/* The chord at a clamp has the shift of an arc from this turn on, as curvature of half an edge
+ * times radius; it is 0.8 where the wire's curvature is 1/R [-]. */
+static const double BENDS = 0.5;
 
-static double from_clamp(const sw_plan *p, size_t e) {
+/* The number of edges between an edge and the nearest clamp; FAR if there are FAR or more [-]. */
+static size_t edges_from_clamp(const sw_plan *p, size_t e) {
   size_t nearest = FAR;
   for (size_t i = 0; i < p->clamp_count; i++) {
     const size_t node = p->clamps[i].node, away = e >= node ? e - node : node - 1 - e;
     if (away < nearest) nearest = away;
   }
-  return nearest < FAR ? FROM_CLAMP[nearest] : 1.0;
+  return nearest;
 }
 
 static int is_at_clamp(const sw_plan *p, size_t e) {
@@ -68,8 +75,10 @@ static sw_vec round_on(const sw_body *b, size_t e, double R, const double *x) {
 /* Shift of the chord of an edge at a clamp, for a round side of radius R, as a curvature [1/m]. The
  * wire leaves the clamp's direction slowly, but the chord leaves at once. A chord that has turned
  * by an angle is inside a circle by R (1 - cos angle), although the wire is outside until its
- * curvature is 1/R. Then the shift is that of an arc. Without this shift a clamp pressed the chord
- * into a drum that began to wind, with about EI/(R h) (spec/contact/winding_clamp_spec). */
+ * curvature is 1/R. So the shift is more than that, up to the shift of an arc. Without it a clamp
+ * pressed the chord into a drum that began to wind, with about EI/(R h). The shift is computed at
+ * the step's start: if it were just that, no chord could turn further in a step, and some cables
+ * pressed the drum 2 to 13 times as hard at small steps (spec/contact/winding_clamp_spec). */
 static sw_vec leave(const sw_system *s, const sw_body *b, size_t e, double R, const double *x) {
   const sw_plan *p = b->plan;
   const double *at = x + 3 * (b->first_node + e), half = 0.5 * p->rest[e];
@@ -80,7 +89,7 @@ static sw_vec leave(const sw_system *s, const sw_body *b, size_t e, double R, co
     if (h->edge != e) continue;
     const sw_vec change = sw_sub(t, sw_vec_at(s->directors_now, sw_clamp_place(h)));
     const sw_vec bend = sw_scale(change, h->side / half);
-    const double round = R * sw_norm(bend), share = fmin(0.125 * round, OFF / fmax(round, OFF));
+    const double round = R * sw_norm(bend), share = OFF / fmax(round, BENDS);
     const sw_vec shift = sw_scale(bend, share);
     if (sw_norm2(shift) > sw_norm2(most)) most = shift;
   }
@@ -90,12 +99,13 @@ static sw_vec leave(const sw_system *s, const sw_body *b, size_t e, double R, co
 /* The shift of an edge's chord [m]. */
 static sw_vec shift_on(const sw_system *s, const sw_body *b, size_t e, double R, const double *x) {
   const double edge = b->plan->rest[e];
-  const double fine = sw_limit((COARSE - edge / R) / (COARSE - FINE), 0.0, 1.0);
-  if (!(fine > 0)) return sw_v(0, 0, 0);
-  const double size = from_clamp(b->plan, e) * OFF;
-  const sw_vec round = sw_scale(round_on(b, e, R, x), size);
+  const size_t from = edges_from_clamp(b->plan, e);
+  const double faded = sw_limit((COARSE - edge / R) / (COARSE - FINE), 0.0, 1.0);
+  const double share = from < FAR ? FROM_CLAMP[from] * (edge < HELD * R) : faded;
   const sw_vec left = leave(s, b, e, R, x);
-  return sw_scale(sw_norm2(left) > sw_norm2(round) ? left : round, -fine * edge * edge);
+  sw_vec round = sw_v(0, 0, 0);
+  if (share > 0) round = sw_scale(round_on(b, e, R, x), share * OFF);
+  return sw_scale(sw_norm2(left) > sw_norm2(round) ? left : round, -edge * edge);
 }
 
 int sw_contact_arcs(const sw_contact *c, const sw_system *s, const sw_candidate *k) {
@@ -115,7 +125,8 @@ double sw_contact_arc_rise(const sw_contact *c, const sw_system *s, const sw_can
   if (off != 0) shift = sw_lerp(shift, shift_on(s, b, beside, R, x), fabs(off));
   if (!still && c->broad.moves[k->obstacle])
     shift = sw_rotate(c->now[k->obstacle].pose.q, sw_unrotate(c->start[k->obstacle].pose.q, shift));
-  return sw_dot(normal, shift);
+  const double rise = sw_dot(normal, shift);
+  return is_at_clamp(b->plan, e) ? sw_larger(0.0, rise) : rise;
 }
 
 double sw_contact_arc_mean(const sw_system *s, const sw_candidate *k, const sw_memory *m,
