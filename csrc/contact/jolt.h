@@ -34,6 +34,12 @@ void sw_contact_forget_hardest(sw_contact *contact);
 /* Longest part of a step for a wire whose end is pushed onto an obstacle; HUGE_VAL: there is no
  * such wire [s]. */
 double sw_contact_push_part(const sw_contact *contact, const sw_system *system);
+/* Largest speed of the wire of touch k towards its obstacle, along the normal [m/s]. */
+double sw_contact_push_speed(const sw_contact *contact, const sw_system *system, size_t k);
+/* Half wave in which a straight wire buckles whose end is stopped on this free length while the
+ * rest moves on with this speed. Its force grows to P = EA v T/L in the time T for which it stays
+ * straight, and the bending that grows fastest under P has the half wave pi sqrt(2 EI/P) [m]. */
+double sw_contact_half_wave(const sw_body *body, double length, double speed);
 /* Length from an end of the wire (0: its start) to the next held node, or to its other end [m]. */
 double sw_contact_free_length(const sw_plan *plan, int last);
 

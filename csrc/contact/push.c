@@ -36,8 +36,8 @@ double sw_contact_free_length(const sw_plan *p, int last) {
   return length;
 }
 
-/* Largest speed of the wire towards the obstacle, along the normal [m/s]. */
-static double speed_of(const sw_contact *c, const sw_system *s, const sw_touch *t) {
+double sw_contact_push_speed(const sw_contact *c, const sw_system *s, size_t k) {
+  const sw_touch *t = &c->touches[k];
   const sw_body *b = &s->bodies[t->body];
   const double aside =
       sw_dot(sw_obstacle_velocity(&c->now[t->obstacle], t->point), t->press.normal);
@@ -55,6 +55,11 @@ static double straight_for(const sw_body *b, double length, double speed) {
   return sqrt(4.0 * GROWTH * length * inert / (b->EA_push * speed));
 }
 
+double sw_contact_half_wave(const sw_body *b, double length, double speed) {
+  const double most = b->EA_push * speed * straight_for(b, length, speed) / length;
+  return M_PI * sqrt(2.0 * b->plan->beam.EI / most);
+}
+
 double sw_contact_push_part(const sw_contact *c, const sw_system *s) {
   double shortest = HUGE_VAL;
   for (size_t i = 0; i < c->touch_count; i++) {
@@ -62,7 +67,7 @@ double sw_contact_push_part(const sw_contact *c, const sw_system *s) {
     if (!(t->press.normal_force > 0) || c->obstacles[t->obstacle].grips > 0) continue;
     const sw_body *b = &s->bodies[t->body];
     if (!is_end_on(s, t) || !(b->plan->beam.EI > 0)) continue; /* a string bends at once */
-    const double speed = speed_of(c, s, t);
+    const double speed = sw_contact_push_speed(c, s, i);
     const double length = sw_contact_free_length(b->plan, t->node != b->first_node);
     if (speed > 0) shortest = fmin(shortest, SHARE * straight_for(b, length, speed));
   }
