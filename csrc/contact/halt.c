@@ -99,7 +99,7 @@ static sw_vec friction_before(const sw_contact *c, const sw_system *s, const sw_
   const sw_press *p = &t->press;
   *slid = 0;
   if (s->bodies[t->body].plan->web) return p->tangential;
-  const sw_memory *m = sw_contact_remembered(c, &c->candidates[t->candidate], t->at);
+  const sw_memory *m = sw_contact_remembered(c, &c->candidates[t->candidate], t->at, t->feature);
   if (!m || !m->kept.sliding || !(m->kept.normal_force > 0)) return p->tangential;
   sw_vec f = sw_rotate(c->now[t->obstacle].pose.q, sw_neg(m->kept.elastic));
   f = sw_unit_or(sw_madd(f, p->normal, -sw_dot(f, p->normal)), sw_v(0, 0, 0));

@@ -55,12 +55,19 @@ static double within(const sw_candidate *k, double share) {
   return k->samples ? sw_smaller(share, 0.5 / k->samples) : share;
 }
 
-const sw_memory *sw_contact_remembered(const sw_contact *c, const sw_candidate *k, double at) {
+/* Of touches nearer to each other than this share of an edge the one with the same feature is
+ * meant: an edge and the corner at its end may touch at the same place of the wire, and only one of
+ * them presses [-]. */
+static const double ALMOST = 1e-3;
+
+const sw_memory *sw_contact_remembered(const sw_contact *c, const sw_candidate *k, double at,
+                                       int feature) {
   const sw_memory *best = NULL;
   double nearest = within(k, HUGE_VAL);
   for (size_t i = k->memory; c->memory && i < k->memory_end; i++) {
-    const double d = fabs(c->memory[i].at - at);
-    if (d < nearest) best = &c->memory[i], nearest = d;
+    const sw_memory *m = &c->memory[i];
+    const double d = fabs(m->at - at) + (m->feature == feature ? 0.0 : ALMOST);
+    if (d < nearest) best = m, nearest = d;
   }
   return best;
 }
@@ -102,12 +109,14 @@ static const sw_touch *nearer(const sw_touch *last, const sw_candidate *k, doubl
 
 /* Returns the touch of the previous iterate; on a smooth curve also from the neighbouring segment.
  * In a stage solved in parts the list also has touches of the previous stage. */
-static const sw_touch *last_for(const sw_contact *c, const sw_candidate *k, double at) {
+static const sw_touch *last_for(const sw_contact *c, const sw_candidate *k, double at,
+                                int feature) {
   const sw_touch *best = NULL;
   double nearest = within(k, SW_SAME_TOUCH);
   for (size_t i = k->last; i < k->last_end; i++) {
-    const double d = fabs(c->last[i].at - at);
-    if (d < nearest) best = &c->last[i], nearest = d;
+    const sw_touch *t = &c->last[i];
+    const double d = fabs(t->at - at) + (t->feature == feature ? 0.0 : ALMOST);
+    if (d < nearest) best = t, nearest = d;
   }
   if (!k->smooth || !k->segment) return best;
   const size_t before = c->parts.on ? c->parts.before : 0, now = k->last >= before;
@@ -151,7 +160,8 @@ static sw_vec relative_shift(const sw_contact *c, const sw_system *s, const sw_t
 static sw_vec shift_since(const sw_contact *c, const sw_system *s, const sw_touch *t,
                           const double *y) {
   const sw_candidate *k = &c->candidates[t->candidate];
-  const sw_memory *m = c->regime == SW_CONTACT_EXPLICIT ? sw_contact_remembered(c, k, t->at) : NULL;
+  const sw_memory *m =
+      c->regime == SW_CONTACT_EXPLICIT ? sw_contact_remembered(c, k, t->at, t->feature) : NULL;
   if (!m) return relative_shift(c, s, t, y);
   const sw_mean spot = spot_of(s, k, t, m->at);
   const sw_vec now = sw_mean_place(c, y, &spot);
@@ -160,8 +170,8 @@ static sw_vec shift_since(const sw_contact *c, const sw_system *s, const sw_touc
 
 /* Returns the memory of a pressing touch, on this or a neighbouring part of the wire, or NULL. */
 static const sw_memory *pressed_memory(const sw_contact *c, const sw_system *s,
-                                       const sw_candidate *k, double at) {
-  const sw_memory *own = sw_contact_remembered(c, k, at);
+                                       const sw_candidate *k, double at, int feature) {
+  const sw_memory *own = sw_contact_remembered(c, k, at, feature);
   const int pressed = own && own->kept.normal_force > 0;
   if (pressed && !(k->smooth && k->segment)) return own;
   if (s->bodies[k->body].plan->web || k->samples) return NULL;
@@ -355,8 +365,8 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
                                const double *y, const sw_place *place) {
   const sw_closest *near = &place->near;
   const double at = k->segment ? near->at : 0.0;
-  const sw_memory *m = pressed_memory(c, s, k, at);
-  const sw_touch *last = last_for(c, k, at);
+  const sw_memory *m = pressed_memory(c, s, k, at, near->feature);
+  const sw_touch *last = last_for(c, k, at, near->feature);
   const sw_vec out = sw_rotate(c->now[k->obstacle].pose.q, near->normal);
   const sw_plan *plan = s->bodies[k->body].plan;
   sw_touch *const t = new_touch(c);

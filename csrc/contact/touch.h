@@ -143,7 +143,8 @@ int sw_contact_next_range(const sw_contact *c, sw_glance *at);
 void sw_contact_match(const sw_contact *c, sw_glance *at);
 
 /* Returns the memory of the candidate's touch nearest to this place, or NULL. */
-const sw_memory *sw_contact_remembered(const sw_contact *c, const sw_candidate *k, double at);
+const sw_memory *sw_contact_remembered(const sw_contact *c, const sw_candidate *k, double at,
+                                       int feature);
 /* Returns the obstacle with this owner's number, or count. */
 size_t sw_contact_index(const sw_contact *c, int id);
 /* Returns a place along a candidate as a mean of nodes. */
