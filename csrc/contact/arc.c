@@ -33,8 +33,10 @@ static const double BENT = 0.9;
  * a chord that comes too late into the drum [-]. */
 static const double MEAN_STEPS = 4.0;
 /* The chord at a clamp has the shift of an arc from this turn on, as curvature of half an edge
- * times radius; it is 0.8 where the wire's curvature is 1/R [-]. */
-static const double BENDS = 0.5;
+ * times radius; it is 0.8 where the wire's curvature is 1/R. Beyond HALF of the edge the shift
+ * decreases, to 0 at twice that: there the wire is on the chord again. Edges above COARSEST radii
+ * get no shift at clamps [-]. */
+static const double BENDS = 0.5, HALF = 5.0 / 12, COARSEST = 1.5;
 
 /* The number of edges between an edge and the nearest clamp; FAR if there are FAR or more [-]. */
 static size_t edges_from_clamp(const sw_plan *p, size_t e) {
@@ -72,37 +74,41 @@ static sw_vec round_on(const sw_body *b, size_t e, double R, const double *x) {
   return sw_scale(sw_add(one, two), first == last ? 0.5 * begun : begun);
 }
 
-/* Shift of the chord of an edge at a clamp, for a round side of radius R, as a curvature [1/m]. The
- * wire leaves the clamp's direction slowly, but the chord leaves at once. A chord that has turned
- * by an angle is inside a circle by R (1 - cos angle), although the wire is outside until its
- * curvature is 1/R. So the shift is more than that, up to the shift of an arc. Without it a clamp
- * pressed the chord into a drum that began to wind, with about EI/(R h). The shift is computed at
- * the step's start: if it were just that, no chord could turn further in a step, and some cables
- * pressed the drum 2 to 13 times as hard at small steps (spec/contact/winding_clamp_spec). */
-static sw_vec leave(const sw_system *s, const sw_body *b, size_t e, double R, const double *x) {
+/* Shift of the chord of an edge at a clamp, at the share `at` of the edge, for a round side of
+ * radius R, as a curvature [1/m]. The wire leaves the clamp's direction slowly, but the chord
+ * leaves at once. A chord that has turned by an angle a is inside a circle by R a^2/2, although the
+ * wire is outside until its curvature is 1/R. The shift is more than that, up to the shift of an
+ * arc: it is computed at the step's start, and with just that no chord could turn further in a
+ * step; some cables pressed the drum 2 to 13 times as hard at small steps. Without it a clamp
+ * pressed the chord into a drum that began to wind, with about EI/(R h)
+ * (spec/contact/winding_clamp_spec). */
+static sw_vec leave(const sw_system *s, const sw_body *b, size_t e, double R, double at,
+                    const double *x) {
   const sw_plan *p = b->plan;
-  const double *at = x + 3 * (b->first_node + e), half = 0.5 * p->rest[e];
-  const sw_vec t = sw_unit_or(sw_sub(sw_load(at + 3), sw_load(at)), sw_v(0, 0, 0));
+  const double *here = x + 3 * (b->first_node + e), half = 0.5 * p->rest[e];
+  const sw_vec t = sw_unit_or(sw_sub(sw_load(here + 3), sw_load(here)), sw_v(0, 0, 0));
   sw_vec most = sw_v(0, 0, 0);
   for (size_t i = 0; i < p->clamp_count; i++) {
     const sw_clamp_hinge *h = &p->clamps[i];
     if (h->edge != e) continue;
     const sw_vec change = sw_sub(t, sw_vec_at(s->directors_now, sw_clamp_place(h)));
     const sw_vec bend = sw_scale(change, h->side / half);
-    const double round = R * sw_norm(bend), share = OFF / fmax(round, BENDS);
-    const sw_vec shift = sw_scale(bend, share);
+    const double from = h->side > 0 ? at : 1.0 - at;
+    const double part = sw_limit(2.0 - from / HALF, 0.0, 1.0);
+    const sw_vec shift = sw_scale(bend, part * OFF / fmax(R * sw_norm(bend), BENDS));
     if (sw_norm2(shift) > sw_norm2(most)) most = shift;
   }
   return most;
 }
 
 /* The shift of an edge's chord [m]. */
-static sw_vec shift_on(const sw_system *s, const sw_body *b, size_t e, double R, const double *x) {
+static sw_vec shift_on(const sw_system *s, const sw_body *b, size_t e, double R, double at,
+                       const double *x) {
   const double edge = b->plan->rest[e];
   const size_t from = edges_from_clamp(b->plan, e);
   const double faded = sw_limit((COARSE - edge / R) / (COARSE - FINE), 0.0, 1.0);
   const double share = from < FAR ? FROM_CLAMP[from] * (edge < HELD * R) : faded;
-  const sw_vec left = leave(s, b, e, R, x);
+  const sw_vec left = edge < COARSEST * R ? leave(s, b, e, R, at, x) : sw_v(0, 0, 0);
   sw_vec round = sw_v(0, 0, 0);
   if (share > 0) round = sw_scale(round_on(b, e, R, x), share * OFF);
   return sw_scale(sw_norm2(left) > sw_norm2(round) ? left : round, -edge * edge);
@@ -121,8 +127,9 @@ double sw_contact_arc_rise(const sw_contact *c, const sw_system *s, const sw_can
   const double R = c->round[k->obstacle] + k->skin, *x = still ? y : s->x;
   const double off = curved ? place->near.at - 0.5 : 0.0; /* from the middle of the edge */
   const size_t beside = off < 0 ? (e > 0 ? e - 1 : e) : e + 1 < b->plan->edges ? e + 1 : e;
-  sw_vec shift = shift_on(s, b, e, R, x);
-  if (off != 0) shift = sw_lerp(shift, shift_on(s, b, beside, R, x), fabs(off));
+  sw_vec shift = shift_on(s, b, e, R, place->near.at, x);
+  if (off != 0)
+    shift = sw_lerp(shift, shift_on(s, b, beside, R, off < 0 ? 1.0 : 0.0, x), fabs(off));
   if (!still && c->broad.moves[k->obstacle])
     shift = sw_rotate(c->now[k->obstacle].pose.q, sw_unrotate(c->start[k->obstacle].pose.q, shift));
   const double rise = sw_dot(normal, shift);
