@@ -12,9 +12,11 @@
 /* A cable that has just landed trembles, and the last milliseconds before its drive stops decide
  * how much friction remains at rest. So parts are SW_STOPS long, from LEAD before the stop until no
  * wire slides, at most until AFTER the stop. Then friction is right within 0.01 of mu N in the
- * mean; whole steps of 10 ms left 0.72 instead of -0.44 mu N. With half of LEAD one run in twenty
- * is off by 0.08; twice LEAD is no better (spec/contact/soft_landing_spec) [s]. */
-static const double LEAD = 0.01, AFTER = 0.01;
+ * mean; whole steps of 10 ms left 0.72 instead of -0.44 mu N. A cable that is lowered lands to the
+ * last; a whole step may make it hop there, and its friction is lost: with LEAD of 0.01 s one run
+ * in seven is off by up to 0.8, with 0.05 s no fewer than with 0.03 s
+ * (spec/contact/soft_landing_spec) [s]. */
+static const double LEAD = 0.03, AFTER = 0.01;
 
 /* *at: time after t at which LEAD begins, up to h; it may have begun [s]. */
 static sw_status leads_of(const sw_motion *m, double t, double h, double *at, sw_error *err) {
