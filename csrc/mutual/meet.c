@@ -58,14 +58,17 @@ static double axial_of(const sw_system *s, const sw_meet *t) {
 }
 
 /* Sets the part of a touch's depth that the step does not correct. Wires that were placed in each
- * other come out slowly: within one step the depth would become speed. */
+ * other come out slowly: within one step the depth would become speed. So do touches of another
+ * kind than the one remembered there: segments that lay along each other now cross, or the reverse,
+ * and touch at other places of the same wires; their depth is no motion either. */
 static void forgive(const sw_mutual *m, const sw_system *s, const sw_met *met, sw_meet *t) {
   if (m->regime == SW_CONTACT_EXPLICIT || t->press.gap >= 0) return;
   const double always = imposed(s, t);
   t->forgiven = always;
   if (m->regime != SW_CONTACT_IMPLICIT) return;
   const double depth = t->reach - sw_dot(t->square, sw_bows_apart(s->x, t->bow)) - always;
-  t->emerges |= met ? met->emerges : sw_press_was_put(depth, m->memory_count == 0);
+  t->emerges |=
+      met ? met->emerges || met->kind != t->kind : sw_press_was_put(depth, m->memory_count == 0);
   sw_kept kept = met ? met->kept : (sw_kept){0};
   t->squeezed = is_squeezed(m, s, met, t);
   if (!t->squeezed) kept.left = 0;
