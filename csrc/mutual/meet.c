@@ -57,10 +57,20 @@ static double axial_of(const sw_system *s, const sw_meet *t) {
                     sw_contact_edge_stiffness(s, t->of.body[1], t->of.node[1]));
 }
 
+/* 1 if a touch of two wires is not the remembered one: of another kind, as segments that lay along
+ * each other now cross, or at another place. Its depth is no motion: it was there before, not seen,
+ * and would throw the wires apart. */
+static int is_elsewhere(const sw_system *s, const sw_met *met, const sw_meet *t) {
+  if (!is_line(s, t->of.body[0]) || !is_line(s, t->of.body[1])) return 0;
+  double most = 0;
+  for (int k = 0; k < 2; k++)
+    most = fmax(most, fabs((double)met->of.node[k] + met->at[k] - t->of.node[k] - t->at[k]));
+  return met->kind != t->kind || most > SW_SAME_TOUCH;
+}
+
 /* Sets the part of a touch's depth that the step does not correct. Wires that were placed in each
- * other come out slowly: within one step the depth would become speed. So do touches of another
- * kind than the one remembered there: segments that lay along each other now cross, or the reverse,
- * and touch at other places of the same wires; their depth is no motion either. */
+ * other come out slowly: within one step the depth would become speed. So do touches that were not
+ * seen before. */
 static void forgive(const sw_mutual *m, const sw_system *s, const sw_met *met, sw_meet *t) {
   if (m->regime == SW_CONTACT_EXPLICIT || t->press.gap >= 0) return;
   const double always = imposed(s, t);
@@ -68,7 +78,7 @@ static void forgive(const sw_mutual *m, const sw_system *s, const sw_met *met, s
   if (m->regime != SW_CONTACT_IMPLICIT) return;
   const double depth = t->reach - sw_dot(t->square, sw_bows_apart(s->x, t->bow)) - always;
   t->emerges |=
-      met ? met->emerges || met->kind != t->kind : sw_press_was_put(depth, m->memory_count == 0);
+      met ? met->emerges || is_elsewhere(s, met, t) : sw_press_was_put(depth, m->memory_count == 0);
   sw_kept kept = met ? met->kept : (sw_kept){0};
   t->squeezed = is_squeezed(m, s, met, t);
   if (!t->squeezed) kept.left = 0;
