@@ -80,6 +80,16 @@ describe("an event doubts", function()
     end
   end)
 
+  it("peaks where a struck end buckles in waves too short for its edges", function()
+    local event = { kind = "edges", object = "a",
+      text = "the end of wire 'a' strikes 'wall' with 0.6 m/s and sticks: it buckles in half waves of 6 mm" }
+    assert.truthy(why(event):find("event 'edges'", 1, true))
+    assert.truthy(why(event, { peaks = true, on = "gripper" }, nil, "hand"))
+    assert.is_nil(why(event, nil, nil, "b"))
+    event.text = "the sharpest bend of wire 'a', 20 mm at s = 0 m, takes only one or two edges"
+    assert.is_nil(why(event)) -- gives the value a range, see spec/check/bends.lua
+  end)
+
   it("forces of a hold that presses a rod on something, unless a bar tells of them", function()
     local event = { kind = "pressed", object = "hand", text = "" }
     assert.truthy(why(event):find("edges decide the force", 1, true))

@@ -18,6 +18,8 @@ local kinds = {
   coarse = { "a step was too long for peaks" },
   threshold = { "an end is near the limit of friction: small differences decide its peaks", own = true,
     places = true },
+  edges = { "an end that was struck buckles in waves too short for its edges", own = true,
+    only = "buckles in half waves" },
   rebound = { "an end strikes again: small differences decide its peaks", own = true, places = true },
   jam = { "friction of a slider locks: small differences decide forces and places", places = true },
   energy = { "steps made energy: take smaller steps", only = "^steps made .* from nowhere" },
