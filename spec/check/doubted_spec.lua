@@ -87,7 +87,7 @@ describe("an event doubts", function()
     assert.truthy(why(event, { peaks = true, on = "gripper" }, nil, "hand"))
     assert.is_nil(why(event, nil, nil, "b"))
     event.text = "the sharpest bend of wire 'a', 20 mm at s = 0 m, takes only one or two edges"
-    assert.is_nil(why(event)) -- gives the value a range, see spec/check/bends.lua
+    assert.is_nil(why(event)) -- gives the value a range, see spec/check/bend_range_spec
   end)
 
   it("forces of a hold that presses a rod on something, unless a bar tells of them", function()
