@@ -2,6 +2,7 @@
 /* Vectors, places, rotations: Lua tables to C and back. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "bind/class.h"
 
@@ -50,8 +51,19 @@ sw_vec lsw_place(lua_State *L, int index, const char *what) {
   return p;
 }
 
+/* Raises an error for a key that a turn does not have. */
+static void check_turn(lua_State *L, int index, const char *what) {
+  for (lua_pushnil(L); lua_next(L, index); lua_pop(L, 1)) {
+    const char *key = lua_type(L, -2) == LUA_TSTRING ? lua_tostring(L, -2) : "axis";
+    if (strcmp(key, "axis") != 0 && strcmp(key, "angle") != 0)
+      luaL_error(L, "%s: there is no parameter '%s'; known are: axis angle", what, key);
+  }
+}
+
 sw_vec lsw_turn(lua_State *L, int index, const char *what) {
   const int top = lua_gettop(L);
+  index = lua_absindex(L, index);
+  check_turn(L, index, what);
   lua_getfield(L, index, "axis");
   const sw_vec axis = lsw_vector(L, -2, lua_pushfstring(L, "%s.axis", what), "-");
   lua_getfield(L, index, "angle");

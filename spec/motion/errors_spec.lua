@@ -37,6 +37,8 @@ local wrong = {
     "way-point 2: turn.axis must not be the zero vector" },
   { { points = { { 0, 0, 0 }, { 1, 0, 0, turn = { axis = { 0, 0, 1 } } } }, speed = 1 },
     "way-point 2: turn.angle must be a number [rad]" },
+  { { points = { { 0, 0, 0 }, { 1, 0, 0, turn = { axis = { 0, 0, 1 }, angel = 1 } } }, speed = 1 },
+    "way-point 2: turn: there is no parameter 'angel'; known are: axis angle" },
   { { points = { { 0, 0, 0 }, { 0, 0, 0 } }, speed = 1 },
     "way-point 2 (0, 0, 0) m repeats the one before it" },
   { { points = ways, speed = 1, law = "linear", acceleration = 1 }, "an acceleration cannot be kept" },
