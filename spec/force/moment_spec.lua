@@ -53,3 +53,48 @@ describe("an end moment", function()
     assert.is_true(math.abs(p[3] - (1 - math.cos(2)) / 2) < 1e-3)
   end)
 end)
+
+-- A pinned rod of inertia m L^2 / 3 that a couple M turns for a time t: w = M t / I, and the couple's
+-- work is M w t / 2, whole turns included.
+describe("a couple that turns a wire round and round", function()
+  local sw = require "softworld"
+  local M, t, L, m = 2e-3, 2, 0.2, 0.02 -- [N m], [s], [m], [kg/m]
+
+  local function turned(dt)
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = scene:wire{ EA = 1e4, EI = 0.05, mass_per_length = m, radius = 1e-3, segments = 10,
+      from = { 0, 0, 0 }, to = { L, 0, 0 } }
+    scene:pin(wire, { s = 0 })
+    scene:force{ kind = "moment", on = wire, s = L / 2, moment = { 0, 0, M } }
+    local run = scene:run{ duration = t, dt = dt }
+    assert.is_true(run.ok, run.reason)
+    return scene, run
+  end
+
+  it("does the work M times the angle, at any step", function()
+    for _, dt in ipairs{ 1e-2, 1e-3 } do
+      local scene, run = turned(dt)
+      assert.equal(0, #run.events)
+      local I = m * L ^ 3 / 3
+      local work = (M * t) ^ 2 / (2 * I) -- 12 turns
+      assert.is_true(work / M > 20 * math.pi)
+      local e = scene:energy()
+      assert.is_true(math.abs(e.kinetic / work - 1) < 0.01, e.kinetic .. " " .. work)
+    end
+  end)
+
+  it("does so about an axis that the wire is not across, without energy from nowhere", function()
+    for _, name in ipairs{ "GXL 1.5", "H07V-K 4", "FLRY-B 2.5" } do
+      for _, dt in ipairs{ 1e-2, 2e-3 } do
+        local scene = sw.scene{}
+        local wire = scene:wire{ cable = name, segments = 40, from = { 0, 0, 0.05 }, to = { 0.4, 0, 0.05 } }
+        scene:clamp(wire, { s = 0 })
+        scene:force{ kind = "damping", mass = 1, stiffness = 0.003 }
+        scene:force{ kind = "moment", on = wire, s = 0.2, moment = { 0, wire.beam.EI * 3, -wire.beam.EI * 4 } }
+        local run = scene:run{ duration = 0.8, dt = dt }
+        assert.is_true(run.ok, run.reason)
+        assert.equal(0, #run.events)
+      end
+    end
+  end)
+end)
