@@ -3,11 +3,13 @@
  * angle by which the wire's direction turns about the axis: E = -M theta, theta being the azimuth
  * of the edge vector e about the axis. Gradient and second derivative of the azimuth are exact and
  * symmetric. The couple bends but does not twist the wire (its component along the wire does no
- * work). Undefined where the wire lies along the axis. The history holds the azimuths of the last
- * accepted state, whole turns included: without them the energy would jump by 2 pi M once a turn.
- */
+ * work). Its moment on a wire at an angle a to the axis is M / sin a, for its part along the axis
+ * is M: it acts as a fork that carries the wire round the axis. Along the axis it is undefined, and
+ * an event says so below 45 degrees. The history holds the azimuths of the last accepted state,
+ * whole turns included: without them the energy would jump by 2 pi M once a turn. */
 #include <math.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "force/force.h"
@@ -28,8 +30,12 @@ static const sw_param rows[] = {
 /* An edge whose part across the axis is below this share of its length has no azimuth [-]. */
 static const double LEAST_ACROSS = 1e-6;
 
-/* Place of the two edges' azimuths in the history [rad]. */
-enum { AZIMUTH = 1 };
+/* Below this sine of the angle between wire and axis the event "couple" is told: a couple whose
+ * part along the wire merely had no effect would have half the moment there [-]. */
+static const double TOO_FLAT = M_SQRT1_2;
+
+/* History: azimuths of the two edges [rad]; smallest sine of their angles to the axis [-]. */
+enum { AZIMUTH = 1, SINE = AZIMUTH + 2, HISTORY };
 
 /* Returns the part of an edge across the axis; 0: it has no azimuth. */
 static sw_vec across_of(const sw_field *f, sw_vec axis, size_t e) {
@@ -95,15 +101,18 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
 
 static size_t state_size(const sw_plan *plan) {
   (void)plan;
-  return AZIMUTH + 2;
+  return HISTORY;
 }
 
 static void commit(const void *args, const sw_field *f, double *history) {
   const couple c = couple_of(args, f->plan);
+  history[SINE] = 1;
   for (int k = 0; k < 2; k++) {
     const sw_vec across = across_of(f, c.axis, c.edge[k]);
     double *at = &history[AZIMUTH + k];
     if (sw_norm2(across) > 0) *at = azimuth(c.axis, across, *at);
+    if (c.moment[k] > 0)
+      history[SINE] = fmin(history[SINE], sw_norm(across) * f->reciprocal[c.edge[k]]);
   }
 }
 
@@ -113,13 +122,31 @@ static void inherit(const sw_plan *old, const double *from, const sw_field *f, d
   memcpy(history, from, state_size(f->plan) * sizeof *history);
 }
 
+static int news(const void *args, const double *history, sw_force_news *out) {
+  const moment_args *a = args;
+  const double sine = history[SINE], degrees = asin(sine) * 180.0 / M_PI;
+  if (!(sine < TOO_FLAT)) return 0;
+  out->kind = "couple", out->s = a->s;
+  out->value = 1.0 / fmax(sine, LEAST_ACROSS);
+  if (sine > LEAST_ACROSS)
+    snprintf(out->text, sizeof out->text,
+             "it lies %.2g degrees off the couple's axis; the couple bends it by %.3g times its "
+             "moment, and is undefined along the axis",
+             degrees, out->value);
+  else
+    snprintf(out->text, sizeof out->text,
+             "it lies along the couple's axis: the couple does nothing");
+  return 1;
+}
+
 const sw_force_class sw_force_moment = {
     .name = "moment",
-    .summary = "a couple about a fixed axis at one place of the wire",
+    .summary = "a couple about a fixed axis at one place of the wire, across which the wire must lie",
     .flags = SW_FORCE_AT_PLACE | SW_FORCE_LOAD | SW_FORCE_ANY_SHAPE,
     .params = SW_PARAMS("force moment", rows),
     .eval = eval,
     .state_size = state_size,
     .commit = commit,
     .inherit = inherit,
+    .news = news,
 };

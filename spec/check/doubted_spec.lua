@@ -99,7 +99,7 @@ describe("an event doubts", function()
   it("values that no error bar tells of", function()
     local bar = { value = 1, error = 0.1 }
     for _, kind in ipairs{ "crash", "overload", "breaking", "integrator", "walls", "kink", "clip",
-      "buckling" } do
+      "buckling", "couple" } do
       assert.truthy(why({ kind = kind, object = "a", text = "" }, nil, bar), kind)
     end
   end)

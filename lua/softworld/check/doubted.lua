@@ -35,6 +35,8 @@ local kinds = {
   clip = { "the clip's model does not cover this", always = true, unless = "OVERLOADED" },
   joint = { "a joint passes no twist, which one wire would resist: bends and forces may be off", own = true,
     named = true, places = true, always = true },
+  couple = { "a wire lies nearly along the axis of a couple, where its action is undefined", own = true,
+    named = true, places = true, always = true },
   undamped = { "damping of solid elements is missing", own = true, always = true },
   unbalanced = { "forces after a change of model may be too large", own = true, always = true },
   grasp = { "a gripper held another wire than the one to grasp", places = true, always = true },
