@@ -83,11 +83,11 @@ function change.known(context, name, k, value)
 end
 
 --- Returns by how much quantities change between two rungs, compared with what is allowed: the worst share
--- and its quantity; all changes; seen: the change of that quantity on this level over the allowed one.
+-- and its quantity; all changes; seen: the changes on this level alone, over the allowed ones.
 -- levels: { here =, above = } of the rungs, also before; left(context, name, state): what other choices leave
 -- out of a quantity.
 function change.between(context, state, levels, left)
-  local c = { worst = -1, all = {} }
+  local c = { worst = -1, all = {}, seen = {} }
   local own = state.choice.rungs[state.rung].own and levels.before
   for _, q in ipairs(context.job.quantities) do
     local a, b = levels.here.values[q.name] or NONE, levels.above.values[q.name] or NONE
@@ -97,7 +97,8 @@ function change.between(context, state, levels, left)
     local asked = quantity.asked(q, change.known(context, q.name, levels.k, b))
     local allowed = math.max(0, change.MODEL * asked - left(context, q.name, state))
     local off = d > 0 and c.all[q.name] / allowed or 0
-    if off > c.worst then c.worst, c.quantity, c.allowed, c.seen = off, q, allowed, d / allowed end
+    c.seen[q.name] = d > 0 and d / allowed or 0
+    if off > c.worst then c.worst, c.quantity, c.allowed = off, q, allowed end
   end
   return c
 end

@@ -86,12 +86,22 @@ local function is_blurred(context, state, now, c)
   return true
 end
 
+-- True if what the next rung changes of a peak has grown since the level before.
+local function peak_grows(context, now)
+  local before = now.coarser and now.coarser.seen
+  for _, q in ipairs(before and context.job.quantities or {}) do
+    local seen = now.seen[q.name]
+    if q.plain and seen > change.FAINT and seen > before[q.name] then return true end
+  end
+  return false
+end
+
 -- True if the rung may not stay by this comparison, though the change is small: the choice doubts it on the
 -- first coarse levels.
-local function is_doubtful(state, now, c, levels)
+local function is_doubtful(context, state, now, c, levels)
   local choice = state.choice
   if not choice.doubtful or c.worst == 0 or c.worst > 1 or now.k >= levels then return false end
-  return choice.doubtful(now.here.facts[choice.name], now.k)
+  return choice.doubtful(now.here.facts[choice.name], now.k, peak_grows(context, now))
 end
 
 -- Marks results of the level before whose poses jumped to a place where they do not go on this level: such
@@ -160,7 +170,8 @@ local function level_before(context, state, rungs, above, k)
   local there = here and probe.known(context, above, k - 1)
   if not (there and here.ok and there.ok) then return nil end
   local now = { k = k - 1, here = here, above = there }
-  now.worst = change.between(context, state, now, change.left_by_others).worst
+  local c = change.between(context, state, now, change.left_by_others)
+  now.worst, now.seen = c.worst, c.seen
   return now
 end
 
@@ -182,13 +193,15 @@ function compare.rungs(context, state, rungs, above, begin)
     local now = { k = k, here = here, above = there, rungs = rungs, before = before }
     local last = c
     c, before, state.compared = change.between(context, state, now, change.left_by_others), now, now
-    now.worst, now.coarser = c.worst, last and now.before or level_before(context, state, rungs, above, k)
+    now.worst, now.seen = c.worst, c.seen
+    now.coarser = last and now.before or level_before(context, state, rungs, above, k)
     local clear = c.worst < 1 / DOUBT or c.worst > HOPE ^ (levels - k) or k > 1 and c.worst <= 1
     if last and last.worst > FEIGNED and c.worst <= 1 then mark_astray(now, last) end
     local blurred, all = is_blurred(context, state, now, c)
-    doubtful = is_doubtful(state, now, c, levels)
+    doubtful = is_doubtful(context, state, now, c, levels)
     if clear and not blurred and not doubtful and k >= (state.from or 1) then return all or c end
-    local grows = last and not state.choice.steady and c.worst > 1 and c.seen >= last.seen
+    local grows = last and not state.choice.steady and c.worst > 1
+      and c.seen[c.quantity.name] >= last.seen[last.quantity.name]
     if grows then return c end
     local costly = state.choice.costly
     local depth = k + context.job.skipped
