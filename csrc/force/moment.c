@@ -130,8 +130,8 @@ static int news(const void *args, const double *history, sw_force_news *out) {
   out->value = 1.0 / fmax(sine, LEAST_ACROSS);
   if (sine > LEAST_ACROSS)
     snprintf(out->text, sizeof out->text,
-             "it lies %.2g degrees off the couple's axis; the couple bends it by %.3g times its "
-             "moment, and is undefined along the axis",
+             "it lies %.2g degrees off the couple's axis and is bent by %.3g times the couple's "
+             "moment; along the axis a couple is undefined",
              degrees, out->value);
   else
     snprintf(out->text, sizeof out->text,
@@ -141,7 +141,8 @@ static int news(const void *args, const double *history, sw_force_news *out) {
 
 const sw_force_class sw_force_moment = {
     .name = "moment",
-    .summary = "a couple about a fixed axis at one place of the wire, across which the wire must lie",
+    .summary =
+        "a couple about a fixed axis at one place of the wire, across which the wire must lie",
     .flags = SW_FORCE_AT_PLACE | SW_FORCE_LOAD | SW_FORCE_ANY_SHAPE,
     .params = SW_PARAMS("force moment", rows),
     .eval = eval,

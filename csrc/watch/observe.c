@@ -107,9 +107,14 @@ static void tell_news(sw_scene *s) {
       if (!sw_term_news(&b->terms[k], &news)) continue;
       const int id = b->terms[k].id;
       const char *name = id >= 0 ? sw_scene_force_in(s, id)->name : "";
+      const char *wire = sw_scene_wire_in(s, w)->name, *kind = b->terms[k].cls->name;
       const double s0 = b->plan->s[0];
-      sw_scene_tell(s, news.kind, name, news.s - s0, news.value, "%s '%s', wire '%s': %s",
-                    b->terms[k].cls->name, name, sw_scene_wire_in(s, w)->name, news.text);
+      if (*name)
+        sw_scene_tell(s, news.kind, name, news.s - s0, news.value, "%s '%s', wire '%s': %s", kind,
+                      name, wire, news.text);
+      else
+        sw_scene_tell(s, news.kind, wire, news.s - s0, news.value, "force %s, wire '%s': %s", kind,
+                      wire, news.text);
     }
   }
 }
