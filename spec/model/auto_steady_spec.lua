@@ -136,7 +136,7 @@ end
 -- up to 32, on which the run had computed poses.
 local function clipped()
   return pressed({ E = 20e6, radius = 0.0025, span = 0.16131133910558, insertion = 1.1535811776084,
-    duration = 1, down = 0.059661129320112 }, false, { model = "auto",
+    duration = 1, down = 0.055550941100093 }, false, { model = "auto",
       tolerance = { min_bend_radius = { relative = 0.1 } } })
 end
 

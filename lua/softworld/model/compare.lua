@@ -20,6 +20,7 @@ local HIDDEN = 4   -- coarse edges and steps that blur a change may hide this ma
 local HIDES = 2 / 3 -- largest change with hidden part over the allowed one; the rest is for edges, steps [-]
 local SEEN = 1 / HIDDEN -- least share of a swing that steps must show; less would hide more than HIDDEN [-]
 local TOILS = 2    -- wide steps over those of the rung above which they save nothing; mostly below 1.5 [-]
+local SWELLS = 4   -- growth of a peak's change per level from which its value is not known yet [-]
 local NONE = 0 / 0 -- value of a check's row that a computation lacks
 
 compare.levels = 3 -- coarse levels on which rungs are compared [-]
@@ -86,12 +87,12 @@ local function is_blurred(context, state, now, c)
   return true
 end
 
--- True if what the next rung changes of a peak has grown since the level before.
+-- True if what the next rung changes of a peak has grown much since the level before.
 local function peak_grows(context, now)
   local before = now.coarser and now.coarser.seen
   for _, q in ipairs(before and context.job.quantities or {}) do
     local seen = now.seen[q.name]
-    if q.plain and seen > change.FAINT and seen > before[q.name] then return true end
+    if q.plain and seen > change.FAINT and seen > SWELLS * before[q.name] then return true end
   end
   return false
 end

@@ -176,9 +176,9 @@ function motion.alike(before, now)
   return (now.acceleration or math.huge) <= GROWN * (before.acceleration or 0)
 end
 
---- True if poses jump, and what dynamics change of a peak grows as edges get shorter. Coarse edges snap into
--- a clip more softly: the change of a bend grew from a tenth of the tolerance to 1.5 times from the second
--- level to the third. grows: true if a peak is asked for and the change grows.
+--- True if poses jump, and what dynamics change of a peak grows much as edges get shorter. Coarse edges snap
+-- into a clip more softly: the change of a bend was 0.015, 0.10 and 1.6 of what is allowed on three levels.
+-- grows: true if a peak is asked for and the change grows.
 function motion.doubtful(f, _, grows) return grows and f.jumps > 0 end
 
 --- True if poses need so many iterations each that they may cost more than dynamics.
