@@ -47,6 +47,9 @@ function samples.force(force, index)
   args.kind = force.name
   if force.on_some then args.particles = { 3, 1, 7 } end
   if args.yield then args.yield = 0.02 end -- so small that the shapes tested go beyond it
+  if force.name == "moment" then -- so small that it does not whirl the wire while this is used
+    for k = 1, 3 do args.moment[k] = 0.1 * args.moment[k] end
+  end
   if force.name == "clip" or force.name == "snap" then -- around the whole wire, at a slant
     args.at, args.direction, args.axis, args.width = { 0.45, 0, -0.2 }, { 0.1, 0.2, 1 }, { 1, 0, 0 }, 3
     args.insertion, args.retention, args.way, args.radius = 3, 5, 1.5, 0.05
