@@ -135,7 +135,8 @@ static int news(const void *args, const double *history, sw_force_news *out) {
              degrees, out->value);
   else
     snprintf(out->text, sizeof out->text,
-             "it lies along the couple's axis: the couple does nothing");
+             "it lies along the couple's axis: the couple is undefined there and does nothing, but "
+             "bends by M / sin a as soon as the wire turns off it by an angle a");
   return 1;
 }
 
