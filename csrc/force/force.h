@@ -10,6 +10,7 @@
 #include "base/param.h"
 #include "base/status.h"
 #include "state/field.h"
+#include "state/tie.h"
 
 enum {
   SW_FORCE_INNER = 1,       /* part of a wire model's recipe; not made by scene:force */
@@ -122,6 +123,8 @@ typedef struct sw_force_class {
   /* Returns the pull on a part that can break and fills its strength: 0 = broken, HUGE_VAL = no
    * limit [N]. Only positions of the field are up to date. NULL = cannot break. */
   double (*pull)(const void *args, const sw_field *field, const double *history, double *bears);
+  /* With pull: how this part swings while it is taut. Positions and velocities are up to date. */
+  sw_tie_swing (*swing)(const void *args, const sw_field *field);
 
   /* Returns the nodes' move in a step to x over the largest move that still resolves the force on
    * the way: at most 1 is fine; 0 = the wire is not near [-]. NULL = the force is as smooth as the

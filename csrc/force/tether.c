@@ -98,6 +98,21 @@ static double pull(const void *args, const sw_field *f, const double *h, double 
   return *bears > 0 ? borne(a, f, h + BORNE, tied_of(a, f).pull) : 0.0;
 }
 
+static sw_tie_swing swing(const void *args, const sw_field *f) {
+  const tether_args *a = args;
+  const tied t = tied_of(a, f);
+  sw_tie_swing out = {.stiffness = a->stiffness, .mass = HUGE_VAL};
+  if (f->plan->web) return out; /* its rings swing by themselves */
+  double inverse = 0;
+  const sw_vec n = sw_unit_or(t.apart, sw_v(0, 0, 0));
+  for (size_t k = 0; k < 2; k++) {
+    inverse += t.part[k] * t.part[k] / f->plan->lumped[t.i + k];
+    out.rate += t.part[k] * sw_dot(n, sw_axis_velocity(f, t.i + k));
+  }
+  out.mass = 1.0 / inverse;
+  return out;
+}
+
 static void commit(const void *args, const sw_field *f, double *h) {
   const tether_args *a = args;
   const tied t = tied_of(a, f);
@@ -150,6 +165,7 @@ const sw_force_class sw_force_tether = {
     .commit = commit,
     .inherit = inherit,
     .pull = pull,
+    .swing = swing,
     .outputs = outputs,
     .read = read,
 };

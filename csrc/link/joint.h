@@ -47,6 +47,9 @@ typedef struct sw_joint_acts {
   /* Returns the pull with nodes at x; bears: the strength, 0 when broken, infinite when it cannot
    * break [N]. NULL: joints of this class do not break. */
   double (*pull)(const sw_joint *joint, const sw_system *system, const double *x, double *bears);
+  /* With pull: how the joint swings while it is taut, with nodes at x and their velocities v. */
+  sw_tie_swing (*swing)(const sw_joint *joint, const sw_system *system, const double *x,
+                        const double *v);
   void (*breaks)(sw_joint *joint, sw_system *system);
 } sw_joint_acts;
 

@@ -31,6 +31,20 @@ static double pull(const sw_joint *j, const sw_system *s, const double *x, doubl
   return sw_norm(sw_join_spring_force(&s->joins->springs[j->spring], x));
 }
 
+static sw_tie_swing swing(const sw_joint *j, const sw_system *s, const double *x, const double *v) {
+  const sw_join_spring *p = &s->joins->springs[j->spring];
+  const uint32_t nodes[2] = {p->i, p->j};
+  const sw_vec n = sw_unit_or(sw_sub(sw_vec_at(x, p->i), sw_vec_at(x, p->j)), sw_v(0, 0, 0));
+  double inverse = 0;
+  for (size_t k = 0; k < 2; k++) {
+    const sw_body *b = &s->bodies[j->ends[k].wire];
+    if (!b->plan->web) inverse += 1.0 / b->plan->lumped[nodes[k] - b->first_node];
+  }
+  return (sw_tie_swing){.stiffness = p->k,
+                        .mass = 1.0 / inverse,
+                        .rate = sw_dot(n, sw_sub(sw_vec_at(v, p->i), sw_vec_at(v, p->j)))};
+}
+
 static void breaks(sw_joint *j, sw_system *s) { s->joins->springs[j->spring].k = 0; }
 
 static const char *const outputs[] = {"distance",    "tension",      "peak", "broken",
@@ -56,6 +70,7 @@ static const sw_joint_acts acts = {.apart = 1,
                                    .add = add,
                                    .force = force,
                                    .pull = pull,
+                                   .swing = swing,
                                    .breaks = breaks};
 
 const sw_link_class sw_link_tie = {

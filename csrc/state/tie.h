@@ -42,6 +42,12 @@ static inline void sw_tie_stiffness(double k, double slack, sw_vec d, double w, 
       K[3 * i + j] = (along - across) * n[i] * n[j] + (i == j ? across : 0.0);
 }
 
+/* A taut tie swings on the places that it pulls at: its stiffness [N/m], the mass of these places
+ * along the tie (infinite: no place moves) [kg], and the rate at which it lengthens [m/s]. */
+typedef struct sw_tie_swing {
+  double stiffness, mass, rate;
+} sw_tie_swing;
+
 /* What happened to a tie, as kept in histories. */
 enum { SW_TIE_BROKEN, SW_TIE_BROKEN_TIME, SW_TIE_BROKEN_FORCE, SW_TIE_PEAK, SW_TIE_FATE };
 

@@ -75,6 +75,12 @@ sw_status sw_step_adaptive(sw_ladder *p, double left, double t1, sw_error *err) 
       h = sw_blow_part(s, h);
       continue;
     }
+    const double snaps = fine ? sw_blow_snap(s, h) : h;
+    if (snaps < h) {
+      sw_ladder_undo(p);
+      h = snaps;
+      continue;
+    }
     const int follows = fine && p->args->parts && sw_coarse_applies(s);
     const double grows = follows ? sw_buckle_of(s, h) : 0.0, shorter = sw_buckle_part(h, grows);
     if (fine && shorter < h) {

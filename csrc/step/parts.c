@@ -102,6 +102,11 @@ static int is_too_long(const sw_ladder *p, parts *k, int *may_grow) {
     k->struck = k->part;
     return 1;
   }
+  const double snaps = sw_blow_snap(p->s, k->part);
+  if (!k->unfollowed && snaps < k->part) {
+    k->part = snaps;
+    return 1;
+  }
   const int divides = p->args->parts && sw_coarse_applies(p->s);
   const double closes = divides ? sw_jaw_closes(p->s, k->part) : 0.0;
   const double passes = fmax(closes, sw_passing_of(p->s, sw_scene_course(p->s)->stepper.trial_x));

@@ -45,15 +45,20 @@ int sw_scene_may_break(const sw_scene *scene);
 /* SW_ENOCONV when a tie is pulled far beyond its strength with nodes at x: it breaks within the
  * step. */
 sw_status sw_scene_check_ties(const sw_scene *scene, const double *x, sw_error *err);
-/* Hardest pull of ties that go taut [N], the wires that it pulls at, and the largest pull over the
- * usual force of its wire [-]. */
+/* Ties that go taut. */
 typedef struct sw_snap {
-  double pull, jolt;
-  size_t wires[2];
+  double pull;     /* the hardest [N] */
+  size_t wires[2]; /* that it pulls at */
+  double jolt;     /* largest pull over the usual force of its wire [-] */
+  double time;     /* shortest time of a hard swing, as sw_scene_ties_swing [s] */
+  int any;
 } sw_snap;
 /* 1 if a tie goes taut between the scene's state and a stage of the last trial. Stages are checked
  * because a tie that snaps taut may be slack again at the trial's end. */
 int sw_scene_ties_snap(const sw_scene *scene, sw_snap *snap);
+/* Returns the shortest time sqrt(m/k) of ties that are taut at the scene's state and swing hard; m:
+ * mass of the places that they pull at. HUGE_VAL: none does [s]. */
+double sw_scene_ties_swing(const sw_scene *scene);
 /* Breaks ties that were pulled too hard. Call after a step, before histories follow. */
 void sw_scene_watch_ties(sw_scene *scene);
 

@@ -109,56 +109,110 @@ sw_status sw_scene_check_ties(const sw_scene *s, const double *x, sw_error *err)
   return SW_OK;
 }
 
-/* Notes a tie that is slack at the scene's state and taut in a trial. before, now: its pulls [N];
- * wires: those at its ends. */
-static int note_snap(const sw_scene *s, double before, double now, const size_t wires[2],
-                     sw_snap *snap) {
+/* A tie at the scene's state. */
+typedef struct tie {
+  size_t joint;        /* its number, or */
+  const sw_term *term; /* its force, on body number wires[0] */
+  size_t wires[2];     /* those at its ends */
+  double pull;         /* [N] */
+} tie;
+
+/* Calls `visit` for each unbroken tie. */
+static void each_tie(const sw_scene *s, void (*visit)(const sw_scene *, const tie *, void *),
+                     void *user) {
   const sw_system *system = sw_scene_system(s);
-  if (before > 0 || !(now > 0)) return 0;
-  const int hardest = now > snap->pull;
-  if (hardest) snap->pull = now;
-  for (size_t k = 0; k < 2; k++) {
-    if (hardest) snap->wires[k] = wires[k];
-    const sw_plan *p = system->bodies[wires[k]].plan;
-    if (!p->web) snap->jolt = fmax(snap->jolt, now / sw_contact_usual_force(system, p));
+  double bears;
+  for (size_t k = 0; k < sw_scene_join_slots(s); k++) {
+    if (!breakable(s, k)) continue;
+    const sw_joint *j = sw_scene_join_in(s, k);
+    const tie t = {.joint = k,
+                   .wires = {j->ends[0].wire, j->ends[1].wire},
+                   .pull = pull_of_joint(s, k, system->x, &bears)};
+    if (bears > 0) visit(s, &t, user);
   }
-  return 1;
-}
-
-static int joint_snaps(const sw_scene *s, size_t joint, const double *x, sw_snap *snap) {
-  const sw_system *system = sw_scene_system(s);
-  const sw_joint *j = sw_scene_join_in(s, joint);
-  double bears;
-  const double before = pull_of_joint(s, joint, system->x, &bears);
-  const size_t wires[2] = {j->ends[0].wire, j->ends[1].wire};
-  return note_snap(s, before, pull_of_joint(s, joint, x, &bears), wires, snap);
-}
-
-static int snap_at(const sw_scene *s, const double *x, sw_snap *snap) {
-  const sw_system *system = sw_scene_system(s);
-  int any = 0;
-  double bears;
-  for (size_t k = 0; k < sw_scene_join_slots(s); k++)
-    if (breakable(s, k)) any |= joint_snaps(s, k, x, snap);
   for (size_t b = 0; sw_scene_force_slots(s) && b < system->body_count; b++) {
     const sw_body *body = &system->bodies[b];
-    const size_t wires[2] = {b, b};
     SW_ITEMS(const sw_term, term, body->terms, body->term_count) {
       if (!term->cls->pull) continue;
-      const double before = pull_of(system, body, term, system->x, 0, &bears);
-      any |= note_snap(s, before, pull_of(system, body, term, x, 0, &bears), wires, snap);
+      const tie t = {
+          .term = term, .wires = {b, b}, .pull = pull_of(system, body, term, system->x, 0, &bears)};
+      if (bears > 0) visit(s, &t, user);
     }
   }
-  return any;
+}
+
+static double pull_at(const sw_scene *s, const tie *t, const double *x) {
+  const sw_system *system = sw_scene_system(s);
+  double bears;
+  return t->term ? pull_of(system, &system->bodies[t->wires[0]], t->term, x, 0, &bears)
+                 : pull_of_joint(s, t->joint, x, &bears);
+}
+
+/* How a tie swings at the scene's state. */
+static sw_tie_swing swing_of(const sw_scene *s, const tie *t) {
+  const sw_system *system = sw_scene_system(s);
+  if (!t->term) {
+    const sw_joint *j = sw_scene_join_in(s, t->joint);
+    return j->cls->joint->swing(j, system, system->x, system->v);
+  }
+  const sw_body *b = &system->bodies[t->wires[0]];
+  sw_field at = b->field;
+  at.x = system->x + 3 * b->first_node, at.v = system->v + 3 * b->first_node;
+  return t->term->cls->swing(t->term->args, &at);
+}
+
+/* A tie swings hard if v sqrt(k m) is this many times the usual force of a wire at it: the pull at
+ * which it stops a place of mass m that moves with v [-]. */
+static const double HARD_SWING = 1.0;
+
+/* Returns the time sqrt(m/k) of a tie's swing, if it is hard; else HUGE_VAL [s]. */
+static double hard_swing(const sw_scene *s, const tie *t) {
+  const sw_system *system = sw_scene_system(s);
+  const sw_tie_swing w = swing_of(s, t);
+  double usual = HUGE_VAL;
+  for (size_t k = 0; k < 2; k++) {
+    const sw_plan *p = system->bodies[t->wires[k]].plan;
+    if (!p->web) usual = fmin(usual, sw_contact_usual_force(system, p));
+  }
+  const int hard = fabs(w.rate) * sqrt(w.stiffness * w.mass) > HARD_SWING * usual;
+  return hard ? sqrt(w.mass / w.stiffness) : HUGE_VAL;
+}
+
+static void find_swing(const sw_scene *s, const tie *t, void *time) {
+  double *least = time;
+  if (t->pull > 0) *least = fmin(*least, hard_swing(s, t));
+}
+
+double sw_scene_ties_swing(const sw_scene *s) {
+  double time = HUGE_VAL;
+  each_tie(s, find_swing, &time);
+  return time;
+}
+
+/* Notes a tie that is slack at the scene's state and taut in a stage of the last trial. */
+static void note_snap(const sw_scene *s, const tie *t, void *found) {
+  const sw_system *system = sw_scene_system(s);
+  const sw_stepper *stepper = &sw_scene_course(s)->stepper;
+  sw_snap *snap = found;
+  double now = 0;
+  for (size_t k = 0; k < stepper->used->stages && !(t->pull > 0); k++)
+    now = fmax(now, pull_at(s, t, stepper->y[k]));
+  if (!(now > 0)) return;
+  const int hardest = now > snap->pull;
+  snap->any = 1;
+  if (hardest) snap->pull = now;
+  for (size_t k = 0; k < 2; k++) {
+    if (hardest) snap->wires[k] = t->wires[k];
+    const sw_plan *p = system->bodies[t->wires[k]].plan;
+    if (!p->web) snap->jolt = fmax(snap->jolt, now / sw_contact_usual_force(system, p));
+  }
+  snap->time = fmin(snap->time, hard_swing(s, t));
 }
 
 int sw_scene_ties_snap(const sw_scene *s, sw_snap *snap) {
-  const sw_stepper *stepper = &sw_scene_course(s)->stepper;
-  const size_t stages = stepper->used ? stepper->used->stages : 0;
-  int any = 0;
-  *snap = (sw_snap){.pull = 0};
-  for (size_t k = 0; k < stages; k++) any |= snap_at(s, stepper->y[k], snap);
-  return any;
+  *snap = (sw_snap){.time = HUGE_VAL};
+  if (sw_scene_course(s)->stepper.used) each_tie(s, note_snap, snap);
+  return snap->any;
 }
 
 /* Reports ties to points. They break when they follow the accepted state. */
