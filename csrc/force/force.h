@@ -124,7 +124,7 @@ typedef struct sw_force_class {
    * limit [N]. Only positions of the field are up to date. NULL = cannot break. */
   double (*pull)(const void *args, const sw_field *field, const double *history, double *bears);
   /* With pull: how this part swings while it is taut. Positions and velocities are up to date. */
-  sw_tie_swing (*swing)(const void *args, const sw_field *field);
+  sw_tie_swing (*swing)(const void *args, const sw_field *field, const double *history);
 
   /* Returns the nodes' move in a step to x over the largest move that still resolves the force on
    * the way: at most 1 is fine; 0 = the wire is not near [-]. NULL = the force is as smooth as the

@@ -98,10 +98,10 @@ static double pull(const void *args, const sw_field *f, const double *h, double 
   return *bears > 0 ? borne(a, f, h + BORNE, tied_of(a, f).pull) : 0.0;
 }
 
-static sw_tie_swing swing(const void *args, const sw_field *f) {
+static sw_tie_swing swing(const void *args, const sw_field *f, const double *h) {
   const tether_args *a = args;
   const tied t = tied_of(a, f);
-  sw_tie_swing out = {.stiffness = a->stiffness, .mass = HUGE_VAL};
+  sw_tie_swing out = {.stiffness = a->stiffness, .mass = HUGE_VAL, .peak = h[FATE + SW_TIE_PEAK]};
   if (f->plan->web) return out; /* its rings swing by themselves */
   double inverse = 0;
   const sw_vec n = sw_unit_or(t.apart, sw_v(0, 0, 0));

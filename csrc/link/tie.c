@@ -42,6 +42,7 @@ static sw_tie_swing swing(const sw_joint *j, const sw_system *s, const double *x
   }
   return (sw_tie_swing){.stiffness = p->k,
                         .mass = 1.0 / inverse,
+                        .peak = j->fate[SW_TIE_PEAK],
                         .rate = sw_dot(n, sw_sub(sw_vec_at(v, p->i), sw_vec_at(v, p->j)))};
 }
 

@@ -43,9 +43,10 @@ static inline void sw_tie_stiffness(double k, double slack, sw_vec d, double w, 
 }
 
 /* A taut tie swings on the places that it pulls at: its stiffness [N/m], the mass of these places
- * along the tie (infinite: no place moves) [kg], and the rate at which it lengthens [m/s]. */
+ * along the tie (infinite: no place moves) [kg], the rate at which it lengthens [m/s], and its
+ * largest pull so far [N]. */
 typedef struct sw_tie_swing {
-  double stiffness, mass, rate;
+  double stiffness, mass, rate, peak;
 } sw_tie_swing;
 
 /* What happened to a tie, as kept in histories. */

@@ -52,7 +52,7 @@ double sw_blow_part(const sw_scene *s, double h) {
 
 double sw_blow_snap(const sw_scene *s, double h) {
   sw_snap snap;
-  if (!follows_ties(s, h) || !sw_scene_ties_snap(s, &snap)) return h;
+  if (!follows_ties(s, h) || !sw_scene_ties_snap(s, 1, &snap)) return h;
   const double part = part_of_swing(snap.time);
   return h > 1.01 * part ? part : h;
 }
@@ -103,14 +103,9 @@ static const double SNAP = 6.0;
 static double *hardest_of(void *scene, size_t wire) { return &sw_scene_wire_in(scene, wire)->blow; }
 
 /* As sw_contact_jolt, for ties. */
-static double jolt_of_ties(sw_scene *s, int followed) {
+static double jolt_of_ties(const sw_scene *s, int followed) {
   sw_snap snap;
-  if (!sw_scene_ties_snap(s, &snap) || !(snap.jolt > 0)) return 0;
-  double *const hardest[2] = {hardest_of(s, snap.wires[0]), hardest_of(s, snap.wires[1])};
-  const double usual = snap.pull / snap.jolt, before = fmin(*hardest[0], *hardest[1]);
-  if (!(snap.pull > sw_contact_least_blow(usual, before, followed))) return 0;
-  for (int k = 0; k < 2 && !followed; k++) *hardest[k] = fmax(*hardest[k], snap.pull);
-  return fmax(snap.jolt, SNAP);
+  return sw_scene_ties_snap(s, followed, &snap) && snap.jolt > 0 ? fmax(snap.jolt, SNAP) : 0.0;
 }
 
 static double jolt_of(sw_scene *s, int followed) {

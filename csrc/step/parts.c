@@ -75,7 +75,7 @@ enum { MOST_WORSE = 1 };
 static int is_coarse(const sw_ladder *p, parts *k, int *may_grow) {
   const double over = k->rough ? 0.0 : sw_coarse_of(p->s, HUGE_VAL);
   sw_snap snap;
-  const int snaps = over > 1 && sw_scene_ties_snap(p->s, &snap);
+  const int snaps = over > 1 && sw_scene_ties_snap(p->s, 0, &snap);
   const double shorter = snaps ? sw_coarse_half(k->part, p->args->dt)
                                : sw_coarse_part(p->s, k->part, p->args->dt, over);
   *may_grow = sw_coarse_may_grow(p->s, over);

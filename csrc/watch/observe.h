@@ -47,15 +47,14 @@ int sw_scene_may_break(const sw_scene *scene);
 sw_status sw_scene_check_ties(const sw_scene *scene, const double *x, sw_error *err);
 /* Ties that go taut. */
 typedef struct sw_snap {
-  double pull;     /* the hardest [N] */
-  size_t wires[2]; /* that it pulls at */
-  double jolt;     /* largest pull over the usual force of its wire [-] */
-  double time;     /* shortest time of a hard swing, as sw_scene_ties_swing [s] */
+  int followed; /* 1: during a blow */
   int any;
+  double jolt; /* largest pull over the usual force of its wire, of ties that strike; 0: none [-] */
+  double time; /* shortest time of a hard swing, as sw_scene_ties_swing [s] */
 } sw_snap;
 /* 1 if a tie goes taut between the scene's state and a stage of the last trial. Stages are checked
  * because a tie that snaps taut may be slack again at the trial's end. */
-int sw_scene_ties_snap(const sw_scene *scene, sw_snap *snap);
+int sw_scene_ties_snap(const sw_scene *scene, int followed, sw_snap *snap);
 /* Returns the shortest time sqrt(m/k) of ties that are taut at the scene's state and swing hard; m:
  * mass of the places that they pull at. HUGE_VAL: none does [s]. */
 double sw_scene_ties_swing(const sw_scene *scene);

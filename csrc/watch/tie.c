@@ -6,6 +6,7 @@
 
 #include "body/join.h"
 #include "contact/contact.h"
+#include "contact/jolt.h"
 #include "link/joint.h"
 #include "scene/course.h"
 #include "scene/events.h"
@@ -158,29 +159,34 @@ static sw_tie_swing swing_of(const sw_scene *s, const tie *t) {
   const sw_body *b = &system->bodies[t->wires[0]];
   sw_field at = b->field;
   at.x = system->x + 3 * b->first_node, at.v = system->v + 3 * b->first_node;
-  return t->term->cls->swing(t->term->args, &at);
+  return t->term->cls->swing(t->term->args, &at, t->term->history);
 }
 
-/* A tie swings hard if v sqrt(k m) is this many times the usual force of a wire at it: the pull at
- * which it stops a place of mass m that moves with v [-]. */
-static const double HARD_SWING = 1.0;
-
-/* Returns the time sqrt(m/k) of a tie's swing, if it is hard; else HUGE_VAL [s]. */
-static double hard_swing(const sw_scene *s, const tie *t) {
+/* The smallest usual force of the lines that it pulls at; HUGE_VAL: only meshes [N]. */
+static double usual_force(const sw_scene *s, const tie *t) {
   const sw_system *system = sw_scene_system(s);
-  const sw_tie_swing w = swing_of(s, t);
   double usual = HUGE_VAL;
   for (size_t k = 0; k < 2; k++) {
     const sw_plan *p = system->bodies[t->wires[k]].plan;
     if (!p->web) usual = fmin(usual, sw_contact_usual_force(system, p));
   }
-  const int hard = fabs(w.rate) * sqrt(w.stiffness * w.mass) > HARD_SWING * usual;
-  return hard ? sqrt(w.mass / w.stiffness) : HUGE_VAL;
+  return usual;
 }
+
+/* The pull at which a tie stops places that lengthen it at this rate: v sqrt(k m) [m/s], [N]. */
+static double stop_of(const sw_tie_swing *w, double rate) {
+  return isfinite(w->mass) ? fabs(rate) * sqrt(w->stiffness * w->mass) : 0.0;
+}
+
+/* A tie swings hard if this pull is above so many usual forces of a wire at it [-]. */
+static const double HARD_SWING = 1.0;
 
 static void find_swing(const sw_scene *s, const tie *t, void *time) {
   double *least = time;
-  if (t->pull > 0) *least = fmin(*least, hard_swing(s, t));
+  if (!(t->pull > 0)) return;
+  const sw_tie_swing w = swing_of(s, t);
+  if (stop_of(&w, w.rate) > HARD_SWING * usual_force(s, t))
+    *least = fmin(*least, sqrt(w.mass / w.stiffness));
 }
 
 double sw_scene_ties_swing(const sw_scene *s) {
@@ -189,7 +195,9 @@ double sw_scene_ties_swing(const sw_scene *s) {
   return time;
 }
 
-/* Notes a tie that is slack at the scene's state and taut in a stage of the last trial. */
+/* Notes a tie that is slack at the scene's state and taut in a stage of the last trial. Its blow
+ * is compared with its own hardest pull so far: the hardest blow of the wire depends on the step,
+ * and may be one on an obstacle or of another tie. */
 static void note_snap(const sw_scene *s, const tie *t, void *found) {
   const sw_system *system = sw_scene_system(s);
   const sw_stepper *stepper = &sw_scene_course(s)->stepper;
@@ -198,19 +206,19 @@ static void note_snap(const sw_scene *s, const tie *t, void *found) {
   for (size_t k = 0; k < stepper->used->stages && !(t->pull > 0); k++)
     now = fmax(now, pull_at(s, t, stepper->y[k]));
   if (!(now > 0)) return;
-  const int hardest = now > snap->pull;
+  const sw_tie_swing w = swing_of(s, t);
+  const double usual = usual_force(s, t),
+               fell = sw_norm(sw_load(system->gravity)) * stepper->trial_h;
+  const double stop = stop_of(&w, fabs(w.rate) + fell);
   snap->any = 1;
-  if (hardest) snap->pull = now;
-  for (size_t k = 0; k < 2; k++) {
-    if (hardest) snap->wires[k] = t->wires[k];
-    const sw_plan *p = system->bodies[t->wires[k]].plan;
-    if (!p->web) snap->jolt = fmax(snap->jolt, now / sw_contact_usual_force(system, p));
-  }
-  snap->time = fmin(snap->time, hard_swing(s, t));
+  if (stop > HARD_SWING * usual) snap->time = fmin(snap->time, sqrt(w.mass / w.stiffness));
+  /* a tie that goes taut late in the trial pulls little now */
+  if (fmax(now, stop) > sw_contact_least_blow(usual, w.peak, snap->followed))
+    snap->jolt = fmax(snap->jolt, now / usual);
 }
 
-int sw_scene_ties_snap(const sw_scene *s, sw_snap *snap) {
-  *snap = (sw_snap){.time = HUGE_VAL};
+int sw_scene_ties_snap(const sw_scene *s, int followed, sw_snap *snap) {
+  *snap = (sw_snap){.followed = followed, .time = HUGE_VAL};
   if (sw_scene_course(s)->stepper.used) each_tie(s, note_snap, snap);
   return snap->any;
 }

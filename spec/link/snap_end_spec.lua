@@ -15,7 +15,8 @@ local falls = {
 }
 
 -- Options: shift: more slack [m]; strength [N]; turned: about the vertical [rad]; swapped: ends; segments;
--- beam: tied to the middle of a stiff wire instead of a point; tolerance: of an adaptive run [m].
+-- beam: tied to the middle of a stiff wire instead of a point; tolerance: of an adaptive run [m]; middle: a
+-- second tie there with this slack [m].
 local function peak(case, dt, options)
   local o = options or {}
   local scene = sw.scene{}
@@ -39,9 +40,11 @@ local function peak(case, dt, options)
   end
   local tie = scene:tie(w, { s = o.swapped and 0 or w.length, to = to, slack = case.slack + (o.shift or 0),
     strength = o.strength })
+  local s2 = 0.6 * case.length
+  local second = o.middle and scene:tie(w, { s = s2, to = turn(s2, 0, 0.06), slack = 0.06 + o.middle })
   local run = scene:run{ duration = 0.35, dt = dt, tolerance = o.tolerance }
   if not o.strength then t.fine(run) end
-  return tie.peak_force, tie
+  return tie.peak_force, tie, second
 end
 
 describe("a tie at the end of a cable that snaps taut", function()
@@ -77,6 +80,16 @@ describe("a tie at the end of a cable that snaps taut", function()
       local fine = peak(case, 2e-5, { beam = true })
       for _, dt in ipairs{ 1e-2, 2e-3, 1e-4 } do
         t.share(fine, (peak(case, dt, { beam = true })), 0.03, ("dt %g"):format(dt))
+      end
+    end)
+
+    -- The lighter of two snaps was not followed: its peak was up to 44 % off.
+    it("is followed beside a tie that snaps before, for " .. case[1], function()
+      local fine, _, middle = peak(case, 2e-5, { middle = 0.03 })
+      for _, dt in ipairs{ 2e-2, 1e-2, 2e-3, 4e-4 } do
+        local found, _, also = peak(case, dt, { middle = 0.03 })
+        t.share(fine, found, 0.05, ("dt %g, end"):format(dt))
+        t.share(middle.peak_force, also.peak_force, 0.05, ("dt %g, middle"):format(dt))
       end
     end)
   end
