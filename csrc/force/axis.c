@@ -19,6 +19,13 @@ sw_vec sw_axis_middle(const sw_field *f, const double *values, size_t i) {
   return sw_load(middle);
 }
 
+double sw_axis_mass(const sw_plan *p, size_t i) {
+  double sum = 0;
+  if (!p->web) return p->lumped[i];
+  for (size_t k = p->web->first[i]; k < p->web->first[i + 1]; k++) sum += p->web->mass[k];
+  return sum;
+}
+
 double sw_axis_stable_dt(const sw_plan *p, double stiffness) {
   double least = HUGE_VAL;
   for (size_t i = 0; i + 1 < sw_axis_points(p); i++)

@@ -24,6 +24,9 @@ static inline sw_vec sw_axis_velocity(const sw_field *f, size_t i) {
   return f->plan->web ? sw_axis_middle(f, f->v, i) : sw_load(f->v + 3 * i);
 }
 
+/* Returns the lumped mass of place i: that of its node or ring; infinite for a held node [kg]. */
+double sw_axis_mass(const sw_plan *plan, size_t i);
+
 /* Returns leapfrog's largest stable step 2 / omega [s] for a spring of this stiffness [N/m]. The
  * spring moves at least the mass of half the shortest edge. */
 double sw_axis_stable_dt(const sw_plan *plan, double stiffness);

@@ -101,12 +101,11 @@ static double pull(const void *args, const sw_field *f, const double *h, double 
 static sw_tie_swing swing(const void *args, const sw_field *f, const double *h) {
   const tether_args *a = args;
   const tied t = tied_of(a, f);
-  sw_tie_swing out = {.stiffness = a->stiffness, .mass = HUGE_VAL, .peak = h[FATE + SW_TIE_PEAK]};
-  if (f->plan->web) return out; /* its rings swing by themselves */
+  sw_tie_swing out = {.stiffness = a->stiffness, .peak = h[FATE + SW_TIE_PEAK]};
   double inverse = 0;
   const sw_vec n = sw_unit_or(t.apart, sw_v(0, 0, 0));
   for (size_t k = 0; k < 2; k++) {
-    inverse += t.part[k] * t.part[k] / f->plan->lumped[t.i + k];
+    inverse += t.part[k] * t.part[k] / sw_axis_mass(f->plan, t.i + k);
     out.rate += t.part[k] * sw_dot(n, sw_axis_velocity(f, t.i + k));
   }
   out.mass = 1.0 / inverse;

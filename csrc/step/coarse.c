@@ -190,8 +190,8 @@ static double power_of(const sw_scene *s) {
  * in none); at 5 ms in 26 [-]. */
 static const double TOLD = 8.0, TOLD_FIRST_ORDER = 1.0, SECOND_ORDER = 3.0;
 
-static void tell(sw_scene *s, double h, double over, const char *of) {
-  if (!(over > (power_of(s) < SECOND_ORDER ? TOLD_FIRST_ORDER : TOLD))) return;
+static void tell(sw_scene *s, double h, double over, double limit, const char *of) {
+  if (!(over > limit)) return;
   sw_scene_tell(s, "coarse", "", NAN, over,
                 "a step of %.3g ms is too long for %s: peaks may be wrong; run again with dt = "
                 "%.2g s and compare the peaks",
@@ -202,19 +202,19 @@ void sw_coarse_tell(sw_scene *s, double h) {
   char of[96];
   if (sw_coarse_is_bundle(s)) {
     snprintf(of, sizeof of, "a bundle of %d or more wires that touch", SW_MOST_NEAR + 1);
-    tell(s, h, over_of(s, HUGE_VAL), of);
+    tell(s, h, over_of(s, HUGE_VAL), TOLD, of);
   } else if (sw_coarse_is_crowd(s)) {
     snprintf(of, sizeof of, "the motion of a wire (steps are not divided while %d wires move)",
              SW_MOST_MOVING + 1);
-    tell(s, h, over_of(s, HUGE_VAL), of);
+    tell(s, h, over_of(s, HUGE_VAL), TOLD, of);
   } else if (sw_coarse_has_mesh_in_jaws(s) &&
              over_of(s, HUGE_VAL) > 0) { /* 0: there is no estimate */
     snprintf(of, sizeof of, "the motion of a mesh between pads (its steps are not divided)");
-    tell(s, h, over_of(s, HUGE_VAL), of);
+    tell(s, h, over_of(s, HUGE_VAL), TOLD, of);
   } else {
     snprintf(of, sizeof of, "the motion of a wire (the integrator %s does not divide steps)",
              sw_scene_course(s)->stepper.method->name);
-    tell(s, h, defect_of(s), of);
+    tell(s, h, defect_of(s), power_of(s) < SECOND_ORDER ? TOLD_FIRST_ORDER : TOLD, of);
   }
 }
 
@@ -236,7 +236,7 @@ void sw_coarse_tell_left(sw_scene *s, double h, double dt, double left) {
 void sw_coarse_tell_rough(sw_scene *s, double h) {
   const double over = sw_coarse_of(s, HUGE_VAL);
   if (sw_coarse_is_shock(over))
-    tell(s, h, over, "the motion of a wire, and shorter parts of it were as coarse");
+    tell(s, h, over, TOLD, "the motion of a wire, and shorter parts of it were as coarse");
 }
 
 double sw_coarse_shortest(double dt) { return fmax(SMALLEST * dt, SHORTEST); }

@@ -162,14 +162,12 @@ static sw_tie_swing swing_of(const sw_scene *s, const tie *t) {
   return t->term->cls->swing(t->term->args, &at, t->term->history);
 }
 
-/* The smallest usual force of the lines that it pulls at; HUGE_VAL: only meshes [N]. */
+/* The smallest usual force of the wires that it pulls at [N]. */
 static double usual_force(const sw_scene *s, const tie *t) {
   const sw_system *system = sw_scene_system(s);
   double usual = HUGE_VAL;
-  for (size_t k = 0; k < 2; k++) {
-    const sw_plan *p = system->bodies[t->wires[k]].plan;
-    if (!p->web) usual = fmin(usual, sw_contact_usual_force(system, p));
-  }
+  for (size_t k = 0; k < 2; k++)
+    usual = fmin(usual, sw_contact_usual_force(system, system->bodies[t->wires[k]].plan));
   return usual;
 }
 
