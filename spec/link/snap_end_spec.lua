@@ -14,9 +14,9 @@ local falls = {
   { "FLRY-B 2.5", length = 0.36, at = 0.35, up = 0.03, slack = 0.16, damping = { 0.8, 0.001 } },
 }
 
--- Options: shift: more slack [m]; strength [N]; turned: about the vertical [rad]; swapped: ends; segments;
--- beam: tied to the middle of a stiff wire instead of a point; tolerance: of an adaptive run [m]; middle: a
--- second tie there with this slack [m].
+-- Options: shift: more slack [m]; strength [N]; stiffness [N/m]; turned: about the vertical [rad]; swapped:
+-- ends; segments; beam: tied to the middle of a stiff wire instead of a point; tolerance: of an adaptive run
+-- [m]; middle: a second tie there with this slack [m].
 local function peak(case, dt, options)
   local o = options or {}
   local scene = sw.scene{}
@@ -39,7 +39,7 @@ local function peak(case, dt, options)
     scene:clamp(to[1], { s = to[1].length })
   end
   local tie = scene:tie(w, { s = o.swapped and 0 or w.length, to = to, slack = case.slack + (o.shift or 0),
-    strength = o.strength })
+    strength = o.strength, stiffness = o.stiffness })
   local s2 = 0.6 * case.length
   local second = o.middle and scene:tie(w, { s = s2, to = turn(s2, 0, 0.06), slack = 0.06 + o.middle })
   local run = scene:run{ duration = 0.35, dt = dt, tolerance = o.tolerance }
@@ -69,6 +69,16 @@ describe("a tie at the end of a cable that snaps taut", function()
         t.share(mean, found, 0.03, ("dt %g, slack + %g"):format(dt, shift))
         t.share(pull, also, 0.05, ("dt %g, slack + %g, pull"):format(dt, shift))
       end
+    end
+  end)
+
+  it("pulls harder in single steps the stiffer it is, with the same mean", function()
+    local fine, at = peak(falls[2], 2e-5)
+    t.share(5, at.raw_peak_force, 0.05, "1e5 N/m")
+    for _, dt in ipairs{ 1e-2, 1e-4 } do
+      local mean, stiff = peak(falls[2], dt, { stiffness = 1e6 })
+      t.share(fine, mean, 0.03, ("dt %g"):format(dt))
+      t.share(13.3, stiff.raw_peak_force, 0.05, ("dt %g, 1e6 N/m"):format(dt))
     end
   end)
 
