@@ -97,7 +97,7 @@ describe("a tie at the end of a cable that snaps taut", function()
       t.share(fine, (peak(case, 1e-2, { tolerance = 1e-4 })), 0.03, "by tolerance")
     end)
 
-    -- Before, ties of 0.9 times the pull held at any step, and at 20 ms those of 0.3 times, too.
+    -- Before, ties of 0.9 times the pull held in 10 of these 12 runs, and at 20 ms two of 0.3 times, too.
     it("breaks only if its strength is below the pull, for " .. case[1], function()
       local _, fine = peak(case, 2e-5)
       for _, dt in ipairs{ 2e-2, 1e-2, 2e-3, 1e-4 } do
