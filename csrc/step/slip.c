@@ -188,11 +188,28 @@ static void tell_uneven(sw_scene *s, sw_hold *h, const sw_slip *f, double want, 
                 h->name, 1e3 * step, fabs(want) + more, fabs(want));
 }
 
+/* Wire that is driven by a force faster than this runs away: the fastest feeders of machines reach
+ * some m/s [m/s]. At half of it a cable that falls out of its guide by 1 m is told, at twice a soft
+ * wire has filled the scene before. */
+static const double RUNAWAY = 10.0;
+
+/* Tells a drive whose force nothing holds back. */
+static void tell_runaway(sw_scene *s, sw_hold *h, const sw_scene_wire *wire, const sw_slip *f) {
+  if (!isfinite(f->push) || !(fabs(f->speed) > RUNAWAY)) return;
+  sw_events_go_on(sw_scene_events_of(s), "runaway", h->name, sw_scene_time(s)); /* one in a run */
+  sw_scene_tell(s, "runaway", h->name, h->s1 - wire->mesh.s[0], f->speed,
+                "feed '%s' %s wire '%s' at %.3g m/s at t = %.4g s: nothing holds back its force "
+                "of %.4g N. Above 0 it pushes wire out; a brake is a :force_limit(%.4g) at speed 0",
+                h->name, f->speed > 0 ? "pays out" : "draws in", wire->name, fabs(f->speed),
+                sw_scene_time(s), f->push, fabs(f->push));
+}
+
 void sw_slip_tell(sw_scene *s, double step) {
   SW_EACH(hold, h, s) {
     const sw_slip *f = sw_slip_of(h);
     if (!f) continue;
     const sw_scene_wire *wire = sw_scene_wire_in(s, h->wire);
+    tell_runaway(s, h, wire, f);
     const double drive = h->feed.guide.drive;
     const double want = isfinite(f->push) ? f->push : copysign(f->limit, f->way ? f->way : drive);
     const double off = disobeys(s, h, f, want, step);
