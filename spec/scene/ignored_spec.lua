@@ -299,6 +299,23 @@ describe("an argument that a method does not take", function()
     assert.same(ball:force(), ball:force(nil))
   end)
 
+  it("is refused in a process, with the line of the call", function()
+    for text, call in pairs{
+      ["p:wait takes (seconds), got 2 too"] = function(p) p:wait(0.1, 2) end,
+      ["p:wait_until takes (condition, {...}), got 3 too"] = function(p)
+        p:wait_until(function() return true end, {}, 3)
+      end,
+      ["p:step takes (name, function), got 0.1 too"] = function(p) p:step("a", function() end, 0.1) end,
+      ["p:finish takes no arguments, got 1"] = function(p) p:finish(1) end } do
+      local scene = made()
+      scene:process(call)
+      local fine, why = pcall(scene.run, scene, { duration = 0.05 })
+      assert.is_false(fine)
+      has(why, "ignored_spec.lua:")
+      has(why, text)
+    end
+  end)
+
   it("is refused: captions without pictures, means longer than the run", function()
     local scene = made()
     local run = scene:run{ duration = 0.05 }

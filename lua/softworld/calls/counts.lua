@@ -62,6 +62,21 @@ local function install(class, verb, call, most)
   if type(method) == "function" then class[verb] = counted(call, most, method) end
 end
 
+-- Installs the check of a call with a row, if its method is of this library and takes a known number.
+local function install_row(class, name, call)
+  local verb = name:match ":([%a_]+)$"
+  local most = not own[name] and count_of(call.arguments) or nil
+  local method = class and rawget(class, verb)
+  if most and method and debug.getinfo(method, "S").what ~= "C" then install(class, verb, call, most) end
+end
+
+--- Installs the checks of a class whose objects have this name in the rows.
+function counts.of(kind, class)
+  for name, call in pairs(rows.all) do
+    if name:match "^([%a_]+):" == kind then install_row(class, name, call) end
+  end
+end
+
 --- Installs the checks. made: classes of objects made in Lua, by name.
 function counts.install(made)
   for kind, verbs in pairs(bare) do
@@ -71,13 +86,8 @@ function counts.install(made)
   end
   for name, call in pairs(rows.all) do
     local kind, verb = name:match "^([%a_]+):([%a_]+)$"
-    local most = not own[name] and count_of(call.arguments) or nil
     local is_bare = bare[kind] and (" " .. bare[kind] .. " "):find(" " .. verb .. " ", 1, true)
-    local class = made[kind] or core.class[kind]
-    local method = class and rawget(class, verb)
-    if most and not is_bare and method and debug.getinfo(method, "S").what ~= "C" then
-      install(class, verb, call, most)
-    end
+    if kind and not is_bare then install_row(made[kind] or core.class[kind], name, call) end
   end
 end
 

@@ -18,6 +18,7 @@ local rows = require "softworld.rows"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local conditions = require "softworld.run.conditions"
+local counts = require "softworld.calls.counts"
 local remarks = require "softworld.remarks"
 local sealed = require "softworld.sealed"
 local stages = require "softworld.run.stages"
@@ -343,6 +344,7 @@ function process.is_at(scene, mark)
   return count == 0
 end
 
+counts.of("p", Process)
 methods.guard_table("process", Process)
 
 return process
