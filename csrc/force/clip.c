@@ -89,7 +89,6 @@ static double friction_energy(double stretch, double most, double slip) {
 
 static void add_friction(const sw_clip *c, sw_field *f) {
   const double slip = SLIP * c->width;
-  if (f->history && f->history[SW_CLIP_RUBS] == SW_CLIP_GUESS && !f->statics) return;
   for (size_t i = 0; f->history && f->history[SW_CLIP_RUBS] > 0 && i < sw_axis_points(f->plan);
        i++) {
     const double *h = f->history + SW_CLIP_HEAD + SW_CLIP_EACH * i;
@@ -218,24 +217,22 @@ static int idle(const double *history) {
  * peaks are up to 15 % off, at half 2 % at twice the cost (spec/scene/clip_steps_spec) [-]. */
 static const double FOLLOWED = 1.0 / 16;
 
-/* Returns the middle of an edge's part within the clip's width, as a share of the edge [-]. */
-static double middle_of(const sw_clip_walk *w) {
-  const double a = w->a[2], b = w->b[2], half = w->half;
-  const double from = fmax(-half, fmin(half, a)), to = fmax(-half, fmin(half, b));
-  return fabs(b - a) > 0 ? (0.5 * (from + to) - a) / (b - a) : 0.5;
-}
-
 /* Fills u and v at a share of an edge [m]. */
 static void place_on(const sw_clip_walk *w, double share, double out[2]) {
   for (int k = 0; k < 2; k++) out[k] = w->a[k] + share * (w->b[k] - w->a[k]);
+}
+
+/* Returns the way over the lips between two heights u, which begin in the seat and end at `high`.
+ */
+static double way_over(double one, double two, double high) {
+  return fabs(fmax(0.0, fmin(high, two)) - fmax(0.0, fmin(high, one)));
 }
 
 static double oversteps(const void *args, const sw_field *f, const double *history,
                         const double *x) {
   if (!history || idle(history) || f->statics) return 0;
   const sw_clip c = clip_of(args, f, history);
-  const double low = -c.law.clearance, high = c.law.out + c.law.in;
-  const double beside = c.law.clearance + 2.0 * c.law.reach;
+  const double high = c.law.out + c.law.in, beside = c.law.clearance + 2.0 * c.law.reach;
   sw_field after = *f;
   double most = 0;
   after.x = x;
@@ -243,13 +240,12 @@ static double oversteps(const void *args, const sw_field *f, const double *histo
     sw_clip_walk was, is;
     double one[2], two[2];
     if (!sw_clip_begin(&c, f, (size_t)e, &was)) continue;
-    const double middle = middle_of(&was);
+    const double middle = sw_clip_middle_share(&was);
     const int stays =
         sw_clip_begin(&c, &after, (size_t)e, &is); /* 0: the edge leaves, torn out or sliding */
-    place_on(&was, middle, one), place_on(&is, stays ? middle_of(&is) : middle, two);
-    if (fmax(one[0], two[0]) < low || fmin(one[0], two[0]) > high) continue;
+    place_on(&was, middle, one), place_on(&is, stays ? sw_clip_middle_share(&is) : middle, two);
     if (fmin(fabs(one[1]), fabs(two[1])) > beside) continue;
-    most = fmax(most, fabs(two[0] - one[0]) / (FOLLOWED * high));
+    most = fmax(most, way_over(one[0], two[0], high) / (FOLLOWED * high));
   }
   return most;
 }
@@ -387,6 +383,7 @@ const sw_force_class sw_force_clip = {
     .begin_run = sw_clip_begin_run,
     .news = sw_clip_news,
     .oversteps = oversteps,
+    .largest_share = sw_clip_largest_share,
     .outputs = outputs,
     .read = read,
 };

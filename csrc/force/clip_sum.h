@@ -114,6 +114,13 @@ static inline int sw_clip_next(sw_clip_walk *w, double x[3], double *along, doub
   return 0;
 }
 
+/* Returns the middle of an edge's part within the clip's width, as a share of the edge [-]. */
+static inline double sw_clip_middle_share(const sw_clip_walk *w) {
+  const double a = w->a[2], b = w->b[2], half = w->half;
+  const double from = fmax(-half, fmin(half, a)), to = fmax(-half, fmin(half, b));
+  return fabs(b - a) > 0 ? (0.5 * (from + to) - a) / (b - a) : 0.5;
+}
+
 /* 1 if the clip does not act on any part of the edge. */
 int sw_clip_far(const sw_clip *clip, const sw_clip_walk *walk);
 

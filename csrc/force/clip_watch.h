@@ -113,6 +113,7 @@ void sw_clip_watch_edges(const sw_clip *clip, const sw_clip_middle *middle, doub
                          double *history);
 
 /* See sw_force_class. */
+double sw_clip_largest_share(const void *args, const sw_field *field, const double *delta);
 void sw_clip_begin_run(double *history);
 int sw_clip_news(const void *args, const double *history, sw_force_news *out);
 

@@ -61,10 +61,9 @@ typedef struct sw_force_class {
    * plan, with lumped masses [s]; NULL = no limit. */
   double (*stable_dt)(const void *args, const sw_plan *plan);
 
-  /* Largest share, in (0, 1], of the nodes' move delta from x that the force can follow [-]. x,
-   * delta: nodes x 3. NULL = the whole move. */
-  double (*largest_share)(const void *args, const sw_plan *plan, const double *x,
-                          const double *delta);
+  /* Largest share, in (0, 1], of an iteration's move delta (nodes x 3) from field->x that the force
+   * can follow [-]. NULL = the whole move. */
+  double (*largest_share)(const void *args, const sw_field *field, const double *delta);
 
   /* Axial dashpots: their force per strain rate over the stiffness EA of the springs beside them
    * [s]; NULL = no such dashpots. */

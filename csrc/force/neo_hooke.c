@@ -54,16 +54,15 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   return SW_OK;
 }
 
-static double largest_share(const void *args, const sw_plan *plan, const double *x,
-                            const double *delta) {
-  const sw_web *web = plan->web;
+static double largest_share(const void *args, const sw_field *f, const double *delta) {
+  const sw_web *web = f->plan->web;
   double from[3 * SW_SOLID_NODES], move[3 * SW_SOLID_NODES], share = 1.0;
   (void)args;
   SW_ITEMS(const sw_web_solid, s, web->solid, web->solids) {
-    gather(s, x, from);
+    gather(s, f->x, from);
     gather(s, delta, move);
-    share = fmin(share,
-                 sw_solid_step((const sw_solid *)web->shapes + sw_plan_shape(plan, s), from, move));
+    share = fmin(share, sw_solid_step((const sw_solid *)web->shapes + sw_plan_shape(f->plan, s),
+                                      from, move));
   }
   return share;
 }

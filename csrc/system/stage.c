@@ -168,17 +168,27 @@ static int flies_off(const sw_body *b, const double *delta) {
   return largest > most;
 }
 
-/* Returns the share of the update to make: less than 1 if the coupling, a solid element or an
- * edge's rotation limits it, 0 if an unheld mesh would fly off, -1 if the update is not finite. */
+/* Returns the largest share of a body's update that its forces can follow. */
+static double followed(sw_body *body, const double *delta) {
+  double share = 1.0;
+  SW_ITEMS(const sw_term, term, body->terms, body->term_count) {
+    if (!term->cls->largest_share) continue;
+    body->field.history = term->history;
+    share = fmin(share, term->cls->largest_share(term->args, &body->field, delta));
+  }
+  return share;
+}
+
+/* Returns the share of the update to make: less than 1 if the coupling, a force or an edge's
+ * rotation limits it, 0 if an unheld mesh would fly off, -1 if the update is not finite. */
 static double share_of(sw_system *s, const sw_newton *newton, sw_stage_report *report) {
   double largest = 0, share = report->share;
   int flying = 0;
   SW_PART_EACH(s, b) {
-    const sw_body *body = &s->bodies[b];
+    sw_body *body = &s->bodies[b];
     const double turn2 = advance_axial(s, body);
     if (s->strain_past) sw_strain_advance(s, body);
-    if (body->plan->web)
-      share = fmin(share, sw_web_share(body, body->field.x, s->delta + 3 * body->first_node));
+    share = fmin(share, followed(body, s->delta + 3 * body->first_node));
     if (body->plan->web && newton->statics)
       flying |= flies_off(body, s->delta + 3 * body->first_node);
     if (!(turn2 <= largest)) largest = turn2;

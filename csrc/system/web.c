@@ -326,14 +326,6 @@ double sw_web_advance(const sw_body *b, const double *x, const double *delta, do
   return springs >= solids ? springs : solids; /* a NaN of the solids passes through */
 }
 
-double sw_web_share(const sw_body *b, const double *x, const double *delta) {
-  double share = 1.0;
-  for (size_t k = 0; k < b->term_count; k++)
-    if (b->terms[k].cls->largest_share)
-      share = fmin(share, b->terms[k].cls->largest_share(b->terms[k].args, b->plan, x, delta));
-  return share;
-}
-
 void sw_web_axial(const sw_body *b, const double *x, double *axial) {
   const sw_web *w = b->plan->web;
   for (size_t e = 0; e < w->links; e++) {

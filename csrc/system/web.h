@@ -36,10 +36,6 @@ sw_status sw_web_solve(sw_body *body, double *delta, size_t *negative);
 /* Computes the axial forces after delta by the linearised law, from positions x before it. Returns
  * the square of the largest rotation of a spring or of a solid element's edge. */
 double sw_web_advance(const sw_body *body, const double *x, const double *delta, double *axial);
-/* Returns the largest share of the move delta from x that turns no solid element inside out, in (0,
- * 1] [-]. */
-double sw_web_share(const sw_body *body, const double *x, const double *delta);
-
 /* Returns the largest change of an edge of a solid element by the move to - from (from NULL: to is
  * the move), relative to its length at x [-]. */
 double sw_web_change(const sw_body *body, const double *x, const double *from, const double *to);
