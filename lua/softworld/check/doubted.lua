@@ -61,6 +61,15 @@ end
 --- Stands for the checks of the script: what they read is unknown, so every event doubts them.
 doubted.OWN = { peaks = true, places = true }
 
+-- Poses do not compute the motion of a jump, and may jump earlier than the wire or to another side. Bars come
+-- from poses too. A chosen model has compared them with the motion.
+local function jumped(member, run)
+  if not (run.jumps and run.jumps > 0) or run.model then return nil end
+  if not (member.peaks or mean[member.name] or member.places) then return nil end
+  return ("poses jumped %s: neither this motion nor its end is computed; run without quasistatic"):format(
+    run.jumps == 1 and "once" or run.jumps .. " times")
+end
+
 --- Returns why the row of an object may not pass, or nil.
 -- @tparam table member of softworld.check.registry; peaks: true if its value is a peak of the motion; places:
 -- if it is a place
@@ -68,7 +77,8 @@ doubted.OWN = { peaks = true, places = true }
 -- @tparam table entry { name =, object = }
 -- @tparam table run
 function doubted.why(member, value, entry, run)
-  local peaks = member.peaks or mean[member.name]
+  local peaks, leapt = member.peaks or mean[member.name], jumped(member, run)
+  if leapt then return leapt end
   for _, e in ipairs(run.events) do
     local kind = kinds[e.kind]
     local met = kind and (kind.all or peaks or kind.places and member.places)
