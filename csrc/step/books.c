@@ -240,14 +240,14 @@ sw_status sw_ledger_close(sw_scene *s) {
   return log_row(s);
 }
 
-sw_status sw_ledger_pose(sw_scene *s, double t0, int jumped, sw_error *err) {
+sw_status sw_ledger_pose(sw_scene *s, double t0, int jumped, double rubbed, sw_error *err) {
   sw_books *b = sw_scene_books(s);
   sw_step_energy *step = &b->step;
   *step = (sw_step_energy){.steady = 1};
   sw_system_energies(sw_scene_system(s), 0, NULL, &step->to);
   step->to.kinetic = 0;
   step->contact = sw_ledger_contact(s);
-  step->friction += sw_scene_rubbed(s);
+  step->friction += rubbed + sw_scene_rubbed(s);
   if (sw_scene_contact(s)) SW_TRY(sw_contact_began(sw_scene_contact(s), t0, err));
   sw_ledger_work(s, sw_scene_time(s), 0);
   step->forces = b->now.loads - step->to.loads;

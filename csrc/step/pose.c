@@ -88,9 +88,9 @@ static sw_status again(sw_scene *s, double t0, double t, int halvings, const sw_
   return pose(s, t, halvings, how, report, err);
 }
 
-static sw_status book(sw_scene *s, double t0, double t1, int jumped, sw_run_report *report,
-                      sw_error *err) {
-  SW_TRY(sw_ledger_pose(s, t0, jumped, err));
+static sw_status book(sw_scene *s, double t0, double t1, int jumped, double rubbed,
+                      sw_run_report *report, sw_error *err) {
+  SW_TRY(sw_ledger_pose(s, t0, jumped, rubbed, err));
   if (!jumped) return SW_OK;
   report->jumps++;
   report->last_jump = t1;
@@ -117,7 +117,8 @@ static sw_status rest_again(sw_scene *s, const sw_settle_args *args, int (*inter
  * size of the pose step does not matter; with friction, halve it to see how much it does. */
 static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_args *how,
                           sw_run_report *report, kept *start, sw_error *err) {
-  sw_settle_args args = {.tolerance = 1e-9, .max_iterations = 4000, .poses = 1};
+  sw_settle_args args = {
+      .tolerance = 1e-9, .max_iterations = 4000, .poses = 1, .passing = how->between};
   sw_settle_report rest = {0};
   sw_error why;
   const double t0 = sw_scene_time(s);
@@ -150,7 +151,7 @@ static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_ar
   if (passed && !shortest)
     return again(s, t0, t0 + fmax(part, how->passing), halvings, how, report, start, err);
   report->smallest_dt = fmin(report->smallest_dt, t1 - t0);
-  return book(s, t0, t1, rest.jumped || passed, report, err);
+  return book(s, t0, t1, rest.jumped || passed, rest.rubbed, report, err);
 }
 
 static sw_status pose(sw_scene *s, double t1, int halvings, const sw_pose_args *how,

@@ -21,18 +21,22 @@ static const double SHORTEST_PASSING = 1.0 / 64; /* shortest pose for passing a 
 static sw_status pose_steps(sw_ladder *p, double t, sw_error *err) {
   sw_scene *s = p->s;
   double most = HUGE_VAL; /* next part at a clip: twice the last one, at least the shortest [s] */
+  double longest = t - sw_scene_time(s);
+  SW_TRY(sw_scene_cut_rubbing(s, &longest, err));
   while (sw_scene_time(s) < t) {
     const double t0 = sw_scene_time(s);
     double h = sw_jaw_step(s, fmin(most, t - t0));
     if (p->interrupted && p->interrupted()) return SW_EINTR;
     SW_TRY(sw_quota_take(err));
     SW_TRY(sw_ladder_make_room(p, &h, err));
+    const int between = longest < h * (1 - 1e-9);
+    if (between) h = longest;
     const double part = h < (t - sw_scene_time(s)) * (1 - 1e-9) ? sw_scene_time(s) + h : t;
     if (!(part > sw_scene_time(s)))
       return sw_fail(err, SW_ENOCONV, "a wire is fed too fast for the steps");
     SW_TRY(sw_ledger_open(s, err));
     const sw_pose_args how = {p->interrupted, SW_SHORTEST_BREAK * p->args->dt,
-                              SHORTEST_PASSING * p->args->dt};
+                              SHORTEST_PASSING * p->args->dt, between};
     const int passes = sw_passing_any(s);
     SW_TRY(sw_scene_pose(s, part, &how, p->report, err));
     most = passes ? fmax(how.passing, 2 * (sw_scene_time(s) - t0)) : HUGE_VAL;

@@ -8,6 +8,7 @@
 
 #include "base/alloc.h"
 #include "body/live.h"
+#include "body/touching.h"
 #include "scene/course.h"
 #include "scene/obstacle.h"
 #include "scene/parts.h"
@@ -81,10 +82,12 @@ static sw_status count_parts(sw_statics *p, double lever, double longest_shift, 
 
 static sw_status follow_in(sw_statics *p, size_t parts, sw_error *err) {
   sw_status status = SW_OK;
+  p->report->rubbed = 0;
   for (size_t i = 1; status == SW_OK && i <= parts; i++) {
     sw_scene_go_part(p->s, i < parts ? p->from_poses : NULL, (double)i / (double)parts);
-    p->passing = i < parts ? PASSING : 0.0;
+    p->passing = i < parts || p->args->passing ? PASSING : 0.0;
     status = sw_rest_find(p, err);
+    if (status == SW_OK && i < parts) p->report->rubbed += sw_scene_rubbed(p->s);
     if (status == SW_OK && p->interrupted && p->interrupted()) status = SW_EINTR;
   }
   sw_scene_go_part(p->s, NULL, 1);
@@ -92,15 +95,37 @@ static sw_status follow_in(sw_statics *p, size_t parts, sw_error *err) {
   return status;
 }
 
+/* 1 if something may rub on the wires. */
+static int has_friction(const sw_scene *s) {
+  if (sw_scene_pairs(s) || sw_scene_crowd(s) || sw_scene_grains(s)) return 1;
+  SW_EACH(obstacle, obstacle, s)
+    if (obstacle->alive && fmax(obstacle->friction, obstacle->kinetic) > 0) return 1;
+  return 0;
+}
+
 /* 1 if the equilibrium does not depend on the history of the wires. */
 static int forgets(const sw_scene *s) {
   sw_system *system = sw_scene_system(s);
-  if (sw_scene_pairs(s) || sw_scene_crowd(s) || sw_scene_grains(s)) return 0;
-  SW_EACH(obstacle, obstacle, s)
-    if (obstacle->alive && fmax(obstacle->friction, obstacle->kinetic) > 0) return 0;
+  if (has_friction(s)) return 0;
   for (size_t b = 0; b < system->body_count; b++)
     if (system->bodies[b].plan->web) return 0;
   return 1;
+}
+
+sw_status sw_scene_cut_rubbing(sw_scene *s, double *h, sw_error *err) {
+  const sw_system *system = sw_scene_system(s);
+  const double now = sw_scene_time(s), edge = LONGEST_PART * shortest_edge(system);
+  size_t parts = 1;
+  if (!sw_scene_wears(s) || !has_friction(s) || !system->hold_count) return SW_OK;
+  sw_pose *poses SW_LOCAL = sw_alloc(system->hold_count, sizeof *poses);
+  if (!poses) return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", sw_scene_name(s));
+  sw_statics p = {.s = s, .from_poses = poses};
+  find_from_poses(&p);
+  sw_scene_set_time(s, now + *h);
+  const sw_status status = count_parts(&p, 0.0, edge, &parts, err);
+  sw_scene_set_time(s, now);
+  if (status == SW_OK) *h /= (double)parts;
+  return status;
 }
 
 /* Follows the holds in parts whose number does not depend on the mesh, as long as each part leads

@@ -34,10 +34,14 @@ int sw_rest_catch_up(sw_scene *scene, int guesses);
 void sw_yield_tell(sw_scene *scene);
 /* Makes t1 earlier (cut: 1) if wires between pads could not follow the pads to it. */
 sw_status sw_scene_cut_pose(sw_scene *scene, double *t1, int *cut, sw_error *err);
+/* Shortens a pose step h so that no hold goes further than wires with friction are followed at
+ * once: what they rub off is booked pose by pose [s]. */
+sw_status sw_scene_cut_rubbing(sw_scene *scene, double *h, sw_error *err);
 typedef struct sw_pose_args {
   int (*interrupted)(void);
   double shortest; /* shortest pose for locating the break of a tie [s] */
   double passing;  /* shortest pose for following a wire past a clip's lips [s] */
+  int between;     /* 1: see sw_settle_args.passing */
 } sw_pose_args;
 /* Finds the equilibrium at time t1, which becomes the scene's time, in smaller parts where needed.
  * If a tie may break, the pose may end earlier, so that the break is recorded there. Nothing is

@@ -72,6 +72,7 @@ typedef struct sw_settle_args {
                   found */
   int poses;   /* 1: one of many poses, between which jaws need not be exact */
   double farthest; /* largest allowed shift of a node on the way to rest; 0: any [m] */
+  int passing; /* 1: a pose on the way to the next one that is asked for; it need not be exact */
 } sw_settle_args;
 extern const sw_params sw_settle_params;
 
@@ -84,6 +85,7 @@ typedef struct sw_settle_report {
   double residual;   /* largest node shift of the last iteration [m] */
   int jumped;        /* 1: the wires moved much further than their holds and obstacles */
   sw_error reason;
+  double rubbed; /* lost by friction on the way, before the last part of the holds' path [J] */
 } sw_settle_report;
 
 sw_status sw_scene_settle(sw_scene *scene, const sw_settle_args *args, int (*interrupted)(void),
