@@ -10,6 +10,10 @@ int sw_interrupted(void);
 
 void sw_interrupt_clear(void);
 
+/* How often a stop was asked for, cleared or not. A loop of calls of the user's functions compares:
+ * such a function may catch the error of the Ctrl-C, which clears the flag. */
+unsigned sw_interrupt_count(void);
+
 /* Asks for a stop. May be called from a signal handler. */
 void sw_interrupt_raise(void);
 

@@ -69,9 +69,11 @@ static void read_text(lua_State *L, const char *object, const sw_param *row, cha
   if (lua_type(L, -1) != LUA_TSTRING)
     luaL_error(L, "%s: %s must be a string, got %s", object, row->name, lsw_describe(L, -1));
   const char *text = lua_tolstring(L, -1, &length);
-  if (length >= SW_NAME_SIZE || strlen(text) != length)
-    luaL_error(L, "%s: %s is too long; at most %d bytes without zeros", object, row->name,
-               SW_NAME_SIZE - 1);
+  const size_t zero = strlen(text); /* where the text would end in C */
+  if (zero != length)
+    luaL_error(L, "%s: %s has a zero byte, at place %d", object, row->name, (int)zero + 1);
+  if (length >= SW_NAME_SIZE)
+    luaL_error(L, "%s: %s is too long; at most %d bytes", object, row->name, SW_NAME_SIZE - 1);
   memcpy(place, text, length + 1);
 }
 

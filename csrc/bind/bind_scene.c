@@ -75,6 +75,15 @@ static int mod_exists(lua_State *L) {
 
 static int mod_interrupted(lua_State *L) { return lua_pushboolean(L, sw_interrupted()), 1; }
 
+/* core.interrupts() -> how often Ctrl-C was pressed */
+static int mod_interrupts(lua_State *L) { return lua_pushinteger(L, sw_interrupt_count()), 1; }
+
+/* core.stop_since(interrupts): raises "interrupted" if Ctrl-C was pressed since */
+static int mod_stop_since(lua_State *L) {
+  lsw_stop_since(L, (unsigned)luaL_checkinteger(L, 1));
+  return 0;
+}
+
 /* Monotonic wall clock [s]. */
 static int mod_clock(lua_State *L) { return lua_pushnumber(L, sw_wall_clock()), 1; }
 
@@ -299,6 +308,8 @@ const luaL_Reg lsw_module_scene[] = {{"whole_snapshot", mod_whole_snapshot},
                                      {"busy", mod_busy},
                                      {"exists", mod_exists},
                                      {"interrupted", mod_interrupted},
+                                     {"interrupts", mod_interrupts},
+                                     {"stop_since", mod_stop_since},
                                      {"clock", mod_clock},
                                      {"sleep", mod_sleep},
                                      {"nearest", mod_nearest},

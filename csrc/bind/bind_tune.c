@@ -24,7 +24,9 @@ static int call_function(lua_State *L) {
   } else {
     lua_pushnumber(L, c->x[0]);
   }
+  const unsigned interrupts = sw_interrupt_count();
   lua_call(L, 1, 1);
+  lsw_stop_since(L, interrupts); /* f may have caught the error */
   if (lua_type(L, -1) != LUA_TNUMBER)
     return luaL_error(L, "tune.minimise: f must return a number, got %s", luaL_typename(L, -1));
   c->value = lua_tonumber(L, -1);

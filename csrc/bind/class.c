@@ -305,6 +305,10 @@ void lsw_poll(lua_State *L) {
   if (sw_interrupted()) lsw_raise(L, SW_EINTR, NULL);
 }
 
+void lsw_stop_since(lua_State *L, unsigned count) {
+  if (sw_interrupt_count() != count) lsw_raise(L, SW_EINTR, NULL);
+}
+
 /* --- values --------------------------------------------------------------- */
 
 double lsw_number(lua_State *L, int index, const char *what, const char *unit) {

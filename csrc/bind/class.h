@@ -62,6 +62,10 @@ void lsw_open_quiet(lua_State *L);
 /* Raises "interrupted" when the user wants to stop. */
 void lsw_poll(lua_State *L);
 
+/* Same if a stop was asked for since sw_interrupt_count() was count, also if the user's own code
+ * has caught that error. */
+void lsw_stop_since(lua_State *L, unsigned count);
+
 /* Raises the error of a failed core call: err's text, or the status's if err is NULL or empty. */
 int lsw_raise(lua_State *L, sw_status status, const sw_error *err);
 

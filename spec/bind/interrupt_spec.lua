@@ -134,3 +134,50 @@ describe("Ctrl-C", function()
     assert.matches("^[^:]*script.lua:2: interrupted$", err:match "[^\n]*")
   end)
 end)
+
+describe("a Ctrl-C whose error the script's own function catches", function()
+  after_each(program.clean)
+
+  -- Sends one to the program itself, and catches its error.
+  local CATCH = "local function catch() pcall(function() io.popen('kill -s INT $PPID'):close() "
+    .. "for _ = 1, 1e8 do end end) end\n"
+
+  it("ends a search of tune.minimise", function()
+    for _, where in ipairs { "from = 0, to = 1", "start = 0.5" } do
+      local out, err, code = program.script("local sw = require 'softworld'\n" .. CATCH .. [[
+        local found = sw.tune.minimise { ]] .. where .. [[, f = function(x)
+          print "call"
+          catch()
+          return x
+        end }
+        print(found)]], nil, { before = NORMAL })
+      assert.equal("call\n", out)
+      assert.matches("interrupted", err)
+      assert.equal(130, code)
+    end
+  end)
+
+  it("ends a study, which does not keep that evaluation", function()
+    local file = program.folder() .. "/caught.study"
+    local text = "local sw = require 'softworld'\n" .. [[
+      local number = 0
+      local study = sw.study { name = "caught", file = arg[1], parameters = { a = { 0, 1 } },
+        evaluate = function(p)
+          number = number + 1
+          if number == 3 and not io.open(arg[1] .. ".caught") then
+            io.open(arg[1] .. ".caught", "w"):close()
+            pcall(function() io.popen("kill -s INT $PPID"):close() for _ = 1, 1e8 do end end)
+            return { y = 1e9 }
+          end
+          return { y = p.a }
+        end }
+      study:sweep { grid = 5, workers = 0 }
+      print(number)]]
+    local _, err, code = program.script(text, { file }, { before = NORMAL })
+    assert.matches("study 'caught' was interrupted", err)
+    assert.equal(130, code)
+    local out, _, again = program.script(text, { file }, { before = NORMAL })
+    assert.equal("3\n", out) -- two were kept; the third is evaluated again
+    assert.equal(0, again)
+  end)
+end)

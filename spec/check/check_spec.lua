@@ -240,7 +240,7 @@ describe("run:check", function()
         its_scene:settle{ max_iterations = 1 }
         return 0
       end } } }
-    end, "has gone on since this run")
+    end, "scene:settle: scene 'lay' cannot be changed inside the function `of` of the check 'x'")
     other, its_scene = laying()
     fails(function()
       other:check{ checks = { { name = "x", unit = "m", max = 1, of = function()

@@ -149,7 +149,7 @@ describe("sw.compare", function()
     fails("sw.compare: b: cannot read no/such.json", check, "no/such.json")
     fails("sw.compare: a: the name of a file is empty", "", check)
     fails("did you mean 'tolerance'?", check, check, { tolerence = 1 })
-    local wrong = { [""] = "JSON", ["{}"] = "no rows", ['{"rows":[]}'] = "no verdict",
+    local wrong = { [""] = "the file is empty", ["{}"] = "no rows", ['{"rows":[]}'] = "no verdict",
       ['{"verdict":"PASS","rows":[1]}'] = "row 1 is not an object",
       ['{"verdict":"PASS","rows":{"x":1}}'] = "its rows are not a list",
       ['{"verdict":"PASS","rows":[{"verdict":"PASS"}]}'] = "row 1 has no name",

@@ -179,3 +179,13 @@ describe("a measure that an object has for intervals only", function()
     assert.is_nil(other:find("over()", 1, true))
   end)
 end)
+
+describe("a name with a zero byte", function()
+  it("is told as that, not as too long", function()
+    local fine, why = pcall(sw.scene, { name = "a\0b" })
+    assert.is_false(fine)
+    assert.truthy(why:find("name has a zero byte, at place 2", 1, true), why)
+    assert.error_matches(function() sw.scene{ name = ("a"):rep(1000) } end,
+      "name is too long; at most %d+ bytes")
+  end)
+end)

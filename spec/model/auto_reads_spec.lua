@@ -125,6 +125,43 @@ describe("a scene that runs inside the function of a quantity or a check", funct
       end)
   end)
 
+  it("may not change it either", function()
+    local calls = {
+      ["scene:settle"] = function(scene) scene:settle() end,
+      ["scene:set"] = function(scene) scene:set { gravity = { 0, 0, -1 } } end,
+      ["scene:remove"] = function(scene, w) scene:remove(w) end,
+      ["scene:restore"] = function(scene) scene:restore(scene:snapshot()) end,
+      ["scene:obstacle"] = function(scene) scene:obstacle { shape = "plane", at = { 0, 0, -9 } } end,
+      ["gripper 'hand'"] = function(_, w, hand) hand:grasp(w, { s = 0.2 }) end,
+      ["wire:remodel"] = function(_, w) w:remodel { segments = 7 } end,
+    }
+    for name, call in pairs(calls) do
+      local scene, w = scene_of()
+      local hand = scene:gripper { name = "hand" }
+      local function of() -- also if the script's own pcall takes the error
+        pcall(call, scene, w, hand)
+        return 1
+      end
+      local fine, message = pcall(scene.run, scene, { duration = 0.02,
+        tolerance = { { name = "odd", value = 1, of = of } } })
+      assert.is_false(fine, name)
+      local asked = name .. ": scene 'read' cannot be changed inside the function `of` of the quantity 'odd'"
+      assert.truthy(message:find(asked, 1, true), message)
+      assert.truthy(message:find("read the scene as the run left it", 1, true), message)
+      assert.is_true(scene:run { duration = 0.01 }.ok)
+    end
+  end)
+
+  it("may save it", function()
+    local scene = scene_of()
+    local file = os.tmpname()
+    assert.is_true(scene:run { duration = 0.02, tolerance = { { name = "odd", value = 1, of = function()
+      scene:save(file)
+      return 1
+    end } } }.ok)
+    os.remove(file)
+  end)
+
   it("may be another scene", function()
     local scene, other = scene_of(), scene_of()
     local run = scene:run { duration = 0.2, tolerance = { { name = "odd", value = 1, of = function()

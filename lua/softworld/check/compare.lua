@@ -54,7 +54,9 @@ local function read_row(row, i)
 end
 
 local function read_document(path)
-  local document = jsonread.decode(sink.read_file(path))
+  local text = sink.read_file(path)
+  if not text:find "%S" then error("the file is empty", 0) end
+  local document = jsonread.decode(text)
   if type(document) ~= "table" or type(document.rows) ~= "table" then error("it has no rows", 0) end
   if not VERDICTS[document.verdict or ""] then error("it has no verdict", 0) end
   local list = {}

@@ -17,7 +17,6 @@ local counted = require "softworld.output.number".count
 local passing = require "softworld.run.passing"
 local place = require "softworld.place"
 local refine = require "softworld.run.refine"
-local reading = require "softworld.run.reading"
 local remarks = require "softworld.remarks"
 local tables = require "softworld.rows"
 local runfiles = require "softworld.run.files"
@@ -123,7 +122,6 @@ end
 -- are raised unchanged and leave the scene at its last good step.
 function core.class.scene.run(scene, args)
   build.check(scene, "scene:run", 3)
-  build.call(3, reading.check, scene)
   unread.used(build.data(scene))
   if args == nil then args = {} end
   if type(args) == "table" then

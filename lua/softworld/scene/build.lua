@@ -19,7 +19,7 @@ local class = core.class
 build.lists = { "wires", "particles", "obstacles", "holds", "grippers", "joins", "fixings" }
 --- Fields of build.data that belong to the process, not to the scene.
 build.passing = { processes = true, process_count = true, running = true, saving = true, going = true,
-  restores = true, from_file = true }
+  restores = true, from_file = true, read = true }
 -- How snapshots keep these fields, see keep.image.
 local imaged = { lists = build.lists, things = { "grippers", "fixings" }, whole = { "origin" },
   passing = { origin = true } }
@@ -37,6 +37,12 @@ function build.data(scene)
   return data
 end
 
+-- Raises an error in a function that reads a run which has ended, see softworld.run.reading.
+local function check_reading(scene, what)
+  local read = build.data(scene).read
+  if read then read.refuse(what) end
+end
+
 local function check_scene(scene, what)
   if core.type(scene) ~= "scene" then
     error(("%s is a method: call it with a colon, scene:%s"):format(what, what:match ":(.*)"), 0)
@@ -47,6 +53,7 @@ local function check_scene(scene, what)
       and "inside an observer's function; use observer:change(function() ... end)"
       or "from inside a step or a function of time"), 0)
   end
+  if what ~= "scene:save" then check_reading(scene, what) end
   if build.guard then build.guard(what) end -- set by softworld.run.process, which may keep steps
 end
 
@@ -189,14 +196,14 @@ function class.scene.wire(scene, args)
   return wire
 end
 
-local remodel = class.wire.remodel
-local remodels = setmetatable({}, { __mode = "k" }) -- how often each wire was remodelled; not of its state
+local remodel, remodels = class.wire.remodel, setmetatable({}, { __mode = "k" })
 
---- Returns how often a wire was remodelled.
+--- Returns how often a wire was remodelled; snapshots do not keep it.
 function build.remodels(wire) return remodels[wire] or 0 end
 
 --- wire:remodel{ model =, ... }: see help "remodel".
 function class.wire.remodel(wire, args)
+  build.call(3, check_reading, select(4, core.number(wire)), "wire:remodel")
   local result = build.call(3, remodel, wire, with_body(args))
   remodels[wire] = build.remodels(wire) + 1
   remarks.mesh(wire)
@@ -345,11 +352,10 @@ end
 -- --- snapshots ------------------------------------------------------------------
 
 local close = class.scene.close
-local function name_of_scene(scene) return scene.name end
 --- Frees the scene. The variables of a process that runs would be left without it, so a run must have ended.
 function class.scene.close(scene)
   local open, name = core.type(scene) == "scene", nil
-  if open then open, name = pcall(name_of_scene, scene) end
+  if open then open, name = pcall(name_of, scene) end
   if open and not core.busy(scene) and build.data(scene).running then -- else the core says why not
     error(("scene:close: a run of scene '%s' is under way; close it after the run"):format(name), 2)
   end

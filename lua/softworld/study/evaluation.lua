@@ -154,9 +154,12 @@ end
 --- Returns the reason of an evaluation that took too many steps.
 function evaluation.steps_reason(steps) return "took more than " .. counted(steps, "step") end
 
-local function finish(own, fine, ...)
+-- interrupts: how often Ctrl-C was pressed when the evaluation began. The script's own pcall may have caught
+-- the error of one since: the results are then of a run that did not end.
+local function finish(own, interrupts, fine, ...)
   local limited = core.limit_steps(0)
   if not fine and checks.is_interrupt(...) then error((...), 0) end -- says nothing about the model
+  core.stop_since(interrupts)
   if limited then return "failed", evaluation.steps_reason(own.steps) end
   for _, kept in ipairs(own.kept) do
     if not core.exists(kept[1]) then return wrong(own, "closed the scene that setup had built") end
@@ -190,15 +193,18 @@ local function once(own, number, values)
 end
 
 --- Returns "ok" with results as text; "failed", "machine" or "mistake" with a reason.
-function evaluation.run(own, number, values) return finish(own, once(own, number, values)) end
+function evaluation.run(own, number, values)
+  return finish(own, core.interrupts(), once(own, number, values))
+end
 
 --- Same in this process, to look at it. Returns status and text as run does, and what evaluate returned, or
 -- the error that it raised.
 function evaluation.again(own, number, values)
   local again, more = math.random(0), math.random(0)
+  local interrupts = core.interrupts()
   local fine, given = once(own, number, values)
   math.randomseed(again, more)
-  local status, text = finish(own, fine, given)
+  local status, text = finish(own, interrupts, fine, given)
   return status, text, given
 end
 
