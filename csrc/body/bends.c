@@ -21,14 +21,15 @@
 
 static sw_status open_view(const sw_scene *s, size_t wire, const sw_hold *fresh, int unloaded,
                            sw_held_wire *v) {
-  const size_t slots = sw_scene_hold_slots(s), joins = sw_scene_join_places(s, wire, NULL);
-  sw_hold_place *places SW_LOCAL = sw_alloc(slots + 1, sizeof *places);
+  const size_t slots = sw_scene_hold_slots(s), living = sw_scene_living_holds(s);
+  const size_t joins = sw_scene_join_places(s, wire, NULL);
+  sw_hold_place *places SW_LOCAL = sw_alloc(living + 1, sizeof *places);
   *v = (sw_held_wire){.mesh = &sw_scene_wire_in((sw_scene *)s, wire)->mesh, .fresh = fresh};
   v->unloaded = unloaded;
   v->nodes = unloaded ? v->mesh->rest : v->mesh->x;
   v->normals = unloaded ? v->mesh->rest_normal : v->mesh->normal;
   /* NOLINTNEXTLINE(bugprone-sizeof-expression): a list of pointers */
-  v->holds = sw_alloc(slots + 1, sizeof *v->holds);
+  v->holds = sw_alloc(living + 1, sizeof *v->holds);
   v->joined = sw_alloc(joins + 1, sizeof *v->joined);
   if (!places || !v->holds || !v->joined) return SW_ENOMEM;
   for (size_t k = 0; k < slots; k++) {
@@ -390,7 +391,7 @@ sw_status sw_scene_give_all_bends(const sw_scene *s, size_t wire, const sw_wire_
   size_t count = 0;
   int done;
   if (sw_held_moves(s, wire, &bends->loads)) return SW_OK;
-  double *places SW_LOCAL = sw_alloc(2 * sw_scene_hold_slots(s) + 1, sizeof *places);
+  double *places SW_LOCAL = sw_alloc(2 * sw_scene_living_holds(s) + 1, sizeof *places);
   if (!places) return SW_ENOMEM;
   for (size_t k = 0; k < sw_scene_hold_slots(s); k++) {
     const sw_hold *h = sw_scene_hold_in((sw_scene *)s, k);

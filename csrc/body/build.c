@@ -198,7 +198,7 @@ static sw_status stopped(const sw_scene *s) {
 }
 
 static sw_status new_plans(sw_scene *s, sw_plan **plans) {
-  sw_hold_place *places SW_LOCAL = sw_alloc(s->hold_count, sizeof *places);
+  sw_hold_place *places SW_LOCAL = sw_alloc(sw_scene_living_holds(s), sizeof *places);
   if (!places) return SW_ENOMEM;
   for (size_t w = 0; w < s->wire_count; w++) {
     const sw_scene_wire *wire = &s->wires[w];

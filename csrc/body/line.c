@@ -26,7 +26,7 @@ static size_t kept_places(const sw_scene *s, size_t wire, double *out) {
 
 /* Returns room for these and two more, to be freed; NULL: out of memory. */
 static double *new_places(const sw_scene *s, size_t wire) {
-  return sw_alloc(2 * sw_scene_hold_slots(s) + sw_scene_join_places(s, wire, NULL) + 2,
+  return sw_alloc(2 * sw_scene_living_holds(s) + sw_scene_join_places(s, wire, NULL) + 2,
                   sizeof(double));
 }
 

@@ -100,7 +100,7 @@ sw_status sw_region_plan(const sw_scene *s, size_t wire, const double region[2],
                          double line, sw_stations *out, sw_error *err) {
   const sw_scene_wire *w = sw_scene_wire_in(s, wire);
   const double length = w->mesh.s[w->mesh.n - 1];
-  part *parts SW_LOCAL = sw_alloc(sw_scene_hold_slots(s) + 1, sizeof *parts);
+  part *parts SW_LOCAL = sw_alloc(sw_scene_living_holds(s) + 1, sizeof *parts);
   *out = (sw_stations){.spacing = spacing};
   if (!parts) return sw_fail(err, SW_ENOMEM, "remodel: out of memory");
   const size_t count = find_parts(s, wire, region, spacing, length, parts);

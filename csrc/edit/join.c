@@ -91,7 +91,7 @@ static sw_status check_meeting(const sw_scene *s, const sw_join_end *ends, size_
 /* Returns the arc lengths that holds and joins of the wire need as nodes, with room for more. */
 static double *places_of(const sw_scene *s, size_t wire, size_t *count) {
   const size_t joins = sw_scene_join_places(s, wire, NULL);
-  double *keep = sw_alloc(2 * sw_scene_hold_slots(s) + joins + SW_JOIN_ENDS, sizeof *keep);
+  double *keep = sw_alloc(2 * sw_scene_living_holds(s) + joins + SW_JOIN_ENDS, sizeof *keep);
   *count = 0;
   if (!keep) return NULL;
   SW_EACH(hold, h, s) {

@@ -30,7 +30,7 @@ typedef struct kept_hold {
 /* Finds the wire's living holds, with copies of where they hold. */
 static sw_status keep_holds(const sw_scene *s, size_t wire, kept_hold **out, size_t *count) {
   *count = 0;
-  *out = sw_alloc(sw_scene_hold_slots(s), sizeof **out);
+  *out = sw_alloc(sw_scene_living_holds(s), sizeof **out);
   if (!*out) return SW_ENOMEM;
   for (size_t k = 0; k < sw_scene_hold_slots(s); k++) {
     if (!sw_scene_hold_in(s, k)->alive || sw_scene_hold_in(s, k)->wire != wire) continue;
@@ -164,7 +164,7 @@ static sw_status carry_over(sw_scene *s, size_t wire, size_t segments, sw_error 
   sw_scene_wire *w = sw_scene_wire_in(s, wire);
   sw_mesh places = {0}, fresh = {0};
   size_t count = 0;
-  double *held SW_LOCAL = sw_alloc(2 * sw_scene_hold_slots(s), sizeof *held);
+  double *held SW_LOCAL = sw_alloc(2 * sw_scene_living_holds(s), sizeof *held);
   if (!held) return SW_ENOMEM;
   SW_EACH(hold, h, s) {
     if (!h->alive || h->wire != wire) continue;

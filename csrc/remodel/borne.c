@@ -24,10 +24,10 @@ static sw_status list_held(const sw_scene *s, size_t wire, double **out, size_t 
   const size_t joins = sw_scene_join_places(s, wire, NULL);
   size_t n = 0;
   *count = 0;
-  double *held = *out = sw_alloc(2 * (sw_scene_hold_slots(s) + joins) + 1, sizeof *held);
+  double *held = *out = sw_alloc(2 * (sw_scene_living_holds(s) + joins) + 1, sizeof *held);
   if (!held) return SW_ENOMEM;
   double *joined =
-      held + 2 * sw_scene_hold_slots(s) + joins; /* read before they are written over */
+      held + 2 * sw_scene_living_holds(s) + joins; /* read before they are written over */
   sw_scene_join_places(s, wire, joined);
   SW_EACH(hold, h, s)
     if (h->alive && h->wire == wire) held[n++] = h->s1, held[n++] = h->s2;

@@ -27,10 +27,10 @@ static sw_status place(sw_mesh *m, double s, double *keep, size_t *count) {
 static sw_status place_links(const sw_scene *s, size_t wire, sw_mesh *m) {
   const size_t joins = sw_scene_join_places(s, wire, NULL);
   size_t count = 0;
-  double *keep SW_LOCAL = sw_alloc(2 * (sw_scene_hold_slots(s) + joins) + 1, sizeof *keep);
+  double *keep SW_LOCAL = sw_alloc(2 * (sw_scene_living_holds(s) + joins) + 1, sizeof *keep);
   if (!keep) return SW_ENOMEM;
-  const double *joined = keep + 2 * sw_scene_hold_slots(s) + joins;
-  sw_scene_join_places(s, wire, keep + 2 * sw_scene_hold_slots(s) + joins);
+  const double *joined = keep + 2 * sw_scene_living_holds(s) + joins;
+  sw_scene_join_places(s, wire, keep + 2 * sw_scene_living_holds(s) + joins);
   for (size_t k = 0; k < joins; k++) SW_TRY(place(m, joined[k], keep, &count));
   SW_EACH(hold, h, s) {
     if (!h->alive || h->wire != wire) continue;

@@ -13,6 +13,11 @@
 size_t sw_scene_wire_slots(const sw_scene *s) { return s->wire_count; }
 sw_scene_wire *sw_scene_wire_in(const sw_scene *s, size_t slot) { return &s->wires[slot]; }
 size_t sw_scene_hold_slots(const sw_scene *s) { return s->hold_count; }
+size_t sw_scene_living_holds(const sw_scene *s) {
+  size_t n = 0;
+  for (size_t k = 0; k < s->hold_count; k++) n += s->holds[k].alive != 0;
+  return n;
+}
 sw_hold *sw_scene_hold_in(const sw_scene *s, size_t slot) { return &s->holds[slot]; }
 size_t sw_scene_tool_slots(const sw_scene *s) { return s->tool_count; }
 sw_tool *sw_scene_tool_in(const sw_scene *s, size_t slot) { return &s->tools[slot]; }

@@ -38,6 +38,9 @@ typedef struct sw_log sw_log;
 size_t sw_scene_wire_slots(const sw_scene *scene);
 sw_scene_wire *sw_scene_wire_in(const sw_scene *scene, size_t slot);
 size_t sw_scene_hold_slots(const sw_scene *scene);
+/* Number of living holds [-]. Room for them must not grow with the slots: each block would be
+ * larger than the last one freed, and the heap would keep them all. */
+size_t sw_scene_living_holds(const sw_scene *scene);
 sw_hold *sw_scene_hold_in(const sw_scene *scene, size_t slot);
 size_t sw_scene_tool_slots(const sw_scene *scene);
 sw_tool *sw_scene_tool_in(const sw_scene *scene, size_t slot);

@@ -120,6 +120,33 @@ static sw_status copy(const char *object, const struct aiScene *scene, sw_mesh_d
                  object);
 }
 
+/* Says in plain words what the library's text means. */
+static const char *plain_of(const char *text) {
+  static const struct {
+    const char *part, *plain;
+  } known[] = {{"No output meshes", "it has no triangles"},
+               {"No meshes remaining", "it has no triangles"},
+               {"no valid faces", "it has no triangles"},
+               {"too small", "it has no triangles"},
+               {"index out of range", "a face names a point that the file does not have"},
+               {"Cannot parse", "it has a word where a number should be"},
+               {"No suitable reader", "it does not begin as such a file does"}};
+  for (size_t k = 0; k < sizeof known / sizeof known[0]; k++)
+    if (strstr(text, known[k].part)) return known[k].plain;
+  return "it is damaged, or of a kind that is not read";
+}
+
+static sw_status unreadable(const sw_mesh_file *from, const char *text, sw_error *err) {
+  char shown[64];
+  size_t n = 0;
+  for (; text[n] && n < sizeof shown - 1; n++)
+    shown[n] = text[n] >= ' ' && text[n] <= '~' ? text[n] : '?';
+  shown[n] = '\0';
+  return sw_fail(err, SW_EFORMAT,
+                 "%s: data is not readable as %s: %s; write the file anew (the reader says: %s%s)",
+                 from->object, from->format, plain_of(text), shown, text[n] ? "..." : "");
+}
+
 sw_status sw_mesh_read(const sw_mesh_file *from, sw_mesh_data *out, sw_error *err) {
   const unsigned steps =
       aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_PreTransformVertices;
@@ -134,9 +161,7 @@ sw_status sw_mesh_read(const sw_mesh_file *from, sw_mesh_data *out, sw_error *er
   const struct aiScene *scene = aiImportFileExWithProperties(file.name, steps, &io, settings);
   aiReleasePropertyStore(settings);
   if (!scene && file.starved) return sw_fail(err, SW_ENOMEM, "%s: out of memory", from->object);
-  if (!scene)
-    return sw_fail(err, SW_EFORMAT, "%s: data is not readable as %s (%s)", from->object,
-                   from->format, aiGetErrorString());
+  if (!scene) return unreadable(from, aiGetErrorString(), err);
   const sw_status status = copy(from->object, scene, out, err);
   aiReleaseImport(scene);
   return status;

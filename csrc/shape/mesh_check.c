@@ -2,6 +2,7 @@
 /* Checks that a mesh file has all the data it declares. Each format is checked just closely enough
  * to find a truncated file; the reader checks the rest. */
 #include "base/vec.h"
+#include "shape/mesh_off.h"
 #include "shape/mesh_ply.h"
 #include "shape/mesh_read.h"
 #include "shape/mesh_words.h"
@@ -27,6 +28,26 @@ static const char *last_of(const sw_mesh_file *file, const char *text) {
   return NULL;
 }
 
+/* Checks that the corners of a text STL are numbers. */
+static sw_status check_corners(const sw_mesh_file *file, sw_error *err) {
+  sw_words all = {file->bytes, file->bytes + file->byte_count}, line, word;
+  const char *counted = file->bytes;
+  size_t number = 1;
+  while (sw_words_line(&all, &line)) {
+    char shown[SW_WORDS_SHOWN];
+    for (; counted < line.at; counted++) number += *counted == '\n';
+    if (!sw_words_next(&line, &word) || !sw_words_are(word, "vertex")) continue;
+    for (int k = 0; k < 3; k++)
+      if (!sw_words_next(&line, &word) || !sw_words_number(word))
+        return sw_fail(
+            err, SW_EFORMAT,
+            "%s: data is not readable as stl: line %zu, a corner, needs three numbers, and has "
+            "'%s'; write the file anew",
+            file->object, number, sw_words_show(word, shown));
+  }
+  return SW_OK;
+}
+
 static sw_status check_stl(const sw_mesh_file *file, sw_error *err) {
   const size_t size = file->byte_count;
   const size_t count = size >= STL_HEAD ? sw_words_u32(file->bytes + 80) : 0;
@@ -35,7 +56,7 @@ static sw_status check_stl(const sw_mesh_file *file, sw_error *err) {
   if (size >= STL_HEAD && size == whole) return SW_OK;
   if (sw_words_next(&all, &word) && word.end - word.at >= 5 && memcmp(word.at, "solid", 5) == 0) {
     const char *facet = last_of(file, "facet"), *end = last_of(file, "endsolid");
-    if (end && (!facet || end > facet)) return SW_OK;
+    if (end && (!facet || end > facet)) return check_corners(file, err);
     return sw_fail(err, SW_EFORMAT,
                    "%s: data is not readable as stl: it is cut off, the closing word 'endsolid' is "
                    "missing; write the file anew",
@@ -54,51 +75,6 @@ static sw_status check_stl(const sw_mesh_file *file, sw_error *err) {
                  file->object, count, whole, size);
 }
 
-/* --- OFF ------------------------------------------------------------------ */
-
-/* Gets the next line that is not a comment. */
-static int line_of(sw_words *from, sw_words *line) {
-  while (sw_words_line(from, line))
-    if (*line->at != '#') return 1;
-  return 0;
-}
-
-/* 1 if the line has enough words: 3 numbers for a point, a count and that many numbers for a
- * face. */
-static int is_whole(sw_words line, int face) {
-  sw_words word;
-  size_t need = 3;
-  if (face && !sw_words_count(&line, &need)) return 0;
-  while (need > 0 && sw_words_next(&line, &word)) need--;
-  return need == 0;
-}
-
-static sw_status check_off(const sw_mesh_file *file, sw_error *err) {
-  sw_words all = {file->bytes, file->bytes + file->byte_count}, line, word;
-  size_t points, faces, k;
-  if (!line_of(&all, &line)) return SW_OK;
-  sw_words first = line;
-  if (sw_words_next(&first, &word) && word.end - word.at >= 3 &&
-      memcmp(word.end - 3, "OFF", 3) == 0) {
-    line = first;
-    if (!sw_words_next(&first, &word) && !line_of(&all, &line)) line = first;
-  }
-  if (!sw_words_count(&line, &points) || !sw_words_count(&line, &faces))
-    return sw_fail(err, SW_EFORMAT,
-                   "%s: data is not readable as off: its head has no numbers of points and faces; "
-                   "write the file anew",
-                   file->object);
-  for (k = 0; k < points + faces; k++)
-    if (!line_of(&all, &line) || !is_whole(line, k >= points)) break;
-  if (k == points + faces) return SW_OK;
-  return sw_fail(
-      err, SW_EFORMAT,
-      "%s: data is not readable as off: it is cut off or damaged: it declares %zu points "
-      "and %zu faces, and %s number %zu is not whole; write the file anew",
-      file->object, points, faces, k < points ? "point" : "face",
-      k < points ? k + 1 : k - points + 1);
-}
-
 /* --- GLB ------------------------------------------------------------------ */
 
 static sw_status check_glb(const sw_mesh_file *file, sw_error *err) {
@@ -115,7 +91,7 @@ static sw_status check_glb(const sw_mesh_file *file, sw_error *err) {
 sw_status sw_mesh_check(const sw_mesh_file *file, sw_error *err) {
   if (strcmp(file->format, "stl") == 0) return check_stl(file, err);
   if (strcmp(file->format, "ply") == 0) return sw_mesh_check_ply(file, err);
-  if (strcmp(file->format, "off") == 0) return check_off(file, err);
+  if (strcmp(file->format, "off") == 0) return sw_mesh_check_off(file, err);
   if (strcmp(file->format, "glb") == 0) return check_glb(file, err);
   return SW_OK; /* obj and gltf declare no counts */
 }

@@ -20,6 +20,7 @@ typedef struct element {
   int first, number; /* first and number of its properties */
   size_t fixed;      /* size of an item's single values [B] */
   int lists;         /* properties that are lists */
+  int axes;          /* bits of the single values x, y and z that it has */
 } element;
 
 typedef enum ply_format { TEXT, LEAST_FIRST, LEAST_LAST } ply_format;
@@ -60,6 +61,9 @@ static int read_property(header *h, sw_words line) {
   p.size = size_of(word);
   if (p.size == 0) return 0;
   if (p.count == 0) e->fixed += (size_t)p.size;
+  if (p.count == 0 && sw_words_next(&line, &word) && word.end - word.at == 1 && *word.at >= 'x' &&
+      *word.at <= 'z')
+    e->axes |= 1 << (*word.at - 'x');
   h->properties[h->property_count++] = p;
   e->number++;
   return 1;
@@ -147,6 +151,20 @@ static size_t whole_items(const header *h, const element *e, sw_words *from) {
   return k;
 }
 
+/* Assimp takes 0 for a coordinate that the points do not have. */
+static sw_status check_axes(const sw_mesh_file *file, const header *h, sw_error *err) {
+  SW_ITEMS(const element, e, h->elements, h->element_count) {
+    if (!sw_words_are(e->name, "vertex")) continue;
+    for (int k = 0; k < 3; k++)
+      if (!(e->axes >> k & 1))
+        return sw_fail(err, SW_EFORMAT,
+                       "%s: data is not readable as ply: its points have no property '%c'; write "
+                       "the file anew",
+                       file->object, 'x' + k);
+  }
+  return SW_OK;
+}
+
 sw_status sw_mesh_check_ply(const sw_mesh_file *file, sw_error *err) {
   sw_words from = {file->bytes, file->bytes + file->byte_count};
   header h;
@@ -165,5 +183,5 @@ sw_status sw_mesh_check_ply(const sw_mesh_file *file, sw_error *err) {
                      (int)(e->name.end - e->name.at < 32 ? e->name.end - e->name.at : 32),
                      e->name.at, whole);
   }
-  return SW_OK;
+  return check_axes(file, &h, err);
 }

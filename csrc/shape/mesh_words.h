@@ -47,6 +47,36 @@ static inline int sw_words_count(sw_words *from, size_t *count) {
   return 1;
 }
 
+enum { SW_WORDS_SHOWN = 32 }; /* room for a word in a message [B] */
+
+/* Copies the start of a word for a message, with a question mark for each byte that is not plain
+ * text: files may hold anything, and terminals obey control characters. */
+static inline const char *sw_words_show(sw_words word, char out[SW_WORDS_SHOWN]) {
+  size_t n = 0;
+  for (const char *c = word.at; c < word.end && n < SW_WORDS_SHOWN - 1; c++)
+    out[n++] = *c >= ' ' && *c <= '~' ? *c : '?';
+  out[n] = '\0';
+  return out;
+}
+
+/* 1 if a word is a decimal number, or nan or inf, which the checks of triangles report. */
+static inline int sw_words_number(sw_words word) {
+  const char *c = word.at;
+  int digits = 0;
+  if (c < word.end && (*c == '-' || *c == '+')) c++;
+  if (word.end - c >= 3)
+    if ((c[0] | 0x20) == 'n' || (c[0] | 0x20) == 'i')
+      return (c[1] | 0x20) == 'a' || (c[1] | 0x20) == 'n';
+  for (; c < word.end && *c >= '0' && *c <= '9'; c++) digits++;
+  if (c < word.end && *c == '.') c++;
+  for (; c < word.end && *c >= '0' && *c <= '9'; c++) digits++;
+  if (digits == 0 || c == word.end) return digits > 0;
+  if ((*c++ | 0x20) != 'e') return 0;
+  if (c < word.end && (*c == '-' || *c == '+')) c++;
+  for (digits = 0; c < word.end && *c >= '0' && *c <= '9'; c++) digits++;
+  return digits > 0 && c == word.end;
+}
+
 /* Reads four bytes, least significant first. */
 static inline size_t sw_words_u32(const char *at) {
   const unsigned char *b = (const unsigned char *)at;

@@ -76,9 +76,9 @@ local function drop(self, wire)
       end
       self.at, self.facing = grip.hold:pose()
       grip.hold:release()
-      for i, hold in ipairs(self.past) do
-        if hold == grip.hold then self.spans[i].to = self.scene.time end
-      end
+      local i = #self.past -- from the last one: there may be thousands of earlier grasps
+      while i > 0 and self.past[i] ~= grip.hold do i = i - 1 end
+      if i > 0 then self.spans[i].to = self.scene.time end
     else
       left[#left + 1] = grip
     end
