@@ -26,6 +26,21 @@ describe("run:check of the cycle time", function()
   end)
 end)
 
+describe("run:check of a clearance", function()
+  -- 0.15 - 0.1 - 0.002 is 1.4e-17 below 0.048.
+  it("passes at its limit, with a margin of 0", function()
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = scene:wire{ name = "w", EA = 1e4, EI = 1e-3, mass_per_length = 0.03, radius = 0.002,
+      from = { 0, 0, 1 }, to = { 0, 0, 0 }, segments = 20 }
+    scene:clamp(wire, { s = 0 })
+    scene:zone{ shape = "sphere", radius = 0.1, at = { 0.15, 0, 0.5 } }
+    local run = scene:run{ duration = 0.1, dt = 0.01, quasistatic = true }
+    local row = run:check{ limits = { clearance = 0.048 } }:row "clearance"
+    assert.same({ "PASS", 0 }, { row.verdict, row.margin })
+    assert.equal("FAIL", run:check{ limits = { clearance = 0.048 + 1e-9 } }:row "clearance".verdict)
+  end)
+end)
+
 describe("run:check of bends in edges that are too long", function()
   -- The centre line's radius of 5 mm may be 2.5 mm, so the inside of the bend 3 mm less than that: below 0.
   it("applies the factor to the radius of the centre line", function()
