@@ -103,7 +103,8 @@ describe("run:check of the landing error", function()
       assert.is_nil(r.note)
     end
     local r = row{ path = { { 0, 0, 0 }, { 1, 0, 0 } } }
-    assert.equal("PASS", r.verdict)
+    assert.equal("OPEN", r.verdict) -- the wire reaches a fifth of it
+    assert.equal("PASS", row{ path = { { 0, 0, 0 }, { 1, 0, 0 } }, from = 0 }.verdict)
     assert.truthy(r.note:find("point 2 of the path is 800.0 mm from the wire", 1, true), r.note)
   end)
 
@@ -133,4 +134,18 @@ describe("run:check of events that had no room", function()
       assert.equal(case[2] == "OPEN", row.note:find("had no room in the record", 1, true) ~= nil)
     end
   end)
+end)
+
+describe("run:check of landing on a path that the wire does not reach", function()
+  -- The wire of 0.2 m lies on the x axis, the path goes on beyond it.
+  for to, verdict in pairs{ [0.2] = "PASS", [0.39] = "PASS", [0.42] = "OPEN", [200] = "OPEN" } do
+    it(("is %s for a path of %g m"):format(verdict, to), function()
+      local scene = still()
+      local row = scene:run{ duration = 0.01, dt = 0.01, quasistatic = true }:check{
+        limits = { landing_error = 2e-3 }, landing = { path = { { 0, 0, 0 }, { to, 0, 0 } } } }
+        :row "landing_error"
+      assert.equal(verdict, row.verdict)
+      assert.equal(verdict == "OPEN", (row.note or ""):find("is its unit right (m)?", 1, true) ~= nil)
+    end)
+  end
 end)
