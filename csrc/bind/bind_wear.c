@@ -48,7 +48,7 @@ static int mod_worn_sidewall(lua_State *L) {
 }
 
 /* core.worn_cycles(wire, place, signal) -> flat list of range, mean, number; values of the
- * reversals that still wait for the end of their cycle. signal 0: the tension [N]; 1 to 12: the
+ * reversals that close cycles if the load is repeated. signal 0: the tension [N]; 1 to 12: the
  * bend in one of 12 directions over half a turn [1/m] */
 static int mod_worn_cycles(lua_State *L) {
   sw_cycle list[SW_CYCLES_KEPT + SW_CYCLES_OPEN];
@@ -58,14 +58,15 @@ static int mod_worn_cycles(lua_State *L) {
   const lua_Integer signal = lsw_integer(L, 3, "worn_cycles: the signal");
   luaL_argcheck(L, k >= 1 && (size_t)k <= count, 2, "there is no such place");
   luaL_argcheck(L, signal >= 0 && signal < SW_WORN_SIGNALS, 3, "there is no such signal");
-  double open[SW_CYCLES_OPEN];
+  double left[2 * SW_CYCLES_OPEN];
   lsw_quiet(L);
   push_cycles(L, list, sw_scene_worn_cycles(w.scene, w.id, (size_t)k - 1, (int)signal, list));
-  lsw_push_flat(L, open, sw_scene_worn_open(w.scene, w.id, (size_t)k - 1, (int)signal, open));
+  lsw_push_flat(L, left, sw_scene_worn_residue(w.scene, w.id, (size_t)k - 1, (int)signal, left));
   return 2;
 }
 
-/* core.cycles(list) -> flat list of range, mean, number of the cycles in a load history */
+/* core.cycles(list) -> flat list of range, mean, number of the cycles in a load history; values of
+ * the reversals that close cycles if it is repeated */
 static int mod_cycles(lua_State *L) {
   sw_cycles c = {.opened = 0};
   sw_cycle list[SW_CYCLES_KEPT + SW_CYCLES_OPEN];
@@ -74,7 +75,10 @@ static int mod_cycles(lua_State *L) {
     sw_cycles_add(&c, luaL_checknumber(L, -1));
     lua_pop(L, 1);
   }
-  return push_cycles(L, list, sw_cycles_read(&c, list));
+  double left[2 * SW_CYCLES_OPEN];
+  push_cycles(L, list, sw_cycles_read(&c, list));
+  lsw_push_flat(L, left, sw_cycles_residue(&c, left));
+  return 2;
 }
 
 const luaL_Reg lsw_module_wear[] = {{"worn", mod_worn},

@@ -67,7 +67,31 @@ static void keep(sw_cycles *c, sw_cycle new) {
   memcpy(c->kept, list, (size_t)c->count * sizeof *list);
 }
 
+static double cube(double x) { return x * x * x; }
+
+/* Returns by how much the sum of cubes falls where reversals i and i + 1, with ranges r, s and t at
+ * them, are left out. s lies between r and t. */
+static double left_out(const double *x, int i) {
+  const double r = fabs(x[i] - x[i - 1]), s = fabs(x[i + 1] - x[i]), t = fabs(x[i + 2] - x[i + 1]);
+  return cube(r) + cube(t) - cube(r - s + t) - cube(s);
+}
+
+/* Keeps a reversal at the start, whose half cycle has been counted. Of too many two are left out:
+ * where a swing grows evenly, or not at all, this changes the count of its repetition least. */
+static void begin(sw_cycles *c, double value) {
+  if (c->begins == SW_CYCLES_OPEN) {
+    int best = 1;
+    for (int i = 2; i + 2 < c->begins; i++)
+      if (left_out(c->begun, i) < left_out(c->begun, best)) best = i;
+    c->begins -= 2;
+    memmove(c->begun + best, c->begun + best + 2, (size_t)(c->begins - best) * sizeof *c->begun);
+  }
+  c->begun[c->begins++] = value;
+}
+
 static void drop(sw_cycles *c, int first, int count) {
+  if (first == 0) begin(c, c->open[0]);
+
   memmove(c->open + first, c->open + first + count,
           (size_t)(c->opened - first - count) * sizeof *c->open);
   c->opened -= count;
@@ -84,8 +108,6 @@ static void close_cycles(sw_cycles *c) {
     drop(c, n == 3 ? 0 : n - 3, n == 3 ? 1 : 2);
   }
 }
-
-static double cube(double x) { return x * x * x; }
 
 /* Returns the cycle that takes the place of reversals i and i + 1 of those that wait, whose ranges
  * only fall. Of the ranges r >= s >= t at them, r and t would close later. Without the two,
@@ -135,15 +157,28 @@ size_t sw_cycles_read(const sw_cycles *c, sw_cycle *out) {
   return n;
 }
 
+size_t sw_cycles_residue(const sw_cycles *c, double *out) {
+  size_t n = 0;
+  for (int k = 0; k < c->begins; k++) out[n++] = c->begun[k];
+  for (int k = 0; k < c->opened; k++) out[n++] = c->open[k];
+  return n;
+}
+
 double sw_cycles_widest(const sw_cycles *c) {
   double widest = c->count ? c->kept[c->count - 1].range : 0;
   for (int k = 0; k + 1 < c->opened; k++) widest = fmax(widest, fabs(c->open[k + 1] - c->open[k]));
   return widest;
 }
 
+int sw_cycles_sized(const sw_cycles *c) {
+  return c->opened >= 0 && c->opened <= SW_CYCLES_OPEN && c->begins >= 0 &&
+         c->begins <= SW_CYCLES_OPEN && c->count >= 0 && c->count <= SW_CYCLES_KEPT;
+}
+
 int sw_cycles_fine(const sw_cycles *c) {
-  if (c->opened < 0 || c->opened > SW_CYCLES_OPEN || c->count < 0 || c->count > SW_CYCLES_KEPT)
-    return 0;
+  if (!sw_cycles_sized(c)) return 0;
+  for (int k = 0; k < c->begins; k++)
+    if (!isfinite(c->begun[k])) return 0;
   for (int k = 0; k < c->opened; k++)
     if (!isfinite(c->open[k])) return 0;
   for (int k = 0; k < c->count; k++) {

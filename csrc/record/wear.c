@@ -13,15 +13,15 @@ void sw_wear_free(sw_wear *w) {
 }
 
 static void tape_cycles(sw_tape *t, sw_cycles *c) {
-  SW_TAPE_STRUCT(t, sw_cycles, 1608);
-  sw_tape_int(t, &c->opened), sw_tape_int(t, &c->count);
+  SW_TAPE_STRUCT(t, sw_cycles, 1872);
+  sw_tape_int(t, &c->opened), sw_tape_int(t, &c->count), sw_tape_int(t, &c->begins);
   if (sw_tape_reads(t)) {
-    const int fine = c->opened >= 0 && c->opened <= SW_CYCLES_OPEN && c->count >= 0 &&
-                     c->count <= SW_CYCLES_KEPT;
-    const sw_cycles none = {.opened = fine ? c->opened : 0, .count = fine ? c->count : 0};
+    const int fine = sw_cycles_sized(c);
+    const sw_cycles none = {.opened = c->opened, .count = c->count, .begins = c->begins};
     sw_tape_expect(t, fine, "a count of cycles");
-    *c = none;
+    *c = fine ? none : (sw_cycles){.opened = 0};
   }
+  sw_tape_raw(t, c->begun, (size_t)c->begins * sizeof *c->begun);
   sw_tape_raw(t, c->open, (size_t)c->opened * sizeof *c->open);
   sw_tape_raw(t, c->kept, (size_t)c->count * sizeof *c->kept);
   if (sw_tape_reads(t)) sw_tape_expect(t, sw_cycles_fine(c), "a count of cycles");

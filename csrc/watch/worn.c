@@ -32,9 +32,7 @@ size_t sw_scene_worn_cycles(const sw_scene *s, sw_handle h, size_t k, int signal
   return sw_cycles_read(&w->cycles[SW_WEAR_SIGNALS * k + (size_t)signal], out);
 }
 
-size_t sw_scene_worn_open(const sw_scene *s, sw_handle h, size_t k, int signal, double *out) {
+size_t sw_scene_worn_residue(const sw_scene *s, sw_handle h, size_t k, int signal, double *out) {
   const sw_wear *w = &sw_scene_wire_in(s, h.slot)->wear;
-  const sw_cycles *c = &w->cycles[SW_WEAR_SIGNALS * k + (size_t)signal];
-  for (int i = 0; i < c->opened; i++) out[i] = c->open[i];
-  return (size_t)c->opened;
+  return sw_cycles_residue(&w->cycles[SW_WEAR_SIGNALS * k + (size_t)signal], out);
 }

@@ -24,8 +24,9 @@ sw_extreme sw_scene_worn_sidewall(const sw_scene *scene, sw_handle wire);
 sw_worn sw_scene_worn_place(const sw_scene *scene, sw_handle wire, size_t k);
 size_t sw_scene_worn_cycles(const sw_scene *scene, sw_handle wire, size_t k, int signal,
                             sw_cycle *out);
-/* Fills in the values of the reversals that still wait for their cycle (SW_CYCLES_OPEN at most),
- * and returns their number. */
-size_t sw_scene_worn_open(const sw_scene *scene, sw_handle wire, size_t k, int signal, double *out);
+/* Fills in the reversals that close cycles if the load is repeated (2 SW_CYCLES_OPEN at most), and
+ * returns their number. */
+size_t sw_scene_worn_residue(const sw_scene *scene, sw_handle wire, size_t k, int signal,
+                             double *out);
 
 #endif

@@ -13,7 +13,9 @@ local MOST_NOTES = 5 -- runs with events reported at most
 local function new_notes() return { noted = 0, others = 0 } end
 local notes = new_notes() -- a list; .noted: runs with events so far; .others: those beyond the list
 local bad = 0  -- runs that failed or were stopped, looked at or not
-local verdicts = { PASS = 0, FAIL = 0, OPEN = 0 } -- of checks
+local function no_verdicts() return { PASS = 0, FAIL = 0, OPEN = 0 } end
+local verdicts = no_verdicts() -- of checks
+local counting = false
 
 local idle = {} -- { at = place }: scenes with processes that nothing has used yet
 local waits = setmetatable({}, { __mode = "k" }) -- by key: its entry
@@ -127,8 +129,20 @@ end
 --- Counts a run that was stopped before its end.
 function unread.cut() bad = bad + 1 end
 
---- Counts a check of a run with this verdict.
-function unread.judged(verdict) verdicts[verdict] = verdicts[verdict] + 1 end
+local given = setmetatable({}, { __mode = "k" }) -- by run: { verdict of its own check, of = the sums }
+
+--- Counts a check of a run with this verdict. run: the check was given to this run; it counts once, however
+-- often it is made.
+function unread.judged(verdict, run)
+  local before = run and given[run]
+  if before and before.of == verdicts then verdicts[before.verdict] = verdicts[before.verdict] - 1 end
+  if run then given[run] = { of = verdicts, verdict = verdict } end
+  verdicts[verdict] = verdicts[verdict] + 1
+end
+
+--- Is the script run by `softworld --check`? Checks that are given to runs are then made without being asked
+-- for.
+function unread.counting() return counting end
 
 --- Returns the exit code of `softworld --check` at the end of a script, and a line that explains it.
 function unread.exit()
@@ -146,6 +160,7 @@ end
 --- For `softworld --check`: makes os.exit leave with the exit code of the checks, unless the script itself
 -- leaves with a failure.
 function unread.guard_exit()
+  counting = true
   local leave = os.exit
   function os.exit(code, close) -- luacheck: ignore 122
     local status, text = unread.exit()
@@ -155,15 +170,21 @@ function unread.guard_exit()
   end
 end
 
+--- Calls f and returns its results. Runs and checks within it do not count for `softworld --check`.
+function unread.uncounted(f, ...)
+  local bad_before, verdicts_before = bad, verdicts
+  verdicts = no_verdicts()
+  local _ <close> = setmetatable({}, { __close = function() bad, verdicts = bad_before, verdicts_before end })
+  return f(...)
+end
+
 -- Calls f and returns its results, behind the first event of its runs if wanted.
 local function within(wanted, f, ...)
-  local before, more_before, bad_before, notes_before = last, more, bad, notes
-  local verdicts_before = { PASS = verdicts.PASS, FAIL = verdicts.FAIL, OPEN = verdicts.OPEN }
+  local before, more_before, notes_before = last, more, notes
   local own = new_notes()
   notes = own
   local _ <close> = setmetatable({}, { __close = function() notes = notes_before end })
   local function done(...)
-    bad, verdicts = bad_before, verdicts_before
     for number in pairs(texts) do
       if number > before then texts[number], kept = nil, kept - 1 end
     end
@@ -171,7 +192,7 @@ local function within(wanted, f, ...)
     if wanted then return own[1] and own[1].event, ... end
     return ...
   end
-  return done(f(...))
+  return done(unread.uncounted(f, ...))
 end
 
 --- Calls f and returns its results. Failures and events within it need no look, because f judges its runs by

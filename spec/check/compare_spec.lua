@@ -84,6 +84,15 @@ describe("sw.compare", function()
     assert.equal("same", named(sw.compare(a, far, { tolerance = 0.5 }), "v").status)
   end)
 
+  it("says that a value is the same by the tolerance alone, and shows both values", function()
+    local a, b = run:check{ checks = { own("v", 0.999) } }, run:check{ checks = { own("v", 1.001) } }
+    local comparison = sw.compare(a, b, { tolerance = 0.01 })
+    assert.same({ "same", true }, { named(comparison, "v").status, named(comparison, "v").tolerated })
+    local text = tostring(comparison)
+    assert.matches("PASS %-> FAIL +v +999.0 mm %-> 1.001 m +the same within the tolerance", text)
+    assert.is_nil(text:find("within its error", 1, true))
+  end)
+
   it("reports changed verdicts and limits, also where the value is the same", function()
     local unlimited = own("w", 0.5)
     unlimited.max = nil

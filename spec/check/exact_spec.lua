@@ -26,6 +26,21 @@ describe("run:check of the cycle time", function()
   end)
 end)
 
+describe("run:check of a clearance", function()
+  -- 0.15 - 0.1 - 0.002 is 1.4e-17 below 0.048.
+  it("passes at its limit, with a margin of 0", function()
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = scene:wire{ name = "w", EA = 1e4, EI = 1e-3, mass_per_length = 0.03, radius = 0.002,
+      from = { 0, 0, 1 }, to = { 0, 0, 0 }, segments = 20 }
+    scene:clamp(wire, { s = 0 })
+    scene:zone{ shape = "sphere", radius = 0.1, at = { 0.15, 0, 0.5 } }
+    local run = scene:run{ duration = 0.1, dt = 0.01, quasistatic = true }
+    local row = run:check{ limits = { clearance = 0.048 } }:row "clearance"
+    assert.same({ "PASS", 0 }, { row.verdict, row.margin })
+    assert.equal("FAIL", run:check{ limits = { clearance = 0.048 + 1e-9 } }:row "clearance".verdict)
+  end)
+end)
+
 describe("run:check of bends in edges that are too long", function()
   -- The centre line's radius of 5 mm may be 2.5 mm, so the inside of the bend 3 mm less than that: below 0.
   it("applies the factor to the radius of the centre line", function()
@@ -88,7 +103,8 @@ describe("run:check of the landing error", function()
       assert.is_nil(r.note)
     end
     local r = row{ path = { { 0, 0, 0 }, { 1, 0, 0 } } }
-    assert.equal("PASS", r.verdict)
+    assert.equal("OPEN", r.verdict) -- the wire reaches a fifth of it
+    assert.equal("PASS", row{ path = { { 0, 0, 0 }, { 1, 0, 0 } }, from = 0 }.verdict)
     assert.truthy(r.note:find("point 2 of the path is 800.0 mm from the wire", 1, true), r.note)
   end)
 
@@ -118,4 +134,18 @@ describe("run:check of events that had no room", function()
       assert.equal(case[2] == "OPEN", row.note:find("had no room in the record", 1, true) ~= nil)
     end
   end)
+end)
+
+describe("run:check of landing on a path that the wire does not reach", function()
+  -- The wire of 0.2 m lies on the x axis, the path goes on beyond it.
+  for to, verdict in pairs{ [0.2] = "PASS", [0.39] = "PASS", [0.42] = "OPEN", [200] = "OPEN" } do
+    it(("is %s for a path of %g m"):format(verdict, to), function()
+      local scene = still()
+      local row = scene:run{ duration = 0.01, dt = 0.01, quasistatic = true }:check{
+        limits = { landing_error = 2e-3 }, landing = { path = { { 0, 0, 0 }, { to, 0, 0 } } } }
+        :row "landing_error"
+      assert.equal(verdict, row.verdict)
+      assert.equal(verdict == "OPEN", (row.note or ""):find("is its unit right (m)?", 1, true) ~= nil)
+    end)
+  end
 end)

@@ -27,6 +27,13 @@ local cases = {
   { "max", { nan, nan, nan }, { 2, 2, 2 }, "FAIL" },
   { "min", { nan, nan, nan }, { 2, 2, 2 }, "FAIL" },
   { "max", { 1, 1, nan }, { 2, 2, 2 }, "FAIL" },
+  { "min", { 0.15 - 0.1, 0.15 - 0.1, 0.15 - 0.1 }, { 0.05, 0.05, 0.05 }, "PASS" }, -- 7e-18 below
+  { "max", { 0.1 + 0.2, 0.1 + 0.2, 0.1 + 0.2 }, { 0.3, 0.3, 0.3 }, "PASS" }, -- 6e-17 above
+  { "max", { 2 + 4e-12, 2 + 4e-12, 2 + 4e-12 }, { 2, 2, 2 }, "FAIL" },
+  { "min", { -2 - 4e-12, -2, -2 }, { -2, -2, -2 }, "OPEN" },
+  { "min", { -2 - 1e-12, -2, -2 }, { -2, -2, -2 }, "PASS" },
+  { "max", { 1e-300, 1e-300, 1e-300 }, { 0, 0, 0 }, "FAIL" },
+  { "max", { math.huge, math.huge, math.huge }, { 2, 2, 2 }, "FAIL" },
 }
 
 local function range(x) return { low = x[1], value = x[2], high = x[3] } end
@@ -42,6 +49,8 @@ describe("a verdict", function()
     assert.equal(0.5, judge.margin({ value = 1.5 }, { value = 2 }, "max"))
     assert.equal(-0.5, judge.margin({ value = 1.5 }, { value = 2 }, "min"))
     assert.equal(0, judge.margin({ value = 2 }, { value = 2 }, "min"))
+    assert.equal(0, judge.margin({ value = 0.1 + 0.2 }, { value = 0.3 }, "max")) -- not -6e-17
+    assert.is_near(-4e-12, judge.margin({ value = 2 + 4e-12 }, { value = 2 }, "max"), 1e-15)
   end)
 end)
 

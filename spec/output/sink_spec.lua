@@ -133,7 +133,7 @@ describe("sink", function()
   it("has one way to write a cell of a CSV file, in which no text is a formula", function()
     for text, cell in pairs { ["=1+2"] = "'=1+2", ["+x"] = "'+x", ["-x [m]"] = "'-x [m]", ["@a"] = "'@a",
       ["\t=a"] = "' =a", ["=a,b"] = [["'=a,b"]], ["-"] = "-", ["a-b=c"] = "a-b=c", [" a"] = '" a"',
-      ['a"b'] = '"a""b"', ["a\nb"] = "a b" } do
+      ['a"b'] = '"a""b"', ["a\nb"] = "a b", ["gr\252n"] = "gr\195\188n", ["gr\195\188n"] = "gr\195\188n" } do
       assert.equal(cell, sink.cell(text))
     end
     assert.same({ "", "-1", "-0.5", "nan" },

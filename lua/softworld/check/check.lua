@@ -387,9 +387,10 @@ function check.rows(run, args) return make(run, args, true).rows end
 
 --- run:check{ use =, limits =, checks =, landing =, trial = }: see help "run:check".
 function check.check(run, args)
-  if args == nil then args = sealed.fields(run).checked end
+  local given = sealed.fields(run).checked
+  if args == nil then args = given end
   local self = build.call(3, make, run, args)
-  if not self.trial then unread.judged(self.verdict) end
+  if not self.trial then unread.judged(self.verdict, limits.alike(given, args) and run or nil) end
   self.run, self.scene, self.made, self.ok = nil, nil, nil, self.verdict == "PASS"
   self.source = run
   return writing.new(self)

@@ -160,6 +160,7 @@ local function both(a, b, tolerance)
     margin_b = b.margin, verdict_a = a.verdict, verdict_b = b.verdict, error = error_of(a, b) }
   local changed = apart(a, b, tolerance)
   row.status = changed and "changed" or "same"
+  row.tolerated = not changed and apart(a, b, 0) or nil -- the same by the tolerance alone
   if a.value and b.value and a.value - a.value == 0 and b.value - b.value == 0 then
     row.change = b.value - a.value
     row.share = a.value ~= 0 and row.change / math.abs(a.value) or nil

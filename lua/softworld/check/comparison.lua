@@ -18,7 +18,7 @@ rows.calls{
   { "comparison.reason", nil, "in one sentence", "a text" },
   { "comparison.rows", nil, "status ('same', 'changed', 'only in a', 'only in b'), name, object, what, unit, "
     .. "side, value_a, value_b, change, share, error, limit_a, limit_b, margin_a, margin_b, verdict_a, "
-    .. "verdict_b, verdict_changed, limit_changed, better", "a list" },
+    .. "verdict_b, verdict_changed, limit_changed, better, tolerated", "a list" },
   { "comparison:csv", "path", "writes the rows as CSV", "the path" },
   { "comparison:json", "path", "writes the rows as JSON", "the path" },
 }
@@ -33,6 +33,7 @@ local function is_shown(row) return row.status ~= "same" or row.verdict_changed 
 
 local function change_of(row)
   if row.status == "same" then
+    if row.tolerated then return "the same within the tolerance" end
     return row.change and row.change ~= 0 and "the same within its error" or "the same"
   end
   if not row.change then return "" end
@@ -54,7 +55,9 @@ local function line_of(row)
   end
   local verdict = row.verdict_changed and row.verdict_a .. " -> " .. row.verdict_b or row.verdict_b
   local value = cells.number(row.value_b, row.unit)
-  if row.status == "changed" then value = cells.number(row.value_a, row.unit) .. " -> " .. value end
+  if row.status == "changed" or row.tolerated then
+    value = cells.number(row.value_a, row.unit) .. " -> " .. value
+  end
   local better = ""
   if row.better ~= nil then better = row.better and "better" or "worse" end
   return { verdict, cells.plain(row.name), value, change_of(row), better, note = note_of(row) }

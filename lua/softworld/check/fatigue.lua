@@ -41,31 +41,32 @@ local function around(sums)
   return b * math.exp((before - after) ^ 2 / (8 * (before + after)))
 end
 
--- Returns Miner's sum for several repeats of a run. The first pass counts as it is, with its open half
--- cycles. Each further pass counts what closes when the run is repeated. Half cycles at its start count each
--- time, which is on the safe side. open: the reversals that wait for their cycle.
-local function repeated(cycles, open, given, curve, strength)
+-- Returns Miner's sum of a run that is gone through several times in sequence. residue: the reversals whose
+-- ranges count as half cycles in a single run. All other cycles close within each run. Those of the residue
+-- are counted in one and in two of it in sequence: after the first, each adds what the second adds, because
+-- the widest range is open from then on.
+local function repeated(cycles, residue, given, curve, strength)
   local once, most = damage(cycles, curve, strength)
   if given.repeats <= 1 then return once * given.repeats, most end
-  local twice = table.move(open, 1, #open, #open + 1, table.move(open, 1, #open, 1, {}))
-  local waiting = damage(rainflow.flat(open), curve, strength)
-  local both, wider = damage(rainflow.flat(twice), curve, strength)
-  return once + (given.repeats - 1) * (once - 2 * waiting + both), math.max(most, wider)
+  local single = damage(rainflow.flat(residue), curve, strength)
+  local double, wider = damage(rainflow.flat(rainflow.repeated(residue, 2)), curve, strength)
+  if once == math.huge then return once, most end
+  return once + (given.repeats - 1) * (once - 2 * single + double), math.max(most, wider)
 end
 
 -- Returns the damage at one place by tension plus bending, and the largest range of each.
 local function of_place(object, k, given, strength)
   local pull, pull_range, bend, bend_range = 0, 0, 0, 0
   if given.curve then
-    local cycles, open = core.worn_cycles(object, k, 0)
-    pull, pull_range = repeated(cycles, open, given, given.curve, strength)
+    local cycles, residue = core.worn_cycles(object, k, 0)
+    pull, pull_range = repeated(cycles, residue, given, given.curve, strength)
   end
   if given.bending then
     local sums = {}
     for way = 1, WAYS do
       local range
-      local cycles, open = core.worn_cycles(object, k, way)
-      sums[way], range = repeated(cycles, open, given, given.bending)
+      local cycles, residue = core.worn_cycles(object, k, way)
+      sums[way], range = repeated(cycles, residue, given, given.bending)
       bend_range = math.max(bend_range, range)
     end
     bend = around(sums)
@@ -188,7 +189,7 @@ local function value(entry, context)
   return best
 end
 
-return { name = "fatigue", unit = "-", side = "max", on = "wire", asked = true,
+return { name = "fatigue", repeated = repeated, unit = "-", side = "max", on = "wire", asked = true,
   label = "share of the life lost by cycles of load", missing = "allowed share of life", value = value,
   wanted = function(context) return context.fatigue ~= nil end,
   limit = function() return { value = 1, from = "definition", source = "Miner's sum at failure" } end,

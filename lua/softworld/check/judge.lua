@@ -1,20 +1,28 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Verdicts on a value against a limit, each known between low and high.
 -- PASS if the whole range of the value keeps the whole range of the limit, FAIL if no part of it does or a
--- number is NaN, else OPEN. A value exactly at the limit keeps it.
+-- number is NaN, else OPEN. A value at the limit keeps it, within rounding.
 -- @module softworld.check.judge
 local number = require "softworld.output.number"
 
 local judge = {}
 
 local FAR = 100       -- a limit this many times laxer than usual ones is probably not meant [-]
+local ROUNDING = 1e-12 -- share of a value by which rounding may put it beyond its limit [-]
 local THOUSAND = 500  -- same against the value itself, if nothing better is known: its unit may be wrong [-]
 
--- True if a keeps the limit. side: "max" or "min".
-local function kept(a, limit, side)
-  if side == "max" then return a <= limit end
-  return a >= limit
+-- Returns how far a is beyond the limit, below 0 if it keeps it. side: "max" or "min". Sums such as 0.15 -
+-- 0.1 - 0.002 differ from 0.048 in the last bits, so a value that differs by rounding is at its limit.
+local function beyond(a, limit, side)
+  if a == limit then return 0.0 end
+  local by = side == "max" and a - limit or side == "min" and limit - a
+  local size = math.max(math.abs(a), math.abs(limit))
+  if size < math.huge and by > 0 and by <= ROUNDING * size then return 0.0 end
+  return by
 end
+
+-- True if a keeps the limit.
+local function kept(a, limit, side) return beyond(a, limit, side) <= 0 end
 
 --- Returns the verdict. value and limit: { value =, low =, high = }, low and high may be missing.
 function judge.verdict(value, limit, side)
@@ -31,8 +39,7 @@ end
 
 --- Returns the distance to the limit in its unit, below 0 if the limit is broken.
 function judge.margin(value, limit, side)
-  if side == "max" then return limit.value - value.value end
-  return value.value - limit.value
+  return 0.0 - beyond(value.value, limit.value, side)
 end
 
 -- Returns how many times laxer a limit is than a reference; nil if that cannot be told.

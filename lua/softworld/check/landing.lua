@@ -7,6 +7,8 @@ local number = require "softworld.output.number"
 local vec = require "softworld.vec"
 
 local SLACK = 1e-9 -- rounding of arc lengths [m]
+local SAMPLES = 100 -- points of each piece of a path at which it is compared with the wire [-]
+local MOST_OFF = 0.5 -- share of the path's length that may lie beyond the wire [-]
 
 -- Returns the distance of a point from the piece between a and b.
 local function from_piece(p, a, b)
@@ -60,13 +62,32 @@ local function farthest(points, line)
   return most, which
 end
 
--- Returns a note if the wire as a whole does not reach all of the path.
+-- Returns which share of a path's length is farther than `far` from a line, by samples.
+local function share_beyond(path, line, far)
+  local whole, off = 0, 0
+  for i = 2, #path do
+    local way = vec.sub(path[i], path[i - 1])
+    local long, count = vec.norm(way), 0
+    for k = 1, SAMPLES do
+      local p = vec.add(path[i - 1], vec.scale(way, (k - 0.5) / SAMPLES))
+      if from_path(p, line) > far then count = count + 1 end
+    end
+    whole, off = whole + long, off + long * count / SAMPLES
+  end
+  return whole > 0 and off / whole or 0
+end
+
+-- Returns a note if the wire as a whole does not reach all of the path; and a doubt if it reaches less than
+-- half of it: a path in mm passes close to the wire, too.
 local function uncovered(wanted, points, far, radius)
   if wanted.from or wanted.to then return nil end
   local beyond, corner = farthest(wanted.path, points)
   if beyond <= far + radius then return nil end
-  return ("point %d of the path is %s from the wire, which is not counted"):format(corner,
+  local note = ("point %d of the path is %s from the wire, which is not counted"):format(corner,
     number.text(beyond, "m"))
+  local share = share_beyond(wanted.path, points, far + radius)
+  return note, share > MOST_OFF and ("%.3g %% of the path's length is not counted; is its unit right (m)?")
+    :format(100 * share) or nil
 end
 
 local function value(entry, context)
@@ -86,8 +107,8 @@ local function value(entry, context)
   end
   local points, places = part_of(x, math.min(from, long - SLACK), wanted.to or math.huge)
   local far, which = farthest(points, wanted.path)
-  return { value = far, s = places[which], time = context.run.time,
-    note = uncovered(wanted, points, far, wire.radius) }
+  local note, doubt = uncovered(wanted, points, far, wire.radius)
+  return { value = far, s = places[which], time = context.run.time, note = note, doubt = doubt }
 end
 
 return { name = "landing_error", unit = "m", side = "max", places = true, on = "wire", asked = true,

@@ -136,4 +136,16 @@ function limits.of(list, member, entry)
   return found
 end
 
+--- True if two tables of arguments have the same fields. A run keeps a copy of the check that is given to it.
+function limits.alike(a, b)
+  if not (a and b) then return false end
+  for key, value in pairs(a) do
+    if not rawequal(b[key], value) then return false end
+  end
+  for key in pairs(b) do
+    if a[key] == nil then return false end
+  end
+  return true
+end
+
 return limits

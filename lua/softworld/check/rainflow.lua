@@ -52,6 +52,13 @@ function rainflow.flat(history)
   return list
 end
 
+--- Returns a history in sequence with itself, so many times.
+function rainflow.repeated(history, times)
+  local list = {}
+  for _ = 1, times do table.move(history, 1, #history, #list + 1, list) end
+  return list
+end
+
 --- Returns the number of cycles that a range is endured: straight lines through the curve's points { range,
 -- cycles } in logarithms, the outer ones extended. There is no endurance limit.
 function rainflow.life(curve, range)

@@ -7,6 +7,7 @@
 -- raise a plain string that names the path and the reason.
 -- @module softworld.output.sink
 local core = require "softworld.core"
+local letters = require "softworld.output.letters"
 
 local sink = {}
 
@@ -42,13 +43,13 @@ function sink.number(x)
 end
 
 --- Returns a value as a cell of a CSV file. A spreadsheet computes a text that begins like a formula, so such
--- a text gets a ' in front; control characters become spaces.
+-- a text gets a ' in front; control characters become spaces. A text that is not UTF-8 is read as Latin-1.
 -- @param value number, text or nil
 -- @treturn string
 function sink.cell(value)
   if value == nil then return "" end
   if type(value) == "number" then return sink.number(value) end
-  local text = tostring(value):gsub("%c", " ")
+  local text = letters.utf8(tostring(value)):gsub("%c", " ")
   if text:find "^%s*[=+@-]." then text = "'" .. text end
   if text:find '[",;#]' or text:find "^%s" or text:find "%s$" then
     return '"' .. text:gsub('"', '""') .. '"'

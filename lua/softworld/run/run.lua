@@ -46,8 +46,15 @@ local function mark_events(run)
   return run
 end
 
+-- For `softworld --check`: makes the check that was given to the run, because its values are lost with the
+-- next run. It comes before the marks, since it is no look of the script at the run.
+local function count_given(run)
+  if unread.counting() and sealed.fields(run).checked then run:check() end
+end
+
 -- Hides ok and reason of a failed run, so that reading them counts as a look at the failure.
 local function hide_failure(run)
+  count_given(run)
   if sealed.fields(run).cut == "stopped" then unread.cut() end
   if sealed.fields(run).ok ~= false then return mark_events(run) end
   local at = place.of_caller()

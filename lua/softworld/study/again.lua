@@ -10,6 +10,7 @@ local output = require "softworld.study.output"
 local parts = require "softworld.study.parts"
 local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
+local unread = require "softworld.unread"
 
 local again = {}
 
@@ -96,7 +97,8 @@ function again.compute(self, number, part)
   campaign.build(own)
   local before = own.stream
   own.stream, own.busy = stream_of(own, record.part), true
-  local fine, run, status, text, given = pcall(with_run, evaluation.again, own, record.number, record.values)
+  local fine, run, status, text, given = pcall(with_run, unread.uncounted, evaluation.again, own,
+    record.number, record.values)
   own.stream, own.busy = before, false
   if not fine then error(run, 0) end
   compare(own, record, status, text)
