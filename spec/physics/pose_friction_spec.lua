@@ -11,16 +11,17 @@ local function drawn(cable, segments, dt, wear)
   local scene = sw.scene{}
   local r = sw.cable(cable).outer_diameter.value / 2
   scene:obstacle{ shape = "plane", friction = MU }
-  local wire = scene:wire{ name = "w", cable = cable, segments = segments, from = { 0, 0, r }, to = { 0.3, 0, r } }
-  scene:clamp(wire, { s = 0.3 }):follow{ points = { { 0, 0, 0 }, { WAY, 0, 0 } }, relative = true, duration = 1,
-    law = "linear" }
+  local wire = scene:wire{ name = "w", cable = cable, segments = segments, from = { 0, 0, r },
+    to = { 0.3, 0, r } }
+  scene:clamp(wire, { s = 0.3 }):follow{ points = { { 0, 0, 0 }, { WAY, 0, 0 } }, relative = true,
+    duration = 1, law = "linear" }
   local run = t.fine(scene:run{ duration = 1, dt = dt, quasistatic = true, wear = wear })
   return run, wire, wire.beam.mass_per_length * 0.3 * 9.81
 end
 
--- Coulomb: mu N way. The node in the clamp, 1/60 and less of the cable, rests on the clamp: 2 %; with all poses
--- the same, 1e-3. Regression: only the last part of each pose's path counted, of at most 0.4 edges: 0.30, 0.55,
--- 1.10 and 1.77 mJ for poses of 40 to 4 mm, right 3.29 mJ; the rest was booked as the method's loss.
+-- Coulomb: mu N way. The node in the clamp, 1/60 and less of the cable, rests on the clamp: 2 %; with all
+-- poses the same, 1e-3. Regression: only the last part of each pose's path counted, of at most 0.4 edges:
+-- 0.30, 0.55, 1.10 and 1.77 mJ for poses of 40 to 4 mm, right 3.29 mJ; the rest was the method's loss.
 describe("friction in poses", function()
   it("takes mu N times the way, in poses of any distance", function()
     for _, cable in ipairs{ "GXL 1.5", "H07V-K 4" } do
@@ -39,7 +40,7 @@ describe("friction in poses", function()
     end
   end)
 
-  -- Regression: friction work per area was 2.9 J/m2 in poses of 10 mm (limit 5 J/m2: PASS), 8.8 in short ones.
+  -- Regression: friction work per area was 2.9 J/m2 in poses of 10 mm (limit 5: PASS), 8.8 in short ones.
   it("gives the same wear", function()
     local first
     for _, dt in ipairs{ 0.1, 0.05, 0.02, 0.005 } do

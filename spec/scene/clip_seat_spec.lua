@@ -25,12 +25,13 @@ local function holds(scene, wire, clips, hold, what)
   t.below(1e-3 * weight, vec.norm(total), what .. ": imbalance [N]")
 end
 
--- Regression: with 20, 40 and 60 segments and a side wall that bears 500 N, the cable of 0.046 N hung straight
--- down from its pin, "at rest", without an event; quasi-static runs too.
+-- Regression: with 20, 40 and 60 segments and a side wall that bears 500 N, the cable of 0.046 N hung
+-- straight down from its pin, "at rest", without an event; quasi-static runs too.
 describe("a cable pinned at one end, in a clip", function()
   it("stays in the clip, whichever way its weight acts", function()
     for _, segments in ipairs{ 20, 40, 60, 90 } do
-      for _, g in ipairs{ { 0, -9.81, 0 }, { 0, 9.81, 0 }, { 0, 0, -9.81 }, { 0, 0, 9.81 }, { 0, -6.94, 6.94 } } do
+      for _, g in ipairs{ { 0, -9.81, 0 }, { 0, 9.81, 0 }, { 0, 0, -9.81 }, { 0, 0, 9.81 },
+        { 0, -6.94, 6.94 } } do
         for _, how in ipairs{ "settle", "poses" } do
           local scene = sw.scene{ gravity = g }
           local wire = scene:wire{ cable = "GXL 1.5", segments = segments, from = { -0.15, 0, 0 },
