@@ -71,7 +71,8 @@ static void read_text(lua_State *L, const char *object, const sw_param *row, cha
   const char *text = lua_tolstring(L, -1, &length);
   const size_t zero = strlen(text); /* where the text would end in C */
   if (zero != length)
-    luaL_error(L, "%s: %s has a zero byte, at place %d", object, row->name, (int)zero + 1);
+    luaL_error(L, "%s: %s has a zero byte, at place %d; it must be without zeros", object,
+               row->name, (int)zero + 1);
   if (length >= SW_NAME_SIZE)
     luaL_error(L, "%s: %s is too long; at most %d bytes", object, row->name, SW_NAME_SIZE - 1);
   memcpy(place, text, length + 1);

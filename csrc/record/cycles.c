@@ -91,7 +91,6 @@ static void begin(sw_cycles *c, double value) {
 
 static void drop(sw_cycles *c, int first, int count) {
   if (first == 0) begin(c, c->open[0]);
-
   memmove(c->open + first, c->open + first + count,
           (size_t)(c->opened - first - count) * sizeof *c->open);
   c->opened -= count;
