@@ -217,11 +217,6 @@ static int idle(const double *history) {
  * peaks are up to 15 % off, at half 2 % at twice the cost (spec/scene/clip_steps_spec) [-]. */
 static const double FOLLOWED = 1.0 / 16;
 
-/* Fills u and v at a share of an edge [m]. */
-static void place_on(const sw_clip_walk *w, double share, double out[2]) {
-  for (int k = 0; k < 2; k++) out[k] = w->a[k] + share * (w->b[k] - w->a[k]);
-}
-
 /* Returns the way over the lips between two heights u, which begin in the seat and end at `high`.
  */
 static double way_over(double one, double two, double high) {
@@ -243,7 +238,8 @@ static double oversteps(const void *args, const sw_field *f, const double *histo
     const double middle = sw_clip_middle_share(&was);
     const int stays =
         sw_clip_begin(&c, &after, (size_t)e, &is); /* 0: the edge leaves, torn out or sliding */
-    place_on(&was, middle, one), place_on(&is, stays ? sw_clip_middle_share(&is) : middle, two);
+    sw_clip_place_on(&was, middle, one),
+        sw_clip_place_on(&is, stays ? sw_clip_middle_share(&is) : middle, two);
     if (fmin(fabs(one[1]), fabs(two[1])) > beside) continue;
     most = fmax(most, way_over(one[0], two[0], high) / (FOLLOWED * high));
   }

@@ -60,8 +60,8 @@ double sw_clip_largest_share(const void *args, const sw_field *f, const double *
     const double t = sw_clip_middle_share(&w);
     const sw_vec a = sw_axis_at(&moved, (size_t)e), b = sw_axis_at(&moved, (size_t)e + 1);
     const sw_vec by = sw_madd(sw_scale(a, 1.0 - t), b, t);
-    const move m = {{w.a[0] + t * (w.b[0] - w.a[0]), w.a[1] + t * (w.b[1] - w.a[1])},
-                    {sw_dot(by, c.direction), sw_dot(by, c.across)}};
+    move m = {.by = {sw_dot(by, c.direction), sw_dot(by, c.across)}};
+    sw_clip_place_on(&w, t, m.from);
     share = fmin(share, share_of(&c.law, &m));
   }
   return share;

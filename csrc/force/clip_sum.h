@@ -121,6 +121,11 @@ static inline double sw_clip_middle_share(const sw_clip_walk *w) {
   return fabs(b - a) > 0 ? (0.5 * (from + to) - a) / (b - a) : 0.5;
 }
 
+/* Fills u and v at a share of an edge [m]. */
+static inline void sw_clip_place_on(const sw_clip_walk *w, double share, double out[2]) {
+  for (int k = 0; k < 2; k++) out[k] = w->a[k] + share * (w->b[k] - w->a[k]);
+}
+
 /* 1 if the clip does not act on any part of the edge. */
 int sw_clip_far(const sw_clip *clip, const sw_clip_walk *walk);
 

@@ -12,6 +12,7 @@
 #include "base/alloc.h"
 #include "base/vec.h"
 #include "shape/mesh_read.h"
+#include "shape/mesh_words.h"
 
 /* --- a file system of one file -------------------------------------------------- */
 
@@ -137,14 +138,12 @@ static const char *plain_of(const char *text) {
 }
 
 static sw_status unreadable(const sw_mesh_file *from, const char *text, sw_error *err) {
-  char shown[64];
-  size_t n = 0;
-  for (; text[n] && n < sizeof shown - 1; n++)
-    shown[n] = text[n] >= ' ' && text[n] <= '~' ? text[n] : '?';
-  shown[n] = '\0';
+  char shown[SW_WORDS_SHOWN];
+  sw_words_show((sw_words){text, text + strlen(text)}, shown);
   return sw_fail(err, SW_EFORMAT,
                  "%s: data is not readable as %s: %s; write the file anew (the reader says: %s%s)",
-                 from->object, from->format, plain_of(text), shown, text[n] ? "..." : "");
+                 from->object, from->format, plain_of(text), shown,
+                 strlen(text) >= SW_WORDS_SHOWN ? "..." : "");
 }
 
 sw_status sw_mesh_read(const sw_mesh_file *from, sw_mesh_data *out, sw_error *err) {

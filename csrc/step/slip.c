@@ -189,8 +189,8 @@ static void tell_uneven(sw_scene *s, sw_hold *h, const sw_slip *f, double want, 
 }
 
 /* Wire that is driven by a force faster than this runs away: the fastest feeders of machines reach
- * some m/s [m/s]. At half of it a cable that falls out of its guide by 1 m is told, at twice a soft
- * wire has filled the scene before. */
+ * some m/s. At half of it wire that falls out of its guide by 1.3 m would be told; at twice a cable
+ * of 19 g/m pushed by 4 N would be told some 30 ms later [m/s]. */
 static const double RUNAWAY = 10.0;
 
 /* Tells a drive whose force nothing holds back. */
