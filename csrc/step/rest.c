@@ -10,6 +10,7 @@
 #include "body/live.h"
 #include "body/touching.h"
 #include "scene/course.h"
+#include "scene/drive.h"
 #include "scene/obstacle.h"
 #include "scene/parts.h"
 #include "step/statics.h"
@@ -27,16 +28,25 @@ static const double MOST_PARTS = 2000;
 /* Accuracy of the equilibria before the last part: largest shift of a node, over an edge [-]. */
 static const double PASSING = 1e-4;
 
-/* Finds the poses of the holds in the wires' last state. */
-static void find_from_poses(sw_statics *p) {
+/* Finds the poses of the holds in the wires' last state. A place on a rail has moved along it, so
+ * it does not tell where the rail was. */
+static sw_status find_from_poses(sw_statics *p, sw_error *err) {
   const sw_system *s = sw_scene_system(p->s);
   for (size_t i = s->held_count; i-- > 0;) {
     const sw_held_node *h = &s->held[i];
+    if (h->rail) {
+      sw_motion_state at;
+      SW_TRY(sw_drive_eval(p->s, &sw_scene_held_by(p->s, (size_t)h->hold)->drive, p->touched, &at,
+                           err));
+      p->from_poses[h->hold] = at.pose;
+      continue;
+    }
     const double *q = s->turn + 4 * h->hold;
     const sw_quat turn = {q[0], q[1], q[2], q[3]};
     p->from_poses[h->hold] =
         (sw_pose){sw_sub(sw_vec_at(s->x, h->node), sw_rotate(turn, h->local)), turn};
   }
+  return SW_OK;
 }
 
 static double shortest_edge(const sw_system *s) {
@@ -119,8 +129,8 @@ sw_status sw_scene_cut_rubbing(sw_scene *s, double *h, sw_error *err) {
   if (!sw_scene_wears(s) || !has_friction(s) || !system->hold_count) return SW_OK;
   sw_pose *poses SW_LOCAL = sw_alloc(system->hold_count, sizeof *poses);
   if (!poses) return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", sw_scene_name(s));
-  sw_statics p = {.s = s, .from_poses = poses};
-  find_from_poses(&p);
+  sw_statics p = {.s = s, .from_poses = poses, .touched = now};
+  SW_TRY(find_from_poses(&p, err));
   sw_scene_set_time(s, now + *h);
   const sw_status status = count_parts(&p, 0.0, edge, &parts, err);
   sw_scene_set_time(s, now);
@@ -219,7 +229,7 @@ sw_status sw_scene_rest(sw_scene *s, double since, int *too_far, const sw_settle
   p.way = block + 4 * n, p.tension = block + 5 * n;
   p.kept = p.tension + system->edges, p.begun = p.kept + size;
   p.from_poses = poses;
-  find_from_poses(&p);
+  SW_TRY(find_from_poses(&p, why));
   sw_rest_put_aside(s, p.begun);
   system->still = 1;
   if (args->relaxes && sw_rest_relax(&p, why) == SW_OK) sw_rest_put_aside(s, p.begun);

@@ -190,7 +190,7 @@ static void tell_uneven(sw_scene *s, sw_hold *h, const sw_slip *f, double want, 
 
 /* Wire that is driven by a force faster than this runs away: the fastest feeders of machines reach
  * some m/s. At half of it wire that falls out of its guide by 1.3 m would be told; at twice a cable
- * of 19 g/m pushed by 4 N would be told some 30 ms later [m/s]. */
+ * of 19 g/m pushed by 4 N would be told 10 ms later [m/s]. */
 static const double RUNAWAY = 10.0;
 
 /* Tells a drive whose force nothing holds back. */

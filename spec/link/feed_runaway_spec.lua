@@ -20,7 +20,7 @@ local function driven(order)
 end
 
 describe("a feed whose force nothing holds back", function()
-  -- 4 N push out a cable of 19 g/m: it buckles, and 60 ms later it leaves the guide at more than 10 m/s.
+  -- 4 N push out a cable of 19 g/m: it buckles, and 40 ms later it leaves the guide at more than 10 m/s.
   it("is told once with its speed and force, and the word for a brake", function()
     local e, speed = driven{ force = 4, duration = 0.1 }
     assert.are.equal("brake", e.object)
