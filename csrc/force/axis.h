@@ -32,9 +32,13 @@ double sw_axis_mass(const sw_plan *plan, size_t i);
 double sw_axis_stable_dt(const sw_plan *plan, double stiffness);
 
 /* Adds a force and its stiffness K (3 x 3, or NULL) to place i. Each particle of a ring gets its
- * share of both. Only its own block of stiffness is added, which is exact for moves of the whole
- * ring. */
+ * share of the force, and the stiffness acts on the ring's middle. Pairs of particles without a
+ * block in the matrix get the stiffness on each of both instead, which is exact for moves of the
+ * whole ring, and too stiff for its turns. */
 void sw_axis_put(sw_field *field, size_t i, sw_vec force, const double *K);
+/* The same for a point between places i and i + 1, of which each has its part [-]. */
+void sw_axis_put_between(sw_field *field, size_t i, const double part[2], sw_vec force,
+                         const double *K);
 /* Does the same with stiffness k along a unit vector. */
 void sw_axis_push(sw_field *field, size_t i, sw_vec force, sw_vec along, double k);
 

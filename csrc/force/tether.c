@@ -61,8 +61,6 @@ static sw_vec force_of(const tied *t, double pull) {
   return sw_scale(sw_unit_or(t->apart, sw_v(0, 0, 0)), -pull);
 }
 
-enum { NEXT = 6 };
-
 static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   const tether_args *a = args;
   double K[9];
@@ -70,13 +68,8 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   if (f->history && f->history[FATE + SW_TIE_BROKEN] > 0) return SW_OK;
   const tied t = tied_of(a, f);
   if (t.distance <= a->slack && a->slack > 0) return SW_OK;
-  const int stiff = (f->want & SW_WANT_STIFFNESS) != 0, web = f->plan->web != NULL;
-  for (size_t end = 0; end < 2; end++) {
-    sw_tie_stiffness(a->stiffness, a->slack, t.apart, t.part[end] * (web ? 1.0 : t.part[end]), K);
-    sw_axis_put(f, t.i + end, force_of(&t, t.pull * t.part[end]), stiff ? K : NULL);
-  }
-  sw_tie_stiffness(a->stiffness, a->slack, t.apart, t.part[0] * t.part[1], K);
-  for (size_t k = 0; stiff && !web && k < 9; k++) f->rows[SW_FIELD_ROW * t.i + NEXT + k] += K[k];
+  sw_tie_stiffness(a->stiffness, a->slack, t.apart, 1.0, K);
+  sw_axis_put_between(f, t.i, t.part, force_of(&t, t.pull), f->want & SW_WANT_STIFFNESS ? K : NULL);
   if (f->want & SW_WANT_ENERGY) f->energy += 0.5 * t.pull * t.pull / a->stiffness;
   return SW_OK;
 }

@@ -27,6 +27,8 @@ enum {
 
 enum { SW_LANES = 8 }; /* zeros around each edge array [-] */
 
+struct sw_blocks;
+
 typedef struct sw_field {
   const sw_plan *plan;
   unsigned want;
@@ -96,7 +98,11 @@ typedef struct sw_field {
   double power;   /* taken from the motion, by forces that dissipate [W] */
 
   /* for particles of a web; NULL for nodes in a line */
-  double *blocks;            /* values of the matrix, 3 x 3 blocks [N/m] */
+  double *blocks; /* values of the matrix, 3 x 3 blocks [N/m] */
+  /* Returns the slot of the block in particle i's rows, j's columns (j < i); SIZE_MAX if the matrix
+   * has none. */
+  size_t (*slot_of)(const struct sw_blocks *matrix, size_t i, size_t j);
+  const struct sw_blocks *matrix;
   size_t block_stride;       /* from one row of a block to the next [-] */
   const size_t *own_slot;    /* (n) where a particle's own block begins */
   const size_t *link_slot;   /* (links) row of the larger number, column of the smaller one */

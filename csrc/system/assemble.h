@@ -10,6 +10,9 @@
 sw_status sw_body_evaluate(sw_system *s, sw_body *b, double time, double hbar, const double *y,
                            const double *v, int statics, int iteration, sw_error *err);
 
+/* 1 for iterations (from 1 on) that overestimate stiffness, see evaluate.c. */
+int sw_evaluate_cautious(int iteration);
+
 /* rows += mass * rate2 + the stiffness of the field's edges */
 void sw_gather_rows(const sw_field *f, double rate2, double *rows);
 

@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "system/assemble.h"
 #include "system/factors.h"
 #include "system/join.h"
 #include "system/part.h"
@@ -250,6 +251,17 @@ static int mistakes_ties(const sw_system *s, const double *y) {
   return 0;
 }
 
+/* 1 if the last matrix may have hidden unstable directions: cautious iterations omit the negative
+ * stiffness of meshes and of particles that repel each other. */
+static int hides_directions(const sw_system *s, const sw_newton *newton,
+                            const sw_stage_report *report) {
+  if (!newton->counts || !sw_evaluate_cautious(report->iterations)) return 0;
+  SW_PART_EACH(s, b) {
+    if (s->bodies[b].plan->web || s->bodies[b].web_pair_count) return 1;
+  }
+  return 0;
+}
+
 int sw_stage_converged(sw_system *s, const sw_stage *stage, const sw_newton *newton,
                        const sw_stage_report *report, double rate2) {
   /* contact sees rough updates too: the next iteration starts from its findings */
@@ -263,6 +275,7 @@ int sw_stage_converged(sw_system *s, const sw_stage *stage, const sw_newton *new
   if (!sw_rails_settled(s) || mistakes_ties(s, stage->y)) return 0;
   if (tightens_roughly(s, stage, newton, report)) return 0;
   if (drowned_in_rounding(s, stage, newton->statics)) return 0;
+  if (hides_directions(s, newton, report)) return 0;
   SW_PART_EACH(s, b)
   if ((s->bodies[b].is_explicit || s->bodies[b].is_kinked) &&
       largest_shift(s) > FIXED_POINT * s->bodies[b].plan->length)

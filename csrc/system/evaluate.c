@@ -15,6 +15,8 @@
  * other one is cautious. */
 enum { QUICK = 4 };
 
+int sw_evaluate_cautious(int iteration) { return iteration > QUICK && iteration % 2; }
+
 void sw_body_aim(const sw_system *s, sw_body *b, const double *x, const double *v) {
   sw_field *f = &b->field;
   f->x = x;
@@ -50,7 +52,7 @@ sw_status sw_body_evaluate(sw_system *s, sw_body *b, double time, double hbar, c
   f->time = time;
   f->velocity_rate = statics ? 0.0 : 1.0 / hbar;
   f->statics = statics;
-  f->cautious = iteration > QUICK && iteration % 2;
+  f->cautious = sw_evaluate_cautious(iteration);
   sw_body_aim(s, b, y + 3 * b->first_node, v + 3 * b->first_node);
   f->tension = s->tension + b->first_edge;
   if (s->strain_past && b->axial_time > 0) {

@@ -12,6 +12,7 @@ typedef struct sw_newton {
   double accept_rotation; /* largest edge rotation of the last update [rad] */
   double limit_rotation;  /* larger updates are shortened to this [rad] */
   int statics;            /* 1: no inertia */
+  int counts;             /* 1: the number of negative pivots must be that of the whole stiffness */
   int most_far; /* statics: number of updates beyond limit_rotation, made or not, after which a
                    solve of touching wires ends; 0: no limit [-] */
   double accept_shift; /* statics: largest node shift of the last update [m] */

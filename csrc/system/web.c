@@ -113,6 +113,7 @@ static const double PROMISE =
 
 static void use_blocks(sw_body *b) {
   fill_slots(b);
+  b->field.slot_of = sw_blocks_slot, b->field.matrix = b->blocks;
   b->field.blocks = sw_blocks_values(b->blocks);
   b->field.block_stride = sw_blocks_stride(b->blocks);
 }

@@ -144,6 +144,22 @@ describe("a mesh across a slope", function()
     t.near(x, wire:position(l / 2)[1], 0.01 * R, "x")
   end)
 
+  -- Way of a prism of n sides in time T down a slope, which first rests on a side: it turns about a corner by
+  -- th'' = g sin(th + tilt)/(R (1 + inertia)), th from -pi/n to pi/n. Angular momentum about the corner that
+  -- comes down is kept. The program has round soft corners of 0.1 R: measured 0.3 % off at 2.5 ms [m]
+  local function prism(radius, n, inertia, tilt, T)
+    local keep, side = (inertia + math.cos(2 * math.pi / n)) / (inertia + 1), math.pi / n
+    local th, om, x, h = -side, 0, radius * math.sin(side), 1e-6
+    for _ = 1, T / h do
+      om = om + h * G * math.sin(th + tilt) / (radius * (1 + inertia))
+      th = th + h * om
+      if th > side then
+        th, om, x = th - 2 * side, om * keep, x + 2 * radius * math.sin(side)
+      end
+    end
+    return x + radius * math.sin(th)
+  end
+
   it("rolls like a prism: each side that comes down takes some of the speed", function()
     local sides, l, T = 16, 0.06, 0.4
     local model = { "", { model = "tube", particles = sides } }
@@ -163,16 +179,8 @@ describe("a mesh across a slope", function()
     local energy = run:ledger()
     t.below(0.01, energy.gained / energy.play, "energy made")
     assert.equal(0, energy.accepted.count)
-    -- angular momentum about the corner that comes down is kept, so speeds are in the ratio keep. v^2 loses
-    -- the share 1 - keep^2 with each side, and x = ln cosh(sqrt(accel k) T)/k
+    t.share(prism(R, sides, inertia, a, T), wire:position(l / 2)[1] - x, 0.05, "way")
     local accel = G * math.sin(a) / (1 + inertia)
-    local keep = (inertia + math.cos(2 * math.pi / sides)) / (inertia + 1)
-    local k = (1 - keep ^ 2) / (2 * 2 * R * math.sin(math.pi / sides))
-    local z = math.sqrt(accel * k) * T
-    local way = math.log((math.exp(z) + math.exp(-z)) / 2) / k
-    -- 12 sides come down. The formula smooths these steps and leaves out that corners are round and soft
-    -- (0.1 R). Measured: 1 % off at 2.5 ms, 6 % at 1 ms, 2 % at 0.5 ms
-    t.share(way, wire:position(l / 2)[1] - x, 0.15, "way")
     t.below(0.9 * 0.5 * accel * T ^ 2, wire:position(l / 2)[1] - x, "way, of that of a round wire")
   end)
 end)
@@ -205,11 +213,13 @@ describe("a wire over two walls", function()
       { model = "radial" }, { model = "radial", body = "solid" }, { model = "composite", core = "line" } } do
       local wire, most = lay(model), 0
       for k = 0, 20 do
-        local s = 0.25 * k / 20
-        most = math.max(most, t.distance(wire:position(s), rod:position(s)))
+        local p, q = wire:position(0.25 * k / 20), rod:position(0.25 * k / 20)
+        most = math.max(most, math.abs(p[1] - q[1]), math.abs(p[3] - q[3]))
+        -- sections of eight sides, drawn on a corner, roll onto a side
+        t.below(math.pi / 8 * r, math.abs(p[2] - q[2]), (model.body or "") .. model.model .. " rolls by")
       end
       -- measured 0.2 to 0.45 mm, mostly because sections lie lower or higher than round ones
-      t.below(1e-3, most, (model.body or "") .. model.model .. " differs from the rod by")
+      t.below(5e-4, most, (model.body or "") .. model.model .. " differs from the rod by")
     end
   end)
 end)
