@@ -119,9 +119,9 @@ local function take_known(context)
     local known = probe.known(context, decide.rungs(context), k)
     if not known or not known.ok then break end
     astray = known.astray and k or astray
-    for name, values in pairs(job.values) do
-      values[k - astray] = known.values[name] or NONE -- index 0 for an astray one: unused
-      if known.astray then job.values[name] = {} end
+    for _, q in ipairs(job.quantities) do -- index 0 for an astray one: unused
+      trust.add(q, job.values[q.name], k - astray, known.values[q.name] or NONE)
+      if known.astray then job.values[q.name] = {} end
     end
     job.moves = known.moves
     if suffices(job, k, known) then -- the scene must end in its state

@@ -6,6 +6,17 @@ local build = require "softworld.scene.build"
 
 local reading = {}
 
+local last -- { raised = the last error that such a function is to blame for }
+
+--- Raises an error that a script's function is to blame for: no other model can mend it.
+function reading.blame(raised)
+  last = { raised = raised }
+  error(raised, 0)
+end
+
+--- True if this error came from reading.blame.
+function reading.is_fault(raised) return last ~= nil and rawequal(last.raised, raised) end
+
 -- Raises an error, which also goes to the caller of the function. call: the name of the refused call.
 local function refuse(read, scene, call)
   read.refused = ("%s: scene '%s' cannot be %s inside the function `of` of %s: that function reads a "
@@ -23,7 +34,7 @@ function reading.call(scene, what, instead, f, ...)
   data.read = now
   local results = table.pack(pcall(f, ...))
   data.read = before
-  if now.refused then error(results[1] and now.refused or results[2], 0) end
+  if now.refused then reading.blame(results[1] and now.refused or results[2]) end
   return table.unpack(results, 1, results.n)
 end
 
