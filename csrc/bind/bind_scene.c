@@ -3,7 +3,6 @@
 #include <time.h>
 
 #include "bind/child.h"
-#include "scene/review.h"
 
 lsw_handle *lsw_new_scene(lua_State *L) {
   lsw_scene_handle *h = lsw_new(L, &lsw_class_scene, 2);

@@ -5,7 +5,6 @@
 #include <stdio.h>
 
 #include "base/alloc.h"
-#include "scene/world.h"
 
 struct sw_review {
   char what[128], instead[160]; /* shortened if need be */
@@ -17,30 +16,31 @@ static sw_status refuse(const sw_scene *s, const sw_review *r, sw_error *err) {
   return sw_fail(err, SW_EBUSY,
                  "scene '%.100s' cannot be changed inside the function `of` of %s: that function "
                  "reads a run that has ended; %s",
-                 s->name, r->what, r->instead);
+                 sw_scene_name(s), r->what, r->instead);
 }
 
 sw_status sw_scene_begin_review(sw_scene *s, const char *what, const char *instead, sw_error *err) {
-  sw_review *r = sw_alloc(1, sizeof *r);
+  sw_review **now = sw_scene_review(s), *r = sw_alloc(1, sizeof *r);
   if (!r) return sw_fail(err, SW_ENOMEM, "out of memory");
   snprintf(r->what, sizeof r->what, "%s", what);
   snprintf(r->instead, sizeof r->instead, "%s", instead);
-  r->outer = s->review;
-  s->review = r;
+  r->outer = *now;
+  *now = r;
   return SW_OK;
 }
 
 sw_status sw_scene_end_review(sw_scene *s, sw_error *err) {
-  sw_review *r = s->review;
+  sw_review **now = sw_scene_review(s), *r = *now;
   if (!r) return SW_OK;
   const sw_status status = r->refused ? refuse(s, r, err) : SW_OK;
-  s->review = r->outer;
+  *now = r->outer;
   sw_free(r);
   return status;
 }
 
 sw_status sw_scene_not_reviewed(const sw_scene *s, sw_error *err) {
-  if (!s->review) return SW_OK;
-  s->review->refused = 1;
-  return refuse(s, s->review, err);
+  sw_review *r = *sw_scene_review(s);
+  if (!r) return SW_OK;
+  r->refused = 1;
+  return refuse(s, r, err);
 }

@@ -8,6 +8,9 @@
 
 typedef struct sw_review sw_review;
 
+/* The review that is under way, or NULL. */
+sw_review **sw_scene_review(const sw_scene *scene);
+
 /* what: whose function `of` it is; instead: what to read instead. Both are for the error. Reviews
  * may be one inside the other. */
 sw_status sw_scene_begin_review(sw_scene *scene, const char *what, const char *instead,

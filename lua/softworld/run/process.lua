@@ -298,7 +298,7 @@ function core.class.scene.process(scene, body)
   end
   current[self.thread] = self
   data.processes[#data.processes + 1] = self
-  unread.process(data)
+  if not data.running then unread.process(data) end -- else the run that is under way has a use for it
   return self
 end
 
