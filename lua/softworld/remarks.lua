@@ -80,6 +80,13 @@ function remarks.passing(a, b, at, time)
     .. "they touch only after scene:wire_contact{}"):format(a, b, at[1], at[2], at[3], time))
 end
 
+--- Remarks that a call takes no time, because it is in a process of another scene.
+function remarks.elsewhere(what, scene, other)
+  if not remarks.wanted() then return end
+  tell("elsewhere " .. what, ("%s returns at once: it is of scene '%s', and this is a process of scene '%s'")
+    :format(what, scene.name, other.name))
+end
+
 --- Remarks that a script tells an event while no run is under way.
 function remarks.untold()
   if not remarks.wanted() then return end

@@ -46,6 +46,14 @@ describe("what no run uses is told:", function()
     end
   end)
 
+  it("a call that takes no time, because its gripper is of another scene", function()
+    local _, err = script(made .. "local other = sw.scene{ name = 'other' }\n"
+      .. "local hand = other:gripper{ name = 'hand', at = { 0, 0, 0 } }\nscene:process(function(p)\n"
+      .. "hand:move{ by = { 0, 0, 0.1 }, speed = 0.1 } p:wait(0.1) end)\nprint(scene:run{ dt = 0.01 }.ok)")
+    assert.truthy(err:find("script.lua:8: remark: gripper:move returns at once: it is of scene 'other', and "
+      .. "this is a process of scene 'made'", 1, true), err)
+  end)
+
   it("an event that is told while no run is under way", function()
     local _, err = script(made .. "scene:tell{ kind = 'note', text = 'a' }")
     assert.truthy(err:find("script.lua:5: remark: scene:tell: no run is under way", 1, true), err)

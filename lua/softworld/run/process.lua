@@ -54,15 +54,32 @@ function process.resume(self)
   return done(coroutine.resume(self.thread, self))
 end
 
---- Returns the running process of this scene, or nil outside of one. A call that takes time raises an error
--- in a coroutine within a process, where it could not wait; what: its name.
-function process.of(scene, what)
+-- Returns the running process of this scene, or nil; if another scene's process runs, that one as well.
+local function find(scene, what)
   local self = process.current()
-  if self then return self.scene == scene and self or nil end
+  if self then return self.scene == scene and self or nil, self end
   if resumed and resumed.scene == scene and coroutine.status(resumed.thread) == "normal" then
     error(("%s takes time, and works only in the process itself, not in a coroutine beside it")
       :format(what), 0)
   end
+end
+
+--- Returns the running process of this scene, or nil outside of one: a process of another scene may use this
+-- one, but no time passes in it meanwhile. A call that takes time raises an error in a coroutine within a
+-- process, where it could not wait; what: its name.
+function process.of(scene, what)
+  local self, other = find(scene, what)
+  if other and not self then remarks.elsewhere(what, scene, other.scene) end
+  return self
+end
+
+--- Same for a call that works only in a process of this scene; why: what the error says else.
+function process.within(scene, what, why)
+  local self, other = find(scene, what)
+  if self then return self end
+  if not other then error(why, 0) end
+  error(("%s takes time of scene '%s', but this is a process of scene '%s'; call it in a process of scene '%s'")
+    :format(what, scene.name, other.scene.name, scene.name), 0)
 end
 
 local function check_inside(self, what)
