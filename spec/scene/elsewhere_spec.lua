@@ -10,8 +10,8 @@ describe("a gripper of another scene than the process", function()
     other:process(function()
       for _, call in ipairs { { "wait", 0.1 }, { "approach", { 0, 0, 0.1 } }, { "press", { force = 1 } } } do
         local _, why = pcall(g[call[1]], g, call[2])
-        local asked = ("gripper:%s takes time of scene 'own', but this is a process of scene 'other'; call it "
-          .. "in a process of scene 'own'"):format(call[1])
+        local asked = ("gripper:%s takes time of scene 'own', but this is a process of scene 'other'; call "
+          .. "it in a process of scene 'own'"):format(call[1])
         assert.truthy(tostring(why):find(asked, 1, true), why)
         found = found + 1
       end

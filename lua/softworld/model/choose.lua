@@ -326,16 +326,18 @@ function choose.run(scene, given, check, run_once)
   ended.close(context)
   ended.forget(context)
   context.data.auto = nil
+  local tidy, why = true, nil
   if not fine or result.refused then
     context.data.touching = touching
     if job.restore then
-      job.restore()
+      tidy, why = pcall(job.restore)
       process.renew(scene, {})
       job.begin_processes()
     end
   end
   if job.close then job.close() end
   if not fine then error(result, 0) end
+  if not tidy then error(why, 0) end
   if given.frames == false then scene:clear_frames() end -- they were only for the choices
   return answer.add(context, result)
 end

@@ -2,6 +2,7 @@
 --- Computes one candidate while a model is chosen: from the start of the run, with one rung per choice, on a
 -- coarse level of edges and steps.
 -- @module softworld.model.probe
+local blame = require "softworld.scene.blame"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local coarsest = require "softworld.run.coarsest"
@@ -10,7 +11,6 @@ local ended = require "softworld.model.ended"
 local facts = require "softworld.model.facts"
 local summaries = require "softworld.run.kept"
 local number = require "softworld.output.number"
-local reading = require "softworld.run.reading"
 local refine = require "softworld.run.refine"
 local registry = require "softworld.model.registry"
 local trust = require "softworld.run.trust"
@@ -286,7 +286,7 @@ function probe.of(context, rungs, k, factors, label, wide)
   local fine, result = pcall(compute, context, rungs, k, factors, wide)
   if not fine then
     -- A quantity that cannot be read is the script's fault in any model, as in a run without a choice.
-    if checks.is_interrupt(result) or reading.is_fault(result) then error(result, 0) end
+    if checks.is_interrupt(result) or blame.is_fault(result) then error(result, 0) end
     result = { ok = false, reason = build.plain(tostring(result)), raised = result }
   end
   context.probes[key] = result

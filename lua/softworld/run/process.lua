@@ -15,6 +15,7 @@
 local core = require "softworld.core"
 local methods = require "softworld.methods"
 local rows = require "softworld.rows"
+local blame = require "softworld.scene.blame"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local conditions = require "softworld.run.conditions"
@@ -78,8 +79,8 @@ function process.within(scene, what, why)
   local self, other = find(scene, what)
   if self then return self end
   if not other then error(why, 0) end
-  error(("%s takes time of scene '%s', but this is a process of scene '%s'; call it in a process of scene '%s'")
-    :format(what, scene.name, other.scene.name, scene.name), 0)
+  error(("%s takes time of scene '%s', but this is a process of scene '%s'; call it in a process of scene "
+    .. "'%s'"):format(what, scene.name, other.scene.name, scene.name), 0)
 end
 
 local function check_inside(self, what)
@@ -260,12 +261,14 @@ function Process:step(name, work)
   return table.unpack(results, 1, count)
 end
 
---- Ends the process where it waits.
+--- Ends the process where it waits. Raises an error of its `<close>` variables.
 function Process:finish()
   if process.current() == self then
     error("p:finish ends a process where it waits; within itself it ends by return", 2)
   end
-  if coroutine.status(self.thread) == "suspended" then coroutine.close(self.thread) end
+  if coroutine.status(self.thread) ~= "suspended" then return end
+  local fine, why = coroutine.close(self.thread)
+  if not fine then blame.fault(why) end
 end
 
 -- Fields that may be nil.
@@ -333,10 +336,11 @@ end
 --- Replaces all processes by these.
 function process.renew(scene, bodies)
   local data = build.data(scene)
-  for _, p in ipairs(data.processes) do p:finish() end
+  local raise = blame.each(data.processes, "finish")
   data.processes = {}
   for _, body in ipairs(bodies) do scene:process(body) end
   unread.used(data)
+  raise()
 end
 
 --- Returns how far the living processes are, for process.is_at: { [process] = moves }.

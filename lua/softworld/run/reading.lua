@@ -2,21 +2,11 @@
 --- Calls a script's function that reads a run which has ended. The scene must not run or change meanwhile:
 -- what is read after it would be of another motion or another scene.
 -- @module softworld.run.reading
+local blame = require "softworld.scene.blame"
 local build = require "softworld.scene.build"
 local core = require "softworld.core"
 
 local reading = {}
-
-local last -- { raised = the last error that such a function is to blame for }
-
---- Raises an error that a script's function is to blame for: no other model can mend it.
-function reading.blame(raised)
-  last = { raised = raised }
-  error(raised, 0)
-end
-
---- True if this error came from reading.blame.
-function reading.is_fault(raised) return last ~= nil and rawequal(last.raised, raised) end
 
 -- Raises an error, which also goes to the caller of the function. call: the name of the refused call.
 local function refuse(read, scene, call)
@@ -38,7 +28,7 @@ function reading.call(scene, what, instead, f, ...)
   local results = table.pack(pcall(f, ...))
   data.read = before
   local refused = core.end_review(scene) or now.refused
-  if refused then reading.blame(results[1] and refused or results[2]) end
+  if refused then blame.fault(results[1] and refused or results[2]) end
   return table.unpack(results, 1, results.n)
 end
 

@@ -295,8 +295,9 @@ function trust.open(job)
   kept.begin(scene)
   local start, restores = scene:snapshot(), data.restores
   function job.restore()
-    scene:restore(start, true)
+    local fine, why = pcall(scene.restore, scene, start, true)
     data.restores = restores -- the records of earlier runs still exist
+    if not fine then error(why, 0) end -- of a `<close>` variable of a process
   end
   function job.close() start:close() end
 end
