@@ -58,7 +58,7 @@ function remarks.write(at, text)
   io.stderr:write(at, ": remark: ", text, "\n")
 end
 
--- Writes a remark once per topic and line of the script. Lines typed at the prompt have no line numbers, so
+-- Writes a remark, once per topic and line of the script. Lines typed at the prompt have no line numbers, so
 -- there the text counts instead of the topic.
 local function tell(topic, text)
   local at = place.of_caller() or "?"
@@ -67,6 +67,7 @@ local function tell(topic, text)
   told[key], count = true, count + 1
   remarks.write(at, text)
 end
+remarks.tell = tell
 
 --- Remarks that a method reads the loads of a scene that was never run.
 function remarks.early(what)
@@ -78,13 +79,6 @@ end
 function remarks.passing(a, b, at, time)
   tell("passing", ("wires '%s' and '%s' pass through each other near (%.4g, %.4g, %.4g) m at t = %.4g s: "
     .. "they touch only after scene:wire_contact{}"):format(a, b, at[1], at[2], at[3], time))
-end
-
---- Remarks that a call takes no time, because it is in a process of another scene.
-function remarks.elsewhere(what, scene, other)
-  if not remarks.wanted() then return end
-  tell("elsewhere " .. what, ("%s returns at once: it is of scene '%s', and this is a process of scene '%s'")
-    :format(what, scene.name, other.name))
 end
 
 --- Remarks that a script tells an event while no run is under way.

@@ -70,7 +70,10 @@ end
 -- process, where it could not wait; what: its name.
 function process.of(scene, what)
   local self, other = find(scene, what)
-  if other and not self then remarks.elsewhere(what, scene, other.scene) end
+  if other and not self and remarks.wanted() then
+    remarks.tell("elsewhere " .. what, ("%s returns at once: it is of scene '%s', and this is a process of "
+      .. "scene '%s'"):format(what, scene.name, other.scene.name))
+  end
   return self
 end
 
