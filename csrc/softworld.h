@@ -41,6 +41,7 @@
 #include "save/life.h"
 #include "scene/account.h"
 #include "scene/driven.h"
+#include "scene/review.h"
 #include "scene/scene.h"
 #include "shape/mesh_read.h"
 #include "shape/shape.h"

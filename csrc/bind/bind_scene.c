@@ -55,6 +55,22 @@ static int mod_busy(lua_State *L) {
   return 2;
 }
 
+/* core.begin_review(scene, what, instead): a script's function of `what` reads a run; changes of
+ * the scene are refused until core.end_review(scene) -> the error of a change that was refused, or
+ * nil. */
+static int mod_begin_review(lua_State *L) {
+  sw_scene *scene = lsw_check_scene(L);
+  LSW_DO(L, sw_scene_begin_review, scene, luaL_checkstring(L, 2), luaL_checkstring(L, 3));
+  return 0;
+}
+
+static int mod_end_review(lua_State *L) {
+  sw_error err = {""};
+  if (sw_scene_end_review(lsw_check_scene(L), &err) == SW_OK) return 0;
+  lua_pushstring(L, err.text);
+  return 1;
+}
+
 /* core.exists(object) -> true if its scene still has the object. Released holds, forces and joins
  * and removed obstacles count; wires, particles and tools that were taken away do not. */
 static int mod_exists(lua_State *L) {
@@ -306,6 +322,8 @@ const luaL_Reg lsw_module_scene[] = {{"whole_snapshot", mod_whole_snapshot},
                                      {"data", mod_data},
                                      {"type", mod_type},
                                      {"busy", mod_busy},
+                                     {"begin_review", mod_begin_review},
+                                     {"end_review", mod_end_review},
                                      {"exists", mod_exists},
                                      {"interrupted", mod_interrupted},
                                      {"interrupts", mod_interrupts},

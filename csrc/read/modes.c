@@ -11,6 +11,7 @@
 #include "read/reading.h"
 #include "scene/lookup.h"
 #include "scene/parts.h"
+#include "scene/review.h"
 #include "system/linear.h"
 #include "system/system.h"
 
@@ -138,7 +139,7 @@ sw_status sw_scene_wire_modes(sw_scene *s, sw_handle wire, const sw_modes_args *
                               int (*interrupted)(void), sw_modes_result *out, sw_error *err) {
   out->count = out->unstable = 0;
   out->growth = 0;
-  SW_TRY(sw_scene_ready(s, err));
+  SW_TRY(sw_scene_measurable(s, err));
   if (!sw_scene_find_wire(s, wire, err)) return SW_EDEAD;
   SW_TRY(sw_scene_build(s, err));
   sw_scene_enter(s, 1); /* a force may be a user's function */

@@ -6,6 +6,7 @@
 #include "read/reading.h"
 #include "scene/lookup.h"
 #include "scene/parts.h"
+#include "scene/review.h"
 
 /* Copies the node forces that the terms have left in the field. */
 static void gather_force(const sw_field *f, double *out) {
@@ -45,7 +46,7 @@ static void aim(sw_scene *s, sw_body *b, const sw_probe *at) {
 sw_status sw_scene_probe(sw_scene *s, sw_handle wire, const sw_force_class *cls, const sw_probe *at,
                          sw_probe_result *out, sw_error *err) {
   sw_system *system = sw_scene_system(s);
-  SW_TRY(sw_scene_ready(s, err));
+  SW_TRY(sw_scene_measurable(s, err));
   if (!sw_scene_find_body(s, wire, err)) return SW_EDEAD;
   SW_TRY(sw_scene_build(s, err));
   SW_TRY(sw_system_place_holds(system, sw_scene_time(s), NULL, NULL, NULL, err));

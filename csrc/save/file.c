@@ -153,7 +153,7 @@ static sw_status read_back(const sw_tape *t, sw_error *err) {
 sw_status sw_scene_save(sw_scene *s, const void *note, size_t note_size, unsigned char **out,
                         size_t *size, sw_error *err) {
   sw_error why = {""};
-  SW_TRY(sw_scene_ready(s, err));
+  SW_TRY(sw_scene_measurable(s, err));
   SW_TRY(check_functions(s, err));
   if (s->waiting) SW_TRY(sw_scene_unbuild(s));
   if (s->built) sw_scene_undo_holds(s);

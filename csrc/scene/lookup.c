@@ -40,7 +40,8 @@ sw_status sw_scene_still(const sw_scene *s, sw_error *err) {
   return SW_OK;
 }
 
-sw_status sw_scene_editable(const sw_scene *s, sw_error *err) {
+/* SW_EBUSY from inside a step, a user's function or an observer. */
+static sw_status not_inside(const sw_scene *s, sw_error *err) {
   SW_TRY(sw_scene_still(s, err));
   if (s->looking)
     return sw_fail(err, SW_EBUSY,
@@ -48,6 +49,16 @@ sw_status sw_scene_editable(const sw_scene *s, sw_error *err) {
                    "observer:change(function() ... end)",
                    s->name);
   return SW_OK;
+}
+
+sw_status sw_scene_editable(const sw_scene *s, sw_error *err) {
+  SW_TRY(not_inside(s, err));
+  return sw_scene_not_reviewed(s, err);
+}
+
+sw_status sw_scene_measurable(const sw_scene *s, sw_error *err) {
+  SW_TRY(not_inside(s, err));
+  return sw_scene_readable(s, err);
 }
 
 sw_status sw_scene_ready(const sw_scene *s, sw_error *err) {

@@ -55,6 +55,7 @@ sw_kept_contact *sw_scene_kept(const sw_scene *s) { return (sw_kept_contact *)&s
 sw_hold_load *sw_scene_hold_loads(const sw_scene *s) { return s->hold_loads; }
 sw_log *sw_scene_contact_steps(const sw_scene *s) { return (sw_log *)&s->contact_steps; }
 sw_extreme *sw_scene_penetrated(const sw_scene *s) { return (sw_extreme *)&s->deepest; }
+sw_review **sw_scene_review(const sw_scene *s) { return (sw_review **)&s->review; }
 
 void sw_scene_diverge(sw_scene *s, const sw_error *why) { s->diverged = 1, s->why = *why; }
 void sw_scene_set_wears(sw_scene *s, int wears) { s->wears = wears; }

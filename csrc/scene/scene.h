@@ -56,8 +56,8 @@ const char *sw_scene_wire_name(const sw_scene *scene, sw_handle wire);
 
 /* --- forces ----------------------------------------------------------------- */
 
-/* SW_EBUSY from inside a step, a user's function or an observer: the scene must not be changed
- * now. */
+/* SW_EBUSY from inside a step, a user's function or an observer, and in a review (review.h): the
+ * scene must not be changed now. */
 sw_status sw_scene_editable(const sw_scene *scene, sw_error *err);
 /* The same, and SW_EDIVERGED when the state is meaningless: for changes that go on from the
  * state. */

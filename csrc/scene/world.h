@@ -10,6 +10,7 @@
 #include "scene/ledger.h"
 #include "scene/lists.h"
 #include "scene/parts.h"
+#include "scene/review.h"
 #include "system/system.h"
 
 struct sw_scene {
@@ -38,12 +39,13 @@ struct sw_scene {
   const sw_pose *part_from; /* settling: start poses of the holds, or NULL */
   double part;              /* share of their way [-] */
 
-  int built;     /* system is valid and holds the state */
-  int waiting;   /* 1: built, but forces have been added that the system does not have */
-  size_t build;  /* number of the system; a copy of it has the same */
-  size_t builds; /* numbers given so far */
-  int running;   /* above 0 inside a step or a user's function: edits are refused */
-  int looking;   /* 1: an observer looks at the scene: edits are refused, reads are not */
+  int built;         /* system is valid and holds the state */
+  int waiting;       /* 1: built, but forces have been added that the system does not have */
+  size_t build;      /* number of the system; a copy of it has the same */
+  size_t builds;     /* numbers given so far */
+  int running;       /* above 0 inside a step or a user's function: edits are refused */
+  int looking;       /* 1: an observer looks at the scene: edits are refused, reads are not */
+  sw_review *review; /* a script's function reads a run that has ended, or NULL */
   sw_system system;
   int *hold_slot;           /* (system.hold_count) scene slot of each system hold */
   sw_hold_load *hold_loads; /* (system.hold_count) loads of the stage solved last */

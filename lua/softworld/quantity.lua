@@ -2,6 +2,7 @@
 --- The quantities that an error bar can be asked for: those of a scene's objects, by
 -- name, and the user's own as functions.
 -- @module softworld.quantity
+local blame = require "softworld.scene.blame"
 local checks = require "softworld.checks"
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
@@ -293,7 +294,7 @@ local INSTEAD = "read the scene as the run left it, for example wire:position(s)
 -- Calls the function of a quantity of the script.
 local function own_value(q)
   local fine, value = reading.call(q.scene, ("the quantity '%s'"):format(q.name), INSTEAD, q.of)
-  if not fine then error(value, 0) end
+  if not fine then blame.fault(value) end
   return value
 end
 
@@ -303,8 +304,9 @@ function quantity.read(q, start)
   if q.own then value = own_value(q) else value, s, t, note = q.of(start) end
   local fault = fault_of(value, 1)
   if fault then
-    error(("quantity '%s': its function must return a number or a list of numbers, got %s"):format(q.name,
-      fault), 0)
+    local words = "quantity '%s': its function must return a number or a list of numbers, got %s"
+    local raise = q.own and blame.fault or error
+    raise(words:format(q.name, fault), 0)
   end
   return { value = value, where = s, when = t, note = note }
 end

@@ -58,7 +58,7 @@ function remarks.write(at, text)
   io.stderr:write(at, ": remark: ", text, "\n")
 end
 
--- Writes a remark once per topic and line of the script. Lines typed at the prompt have no line numbers, so
+-- Writes a remark, once per topic and line of the script. Lines typed at the prompt have no line numbers, so
 -- there the text counts instead of the topic.
 local function tell(topic, text)
   local at = place.of_caller() or "?"
@@ -67,6 +67,7 @@ local function tell(topic, text)
   told[key], count = true, count + 1
   remarks.write(at, text)
 end
+remarks.tell = tell
 
 --- Remarks that a method reads the loads of a scene that was never run.
 function remarks.early(what)

@@ -126,7 +126,7 @@ function unread.peek(object, key)
   return rawget(object, key)
 end
 
---- Counts a run that was stopped before its end.
+--- Counts a run that was stopped before its end, or ended with an error.
 function unread.cut() bad = bad + 1 end
 
 local given = setmetatable({}, { __mode = "k" }) -- by run: { verdict of its own check, of = the sums }

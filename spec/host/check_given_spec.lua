@@ -80,4 +80,34 @@ scene:run{ duration = 0.02, quasistatic = true, check = given(2) }]]
     assert.equal(3, code, err)
     assert.truthy(err:find("1 check: 0 pass, 1 fail", 1, true), err)
   end)
+
+  for _, case in ipairs{
+    { "a process", 3, "scene:process(function() error 'robot fault' end)",
+      "scene:run{ duration = 0.02, dt = 0.01 }" },
+    { "an observer", 3, "scene:observe{ every = 0.01, call = function() error 'mine' end }",
+      "scene:run{ duration = 0.02, dt = 0.01 }" },
+    { "a quantity", 3, "local q = { name = 'q', value = 1, of = function() error 'mine' end }",
+      "scene:run{ duration = 0.02, quasistatic = true, tolerance = { q } }" },
+    { "its arguments", 0, "", "scene:run{ duration = 'long' }" },
+  } do
+    it("counts a run that ends with an error, also in the script's pcall: of " .. case[1], function()
+      local _, err, code = check(("local r, scene = run{}\nr:check(given(2))\n%s\n"
+        .. "assert(not pcall(function() %s end))"):format(case[3], case[4]))
+      assert.equal(case[2], code, err)
+      assert.equal(case[2] == 3, err:find("1 run failed or was cut short", 1, true) ~= nil, err)
+    end)
+  end
+
+  it("does not count such a run within an evaluation of a study", function()
+    local _, err, code = check [[
+local study = sw.study{ name = "q", parameters = { L = { 0, 1 } }, evaluate = function()
+  local _, scene = run{}
+  scene:process(function() error "robot fault" end)
+  assert(not pcall(scene.run, scene, { duration = 0.02, dt = 0.01 }))
+  return { x = 1 }
+end }
+study:sweep{ grid = 2 }
+run{}:check(given(2))]]
+    assert.equal(0, code, err)
+  end)
 end)

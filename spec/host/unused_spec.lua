@@ -36,6 +36,24 @@ describe("what no run uses is told:", function()
     assert.truthy(err:find("script.lua:6: remark: this process never ran", 1, true), err)
   end)
 
+  it("no process that a process or an observer makes in a run", function()
+    for _, maker in ipairs{ "scene:process(function(p) p:wait(0.01) scene:process(wait) p:wait(0.2) end)",
+      "scene:process(wait) scene:observe{ every = 0.05, call = function(o)\n"
+        .. "if not again then again = true o:change(function() scene:process(wait) end) end end }" } do
+      local _, err = script(made .. maker .. "\nprint(scene:run{ dt = 0.01 }.ok)")
+      assert.is_nil(err:find("never ran", 1, true), err)
+      assert.is_nil(err:find("error", 1, true), err)
+    end
+  end)
+
+  it("a call that takes no time, because its gripper is of another scene", function()
+    local _, err = script(made .. "local other = sw.scene{ name = 'other' }\n"
+      .. "local hand = other:gripper{ name = 'hand', at = { 0, 0, 0 } }\nscene:process(function(p)\n"
+      .. "hand:move{ by = { 0, 0, 0.1 }, speed = 0.1 } p:wait(0.1) end)\nprint(scene:run{ dt = 0.01 }.ok)")
+    assert.truthy(err:find("script.lua:8: remark: gripper:move returns at once: it is of scene 'other', and "
+      .. "this is a process of scene 'made'", 1, true), err)
+  end)
+
   it("an event that is told while no run is under way", function()
     local _, err = script(made .. "scene:tell{ kind = 'note', text = 'a' }")
     assert.truthy(err:find("script.lua:5: remark: scene:tell: no run is under way", 1, true), err)

@@ -152,6 +152,72 @@ describe("a scene that runs inside the function of a quantity or a check", funct
     end
   end)
 
+  it("may not change its objects either", function()
+    local calls = {
+      ["obstacle:set"] = function(o) o.floor:set { friction = 0.9 } end,
+      ["obstacle:remove"] = function(o) o.floor:remove() end,
+      ["obstacle:follow"] = function(o) o.floor:follow { relative = true, duration = 1,
+        points = { { 0, 0, 0 }, { 0, 0, 0.1 } } } end,
+      ["obstacle:pose"] = function(o) o.floor:pose { 0, 0, -7 } end,
+      ["force:set"] = function(o) o.damping:set { mass = 1 } end,
+      ["force:release"] = function(o) o.damping:release() end,
+      ["hold:release"] = function(o) o.left:release() end,
+      ["hold:pose"] = function(o) o.left:pose { 0, 0, 0 } end,
+      ["wire:set_velocity"] = function(o) o.wire:set_velocity { 0, 0, 1 } end,
+      ["scene:gravity"] = function(o) o.scene:gravity { 0, 0, -1 } end,
+      ["scene:clear_frames"] = function(o) o.scene:clear_frames() end,
+    }
+    for name, call in pairs(calls) do
+      for _, own in ipairs { "quantity", "check" } do
+        local scene, w = scene_of()
+        local o = { scene = scene, wire = w, left = scene:find "left",
+          floor = scene:obstacle { shape = "plane", at = { 0, 0, -9 } },
+          damping = scene:force { kind = "damping", mass = 2 } }
+        local function of() -- also if the script's own pcall takes the error
+          pcall(call, o)
+          return 1
+        end
+        local fine, message = pcall(function()
+          if own == "quantity" then
+            return scene:run { duration = 0.02, tolerance = { { name = "odd", value = 1, of = of } } }
+          end
+          local odd = { name = "odd", unit = "-", of = of, max = 2 }
+          return scene:run { duration = 0.02 }:check { checks = { odd } }
+        end)
+        assert.is_false(fine, name)
+        local asked = ("scene 'read' cannot be changed inside the function `of` of the %s 'odd'"):format(own)
+        assert.truthy(message:find(asked, 1, true), name .. ": " .. message)
+        assert.is_true(scene:run { duration = 0.01 }.ok)
+        call(o) -- allowed outside
+      end
+    end
+  end)
+
+  it("may read what does not change it", function()
+    local scene, w = scene_of()
+    local read = {}
+    local function of()
+      read = { w:min_bend_radius(), scene:gravity()[3], scene:find("left"):force(), scene:energy(),
+        scene:snapshot(), w:max_tension(), (scene:find("left"):pose()), tostring(scene) }
+      return 1
+    end
+    local run = scene:run { duration = 0.02, tolerance = { { name = "odd", value = 1, of = of } } }
+    local check = run:check { checks = { { name = "odd", unit = "-", of = of, max = 2 } } }
+    for _, row in ipairs(check.rows) do
+      if row.name == "odd" then assert.equal(1, row.value) end
+    end
+    assert.equal(8, #read)
+  end)
+
+  it("may read the frequencies of wires at rest", function()
+    local scene, w = scene_of()
+    local settled = scene:settle { tolerance = { { name = "pitch", value = 100, unit = "Hz", of = function()
+      return w:frequencies { modes = 1 }[1]
+    end } } }
+    assert.is_true(settled.ok)
+    assert.is_true(settled.quantities.pitch.value > 0)
+  end)
+
   it("may save it", function()
     local scene = scene_of()
     local file = os.tmpname()

@@ -239,10 +239,9 @@ function Methods:grasp(wire, args)
   build.call(3, check_free, self, wires, approach, args)
   remarks.on("grasp", ("gripper '%s': grasp"):format(self.name), args)
   approach_words.check(self, approach, args)
-  local p = approach ~= "imposed" and build.call(3, process.of, self.scene, "gripper:grasp")
-  if approach == "mixed" and not p then
-    error(("gripper '%s': a mixed grasp takes time; call it in a process"):format(self.name), 2)
-  end
+  local mixes = approach == "mixed"
+  local p = approach ~= "imposed" and build.call(3, mixes and process.within or process.of, self.scene,
+    "gripper:grasp", ("gripper '%s': a mixed grasp takes time; call it in a process"):format(self.name))
   if args.on_slip ~= nil then reactions.set_on_slip(self, args.on_slip, 3) end
   self.bereft = nil
   if approach == "imposed" then

@@ -222,8 +222,8 @@ local press_call = rows.call("gripper:press", "{...}", "moves until the wire pus
 function Gripper:press(args)
   check_place(self, "press")
   args = press_call:read(args)
-  local p = build.call(3, process.of, self.scene, "gripper:press")
-  if not p then error("gripper:press works inside a process only", 2) end
+  local p = build.call(3, process.within, self.scene, "gripper:press",
+    "gripper:press works inside a process only")
   local way = vec.unit(args.direction)
   if not way then error("gripper:press: direction must not be zero", 2) end
   remarks.on("press", ("gripper '%s': press"):format(self.name), args)

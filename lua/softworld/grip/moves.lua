@@ -20,9 +20,8 @@ local function this_process(self, verb)
     error(("gripper:%s is a method: call it with a colon"):format(verb), 3)
   end
   stand.check_scene(self, 4)
-  local p = build.call(3, process.of, self.scene, "gripper:" .. verb)
-  if not p then error(("gripper:%s takes time; call it in a process"):format(verb), 3) end
-  return p
+  local what = "gripper:" .. verb
+  return (build.call(3, process.within, self.scene, what, what .. " takes time; call it in a process"))
 end
 
 --- Waits for a time [s].

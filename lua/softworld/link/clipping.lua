@@ -38,9 +38,8 @@ local function checked(self, args)
   if not (self.hold or self.wire) then -- imposed, or between pads
     error(what .. ": it holds nothing; grasp a wire before", 0)
   end
-  if not process.of(self.scene, "gripper:clip") then
-    error(what .. ": works inside a process only, because it watches the force during the move", 0)
-  end
+  process.within(self.scene, "gripper:clip",
+    what .. ": works inside a process only, because it watches the force during the move")
   args = into:read(args, what)
   args.max_force = args.max_force or USUAL_LIMIT * args.into.insertion
   return args, what

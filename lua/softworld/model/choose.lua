@@ -119,9 +119,9 @@ local function take_known(context)
     local known = probe.known(context, decide.rungs(context), k)
     if not known or not known.ok then break end
     astray = known.astray and k or astray
-    for name, values in pairs(job.values) do
-      values[k - astray] = known.values[name] or NONE -- index 0 for an astray one: unused
-      if known.astray then job.values[name] = {} end
+    for _, q in ipairs(job.quantities) do -- index 0 for an astray one: unused
+      trust.add(q, job.values[q.name], k - astray, known.values[q.name] or NONE)
+      if known.astray then job.values[q.name] = {} end
     end
     job.moves = known.moves
     if suffices(job, k, known) then -- the scene must end in its state
@@ -326,16 +326,18 @@ function choose.run(scene, given, check, run_once)
   ended.close(context)
   ended.forget(context)
   context.data.auto = nil
+  local tidy, why = true, nil
   if not fine or result.refused then
     context.data.touching = touching
     if job.restore then
-      job.restore()
+      tidy, why = pcall(job.restore)
       process.renew(scene, {})
       job.begin_processes()
     end
   end
   if job.close then job.close() end
   if not fine then error(result, 0) end
+  if not tidy then error(why, 0) end
   if given.frames == false then scene:clear_frames() end -- they were only for the choices
   return answer.add(context, result)
 end

@@ -2,6 +2,7 @@
 --- Computes one candidate while a model is chosen: from the start of the run, with one rung per choice, on a
 -- coarse level of edges and steps.
 -- @module softworld.model.probe
+local blame = require "softworld.scene.blame"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local coarsest = require "softworld.run.coarsest"
@@ -276,15 +277,16 @@ function probe.as_it_ended(context, rungs, k)
 end
 
 --- Returns the values and facts of rungs (by the choices' names) on level k; each is computed only once.
--- A computation that raises an error counts as failed. A variant has a label: factors on the stiffness of
--- wires, or what widens the steps.
+-- A computation that raises an error counts as failed, unless the function of a quantity raised it. A variant
+-- has a label: factors on the stiffness of wires, or what widens the steps.
 function probe.of(context, rungs, k, factors, label, wide)
   local key = probe.key(rungs, k, label)
   local known = label and context.probes[key] or not label and probe.known(context, rungs, k)
   if known then return known end
   local fine, result = pcall(compute, context, rungs, k, factors, wide)
   if not fine then
-    if checks.is_interrupt(result) then error(result, 0) end
+    -- A quantity that cannot be read is the script's fault in any model, as in a run without a choice.
+    if checks.is_interrupt(result) or blame.is_fault(result) then error(result, 0) end
     result = { ok = false, reason = build.plain(tostring(result)), raised = result }
   end
   context.probes[key] = result

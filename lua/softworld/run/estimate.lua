@@ -25,6 +25,14 @@ local function changes_of(values)
   return d
 end
 
+-- True if the values can be compared.
+local function are_alike(values)
+  for i = 2, #values do
+    if not quantity.alike(values[i - 1], values[i]) then return false end
+  end
+  return true
+end
+
 -- Returns the sum of all further changes if they shrink as the last two did.
 local function to_come(d) return d.rate > 1 and d.last / (d.rate - 1) or math.huge end
 
@@ -72,7 +80,7 @@ end
 -- @treturn number factor by which a further level shortens it
 function estimate.bar(q, values, contact, moves)
   local n = #values
-  if n < 2 then return math.huge, second_order end
+  if n < 2 or not are_alike(values) then return math.huge, second_order end
   local size = quantity.size(values[n]) -- infinite: bend radius of a straight wire
   local floor = size < math.huge and not q.row and rounding * size or 0
   local least = q.vanishes and size or 0

@@ -149,10 +149,16 @@ local function present(data)
   return found
 end
 
+local begun = 0
+
+--- Returns the number of runs that have begun to compute.
+function go.begun() return begun end
+
 --- Computes one run and returns its fields. level: its name if it is one of several; hindrance: why it cannot
 -- begin.
 function go.once(scene, args, level, hindrance)
   local data, total = begin(scene, args)
+  begun = begun + 1
   local wall, cpu = core.clock() - total.wall, os.clock() - total.cpu
   local function note_time() total.wall, total.cpu = core.clock() - wall, os.clock() - cpu end
   data.saving = args.save and function()

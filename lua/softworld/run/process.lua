@@ -15,6 +15,7 @@
 local core = require "softworld.core"
 local methods = require "softworld.methods"
 local rows = require "softworld.rows"
+local blame = require "softworld.scene.blame"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local conditions = require "softworld.run.conditions"
@@ -54,15 +55,35 @@ function process.resume(self)
   return done(coroutine.resume(self.thread, self))
 end
 
---- Returns the running process of this scene, or nil outside of one. A call that takes time raises an error
--- in a coroutine within a process, where it could not wait; what: its name.
-function process.of(scene, what)
+-- Returns the running process of this scene, or nil; if another scene's process runs, that one as well.
+local function find(scene, what)
   local self = process.current()
-  if self then return self.scene == scene and self or nil end
+  if self then return self.scene == scene and self or nil, self end
   if resumed and resumed.scene == scene and coroutine.status(resumed.thread) == "normal" then
     error(("%s takes time, and works only in the process itself, not in a coroutine beside it")
       :format(what), 0)
   end
+end
+
+--- Returns the running process of this scene, or nil outside of one: a process of another scene may use this
+-- one, but no time passes in it meanwhile. A call that takes time raises an error in a coroutine within a
+-- process, where it could not wait; what: its name.
+function process.of(scene, what)
+  local self, other = find(scene, what)
+  if other and not self and remarks.wanted() then
+    remarks.tell("elsewhere " .. what, ("%s returns at once: it is of scene '%s', and this is a process of "
+      .. "scene '%s'"):format(what, scene.name, other.scene.name))
+  end
+  return self
+end
+
+--- Same for a call that works only in a process of this scene; why: what the error says else.
+function process.within(scene, what, why)
+  local self, other = find(scene, what)
+  if self then return self end
+  if not other then error(why, 0) end
+  error(("%s takes time of scene '%s', but this is a process of scene '%s'; call it in a process of scene "
+    .. "'%s'"):format(what, scene.name, other.scene.name, scene.name), 0)
 end
 
 local function check_inside(self, what)
@@ -243,12 +264,14 @@ function Process:step(name, work)
   return table.unpack(results, 1, count)
 end
 
---- Ends the process where it waits.
+--- Ends the process where it waits. Raises an error of its `<close>` variables.
 function Process:finish()
   if process.current() == self then
     error("p:finish ends a process where it waits; within itself it ends by return", 2)
   end
-  if coroutine.status(self.thread) == "suspended" then coroutine.close(self.thread) end
+  if coroutine.status(self.thread) ~= "suspended" then return end
+  local fine, why = coroutine.close(self.thread)
+  if not fine then blame.fault(why) end
 end
 
 -- Fields that may be nil.
@@ -298,7 +321,7 @@ function core.class.scene.process(scene, body)
   end
   current[self.thread] = self
   data.processes[#data.processes + 1] = self
-  unread.process(data)
+  if not data.running then unread.process(data) end -- else the run that is under way has a use for it
   return self
 end
 
@@ -316,10 +339,11 @@ end
 --- Replaces all processes by these.
 function process.renew(scene, bodies)
   local data = build.data(scene)
-  for _, p in ipairs(data.processes) do p:finish() end
+  local raise = blame.each(data.processes, "finish")
   data.processes = {}
   for _, body in ipairs(bodies) do scene:process(body) end
   unread.used(data)
+  raise()
 end
 
 --- Returns how far the living processes are, for process.is_at: { [process] = moves }.

@@ -2,7 +2,9 @@
 --- Calls a script's function that reads a run which has ended. The scene must not run or change meanwhile:
 -- what is read after it would be of another motion or another scene.
 -- @module softworld.run.reading
+local blame = require "softworld.scene.blame"
 local build = require "softworld.scene.build"
+local core = require "softworld.core"
 
 local reading = {}
 
@@ -15,15 +17,18 @@ local function refuse(read, scene, call)
 end
 
 --- Returns what pcall(f, ...) returns; raises an error if f tried to run or change the scene. what: of what f
--- is the function `of`, and what to read instead, for build.check.
+-- is the function `of`, and what to read instead. Methods of the library are refused by build.check, with
+-- their names; the core refuses every other change.
 function reading.call(scene, what, instead, f, ...)
   local data = build.data(scene)
   local before, now = data.read, { what = what, instead = instead }
   function now.refuse(call) refuse(now, scene, call) end
+  core.begin_review(scene, what, instead)
   data.read = now
   local results = table.pack(pcall(f, ...))
   data.read = before
-  if now.refused then error(results[1] and now.refused or results[2], 0) end
+  local refused = core.end_review(scene) or now.refused
+  if refused then blame.fault(results[1] and refused or results[2]) end
   return table.unpack(results, 1, results.n)
 end
 

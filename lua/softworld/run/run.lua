@@ -72,6 +72,15 @@ local function run_once(scene, args, level, hindrance)
   return run
 end
 
+-- For `softworld --check`: counts a run that ends with an error after it has begun, also if the script's own
+-- pcall takes the error. Returns what must be closed.
+local function count_errors()
+  local before = go.begun()
+  return setmetatable({}, { __close = function(_, raised)
+    if raised ~= nil and go.begun() > before then unread.cut() end
+  end })
+end
+
 local function check_start(scene, args)
   core.check_run(args)
   local data = build.data(scene)
@@ -130,6 +139,7 @@ end
 function core.class.scene.run(scene, args)
   build.check(scene, "scene:run", 3)
   unread.used(build.data(scene))
+  local _ <close> = count_errors()
   if args == nil then args = {} end
   if type(args) == "table" then
     if checks.kind(args) ~= "table" then

@@ -150,6 +150,15 @@ function trust.read(job, result)
   return job.found
 end
 
+--- Adds the value on level k to those of a quantity. Lists of other lengths cannot be compared.
+function trust.add(q, values, k, value)
+  if k > 1 and not quantity.alike(values[k - 1], value) then
+    error(("quantity '%s': its list must have the same length on every mesh; evaluate it at the same places")
+      :format(q.name), 0)
+  end
+  values[k] = value
+end
+
 -- Reads the quantities on the level just computed. Returns whether all tolerances are met, and whether finer
 -- levels are in vain: a bar is more than `hopeless` times too long, even without the extra caution for coarse
 -- levels of a motion, which ends with finer levels. A row of a check with such a bar does not hold up the
@@ -160,12 +169,7 @@ local function judge(job, result, hopeless)
   job.read = trust.read(job, result)
   for _, q in ipairs(job.quantities) do
     local now, values = job.read[q.name], job.values[q.name]
-    if #values > 0 and not quantity.alike(values[#values], now.value) then
-      error(("quantity '%s': its list must have the same length on every mesh; evaluate it at the same "
-        .. "places"):format(
-        q.name), 0)
-    end
-    values[#values + 1] = now.value
+    trust.add(q, values, #values + 1, now.value)
     now.error, now.rate = estimate.bar(q, values, job.contact, job.moves)
     now.least = estimate.bar(q, values, job.contact)
     local asked = quantity.asked(q, now.value)
@@ -291,8 +295,9 @@ function trust.open(job)
   kept.begin(scene)
   local start, restores = scene:snapshot(), data.restores
   function job.restore()
-    scene:restore(start, true)
+    local fine, why = pcall(scene.restore, scene, start, true)
     data.restores = restores -- the records of earlier runs still exist
+    if not fine then error(why, 0) end -- of a `<close>` variable of a process
   end
   function job.close() start:close() end
 end

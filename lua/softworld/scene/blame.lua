@@ -75,6 +75,30 @@ function blame.placed(f)
   return function(...) return blame.call(3, f, ...) end
 end
 
+local last -- { raised = the last error that blame.fault raised }
+
+--- Raises an error of a script's function unchanged: no other model can mend it.
+function blame.fault(raised)
+  last = { raised = raised }
+  error(raised, 0)
+end
+
+--- True if this error came from blame.fault.
+function blame.is_fault(raised) return last ~= nil and rawequal(last.raised, raised) end
+
+--- Calls a method of each object of a list, also after one has raised an error. Returns a function that
+-- raises the first error, if any.
+function blame.each(list, method)
+  local first
+  for _, object in ipairs(list) do
+    local fine, why = pcall(object[method], object)
+    if not fine then first = first or { why = why } end
+  end
+  return function()
+    if first then blame.fault(first.why) end
+  end
+end
+
 --- Returns an error's text without the place in this library where it was raised.
 function blame.plain(message)
   return (tostring(message):gsub("^[^\n:]*softworld/[%w_/]+%.lua:%d+: ", ""))

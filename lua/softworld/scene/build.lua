@@ -390,11 +390,11 @@ end
 function build.back(scene, snapshot, same)
   local data = build.data(scene)
   build.call(3, restore, scene, snapshot)
-  data.restores, data.going = data.restores + 1, nil
-  for _, process in ipairs(same and {} or data.processes) do process:finish() end
-  if not same then data.processes = {} end
+  local raise = blame.each(same and {} or data.processes, "finish")
+  data.restores, data.going, data.processes = data.restores + 1, nil, same and data.processes or {}
   for _, gripper in ipairs(data.grippers) do gripper:leave() end
   keep.back(data, core.data(snapshot).image, imaged)
+  raise()
 end
 
 return build
