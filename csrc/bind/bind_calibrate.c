@@ -179,11 +179,13 @@ int lsw_wire_calibration(lua_State *L) {
   const sw_calibration *c = sw_scene_wire_calibration(w.scene, w.id);
   const char *name = sw_scene_wire_name(w.scene, w.id), *model = sw_scene_wire_model(w.scene, w.id);
   if (!name) return luaL_error(L, "wire:calibration: the wire no longer exists");
-  if (!c)
+  if (!c) {
+    sw_scene_asks_other_model(w.scene);
     return luaL_error(L,
                       "wire:calibration: wire '%s' is a %s, which has no springs to calibrate; "
                       "this is for meshes of particles",
                       name, model);
+  }
   lsw_quiet(L);
   lua_pushcfunction(L, push_calibration);
   lua_pushlightuserdata(L, (void *)c);

@@ -57,7 +57,7 @@ static int mod_busy(lua_State *L) {
 
 /* core.begin_review(scene, what, instead): a script's function of `what` reads a run; changes of
  * the scene are refused until core.end_review(scene) -> the error of a change that was refused, or
- * nil. */
+ * nil; true if something was asked for that only another model of a wire has. */
 static int mod_begin_review(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
   LSW_DO(L, sw_scene_begin_review, scene, luaL_checkstring(L, 2), luaL_checkstring(L, 3));
@@ -66,9 +66,11 @@ static int mod_begin_review(lua_State *L) {
 
 static int mod_end_review(lua_State *L) {
   sw_error err = {""};
-  if (sw_scene_end_review(lsw_check_scene(L), &err) == SW_OK) return 0;
-  lua_pushstring(L, err.text);
-  return 1;
+  int unlike;
+  const sw_status status = sw_scene_end_review(lsw_check_scene(L), &unlike, &err);
+  lua_pushstring(L, status == SW_OK ? NULL : err.text);
+  lua_pushboolean(L, unlike);
+  return 2;
 }
 
 /* core.exists(object) -> true if its scene still has the object. Released holds, forces and joins

@@ -273,6 +273,7 @@ static int meth_max_torsion(lua_State *L) {
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   const sw_extreme x = read_extremes(L, "wire:max_torsion").torsion;
   if (isfinite(x.value)) return push_extreme(L, x.value, &x);
+  sw_scene_asks_other_model(w.scene);
   return luaL_error(L,
                     "wire:max_torsion: wire '%s' is a %s without GJ or without sections, so its "
                     "torsion is not known",
@@ -284,6 +285,7 @@ static int meth_max_ovalisation(lua_State *L) {
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   const sw_extreme x = read_extremes(L, "wire:max_ovalisation").ovalisation;
   if (sw_scene_wire_calibration(w.scene, w.id) || x.value > 0) return push_extreme(L, x.value, &x);
+  sw_scene_asks_other_model(w.scene);
   return luaL_error(L,
                     "wire:max_ovalisation: wire '%s' is a %s, whose section does not change; this "
                     "is for meshes of particles",

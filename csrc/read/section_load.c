@@ -9,6 +9,7 @@
 #include "read/kept_frames.h"
 #include "read/section.h"
 #include "scene/parts.h"
+#include "scene/review.h"
 #include "scene/wire.h"
 #include "strand/ring.h"
 
@@ -18,6 +19,7 @@ static sw_status open_mesh(sw_scene *s, sw_handle h, const char *what, const sw_
   SW_TRY(sw_scene_open_wire(s, h, &wire, err));
   *body = &sw_scene_system(s)->bodies[h.slot];
   if (sw_scene_has_sections(wire)) return SW_OK;
+  sw_scene_asks_other_model(s);
   return sw_fail(err, SW_EINVAL,
                  "wire:%s: wire '%s' is a %s, which has no surface of its own; this is for meshes "
                  "of particles (model = 'tube', 'radial', 'cubic', ...)",

@@ -6,6 +6,7 @@
 #include "body/build.h"
 #include "read/section.h"
 #include "scene/parts.h"
+#include "scene/review.h"
 #include "scene/wire.h"
 #include "state/hinge.h"
 #include "strand/ring.h"
@@ -30,6 +31,7 @@ static sw_status open_mesh(sw_scene *s, sw_handle h, const char *what, spot *out
   const sw_body *b = &sw_scene_system(s)->bodies[h.slot];
   *out = (spot){.wire = wire, .web = b->plan->web, .x = sw_scene_system(s)->x + 3 * b->first_node};
   if (sw_scene_has_sections(wire)) return SW_OK;
+  sw_scene_asks_other_model(s);
   sw_fail(err, SW_EINVAL,
           "wire:%s: wire '%s' is a %s, whose section does not change; this is for meshes of "
           "particles (model = 'tube', 'radial', 'cubic', ...)",

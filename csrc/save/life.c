@@ -65,7 +65,7 @@ void sw_scene_free(sw_scene *s) {
   sw_events_clear(&s->events);
   sw_watches_clear(&s->watches);
   sw_ledger_free(&s->books);
-  while (s->review) sw_scene_end_review(s, NULL);
+  for (int unlike; s->review;) sw_scene_end_review(s, &unlike, NULL);
   SW_FREE_ALL(s->hold_slot, s->hold_loads, s->wires, s->gone, s->holds, s->obstacles, s->tools,
               s->forces, s->zones.list, s->joins, s);
 }

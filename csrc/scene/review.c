@@ -9,6 +9,7 @@
 struct sw_review {
   char what[128], instead[160]; /* shortened if need be */
   int refused;                  /* 1: a change has been refused */
+  int unlike;                   /* 1: only another model of a wire has what was asked for */
   sw_review *outer;             /* the review inside which it began, or NULL */
 };
 
@@ -29,13 +30,19 @@ sw_status sw_scene_begin_review(sw_scene *s, const char *what, const char *inste
   return SW_OK;
 }
 
-sw_status sw_scene_end_review(sw_scene *s, sw_error *err) {
+sw_status sw_scene_end_review(sw_scene *s, int *unlike, sw_error *err) {
   sw_review **now = sw_scene_review(s), *r = *now;
+  *unlike = r && r->unlike;
   if (!r) return SW_OK;
   const sw_status status = r->refused ? refuse(s, r, err) : SW_OK;
   *now = r->outer;
   sw_free(r);
   return status;
+}
+
+void sw_scene_asks_other_model(const sw_scene *s) {
+  sw_review *r = *sw_scene_review(s);
+  if (r) r->unlike = 1;
 }
 
 sw_status sw_scene_not_reviewed(const sw_scene *s, sw_error *err) {

@@ -65,7 +65,7 @@ local function finite(x) return type(x) == "number" and x - x == 0 and x or nil 
 
 --- Returns the value, or nil and why there is none.
 function own.value(one, run, scene)
-  local fine, value, s, time = reading.call(scene, ("the check '%s'"):format(one.name),
+  local _, fine, value, s, time = reading.call(scene, ("the check '%s'"):format(one.name),
     "read the run that is passed to it: of = function(run)", one.of, run)
   if not fine then
     if checks.is_interrupt(value) then error(value, 0) end

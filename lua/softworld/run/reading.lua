@@ -16,9 +16,10 @@ local function refuse(read, scene, call)
   error(read.refused, 0)
 end
 
---- Returns what pcall(f, ...) returns; raises an error if f tried to run or change the scene. what: of what f
--- is the function `of`, and what to read instead. Methods of the library are refused by build.check, with
--- their names; the core refuses every other change.
+--- Returns true if only another model of a wire has something that f asked for, then what pcall(f, ...)
+-- returns; raises an error if f tried to run or change the scene. what: of what f is the function `of`, and
+-- what to read instead. Methods of the library are refused by build.check, with their names; the core refuses
+-- every other change.
 function reading.call(scene, what, instead, f, ...)
   local data = build.data(scene)
   local before, now = data.read, { what = what, instead = instead }
@@ -27,9 +28,10 @@ function reading.call(scene, what, instead, f, ...)
   data.read = now
   local results = table.pack(pcall(f, ...))
   data.read = before
-  local refused = core.end_review(scene) or now.refused
+  local refused, unlike = core.end_review(scene)
+  refused = refused or now.refused
   if refused then blame.fault(results[1] and refused or results[2]) end
-  return table.unpack(results, 1, results.n)
+  return unlike, table.unpack(results, 1, results.n)
 end
 
 return reading
