@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Finds static equilibria. First the mixed Newton iteration from the present state. If that fails
  * (mechanisms, snap-through, sliding contact) or ends in an unstable equilibrium: pseudo-transient
- * continuation from the start, which is implicit Euler with velocities forgotten and a growing
- * step. */
+ * continuation from the start, see continuation.c. */
 #include <math.h>
 #include <string.h>
 
@@ -19,10 +18,7 @@
 
 enum { SLIDES = 8, MOST_REDOS = 20 };
 static const double FIRST_PSEUDO_STEP = 0.02; /* of sqrt(length/g) [-] */
-static const double LARGEST_GROWTH = 1e6;     /* of the first pseudo step [-] */
 static const double STATIC_TURN = 1e-7;       /* last rotation of a converged solve [rad] */
-/* An unstable direction counts as neutral if its disturbance needs longer than this to grow. */
-static const double SLOWEST_GROWTH = 30.0; /* of sqrt(length/g) [-] */
 static const double NUDGE = 1e-4; /* push away from an unstable equilibrium, over the length [-] */
 enum { MOST_NUDGES = 2 };
 
@@ -35,12 +31,11 @@ double sw_rest_longest(const sw_scene *s) {
   return length;
 }
 
-/* Returns sqrt(length/g). For weightless scenes any scale will do. */
-static double time_scale(const sw_scene *s) {
+double sw_rest_time_scale(const sw_scene *s) {
   return sqrt(sw_rest_longest(s) / fmax(sw_norm(sw_scene_gravity(s)), 1.0));
 }
 
-static double first_step(const sw_scene *s) { return FIRST_PSEUDO_STEP * time_scale(s); }
+double sw_rest_first_step(const sw_scene *s) { return FIRST_PSEUDO_STEP * sw_rest_time_scale(s); }
 
 /* 1 if a loose mesh moved further than its own size: an obstacle that touches it on one side pushes
  * it for the whole pseudo step. */
@@ -59,7 +54,7 @@ static int thrown(const sw_statics *p) {
   return 0;
 }
 
-static sw_status sw_rest_solve(sw_statics *p, double hbar, const sw_newton *newton, sw_error *err) {
+sw_status sw_rest_solve(sw_statics *p, double hbar, const sw_newton *newton, sw_error *err) {
   sw_scene *s = p->s;
   sw_system *system = sw_scene_system(s);
   sw_stage_report r = {0};
@@ -74,7 +69,7 @@ static sw_status sw_rest_solve(sw_statics *p, double hbar, const sw_newton *newt
   sw_system_begin_step(system);
   sw_status status = SW_OK;
   const double h = isfinite(hbar) ? hbar : 0.0;
-  status = sw_scene_begin_contact(s, SW_CONTACT_STATIC, p->touched, h, first_step(s), err);
+  status = sw_scene_begin_contact(s, SW_CONTACT_STATIC, p->touched, h, sw_rest_first_step(s), err);
   for (int redo = 0; status == SW_OK; redo++) {
     status = sw_system_stage(system, &stage, newton, &r, err);
     p->report->iterations += (size_t)r.iterations;
@@ -82,8 +77,8 @@ static sw_status sw_rest_solve(sw_statics *p, double hbar, const sw_newton *newt
     if (newton->statics || redo == MOST_REDOS)
       status = sw_fail(err, SW_ENOCONV, "the wire would pass through an obstacle");
   }
-  if (status == SW_OK && !newton->statics && hbar > first_step(s) && sw_scene_has_contact(s) &&
-      thrown(p))
+  if (status == SW_OK && !newton->statics && hbar > sw_rest_first_step(s) &&
+      sw_scene_has_contact(s) && thrown(p))
     status = sw_fail(err, SW_ENOCONV, "a loose mesh would be thrown far");
   if (status == SW_OK && !p->args->stays && sw_passing_too_far(s, p->y))
     status = sw_fail(err, SW_ENOCONV, "a wire would spring past a clip");
@@ -92,8 +87,7 @@ static sw_status sw_rest_solve(sw_statics *p, double hbar, const sw_newton *newt
   return status;
 }
 
-/* Makes y the state; contact commits it unless trial is 1. Returns the largest shift [m]. */
-static double take(sw_statics *p, int trial) {
+double sw_rest_take(sw_statics *p, int trial) {
   sw_scene *s = p->s;
   sw_system *system = sw_scene_system(s);
   double shift = 0;
@@ -109,8 +103,11 @@ static double take(sw_statics *p, int trial) {
   return shift;
 }
 
-/* 1 if obstacles have moved since contact last followed them. Friction then drags the wires. */
-static int is_dragged(const sw_statics *p) {
+int sw_rest_is_late(const sw_statics *p, double share) {
+  return (double)(p->report->iterations - p->before) >= share * (double)p->args->max_iterations;
+}
+
+int sw_rest_dragged(const sw_statics *p) {
   return sw_scene_contact(p->s) && p->touched != sw_scene_time(p->s) &&
          sw_contact_moves(sw_scene_contact(p->s));
 }
@@ -139,16 +136,16 @@ sw_status sw_rest_newton(sw_statics *p, int iterations, sw_error *err) {
                             .counts = 1,
                             .accept_shift = fmax(p->args->tolerance, p->passing * p->edge),
                             .most_far = p->most_far};
-  const double slowest = SLOWEST_GROWTH * time_scale(p->s);
+  const double slowest = SW_REST_SLOWEST_GROWTH * sw_rest_time_scale(p->s);
   const int massive = loose(p->s);
   SW_TRY(sw_rest_solve(p, massive ? slowest : HUGE_VAL, &newton, err));
   p->report->residual = p->args->tolerance;
-  const double shift = take(p, p->report->negative > 0);
+  const double shift = sw_rest_take(p, p->report->negative > 0);
   const double far = LITTLE * fmax(sw_norm(sw_scene_gravity(p->s)), 1.0) * slowest * slowest;
   if (p->report->negative == 0 && !(massive && shift > far)) return SW_OK;
   /* once more with a little mass, which removes rounding in neutral directions */
   SW_TRY(sw_rest_solve(p, slowest, &newton, err));
-  if (take(p, p->report->negative > 0) > far && massive && p->report->negative == 0)
+  if (sw_rest_take(p, p->report->negative > 0) > far && massive && p->report->negative == 0)
     return sw_fail(err, SW_ENOCONV, "a wire that nothing holds is carried away");
   return SW_OK;
 }
@@ -170,146 +167,8 @@ static void nudge(sw_statics *p, int number) {
   }
 }
 
-/* Returns the factor on the pseudo step, from the iterations of the last one [-]. Where wires
- * touch, a failed step costs more than a long step gains. In steps shorter than the first one the
- * imbalance shifts wires so little that some touches would need many iterations in every step to
- * find their states. Such steps grow until one fails. */
-static double growth(const sw_scene *s, size_t iterations, int is_small) {
-  if (!sw_scene_has_contact(s) || iterations <= 8) return 1.6;
-  return iterations <= 14 || is_small ? 1.1 : 0.7;
-}
-
 int sw_rest_stops(sw_status status) {
   return status == SW_ECALLBACK || status == SW_ENOMEM || status == SW_EINTR || status == SW_ELIMIT;
-}
-
-/* Continuation leaves out the negative stiffness of compressed wires, which would lead to unstable
- * places. Where compression cancels nearly all stiffness, as of a wire that has buckled sideways
- * under friction, it repeats almost the same step thousands of times. After MANY_ALIKE successive
- * steps that are alike (cosine above ALIKE, length above ALMOST of the step before), the steps that
- * their ratio predicts are taken at once. This excites other modes, which AGAIN_ALIKE further steps
- * damp. With half as many, 6 of 100 runs of cables on pegs do not come to rest; with twice as many
- * all do (spec/physics/peg_poses_spec) [-]. */
-enum { MANY_ALIKE = 20, AGAIN_ALIKE = 8 };
-static const double ALIKE = 0.99, ALMOST = 0.9;
-/* FARTHEST: largest shift at once, over the longest wire; with half and with twice of it all runs
- * come to rest too. LONGER: the shift was too far if the next steps are longer by this factor
- * [-]. */
-static const double FARTHEST = 4e-4, LONGER = 1.5;
-
-typedef struct drift {
-  double size;   /* of the last step, which is p->way [m] */
-  double before; /* size of the last step from which many were taken at once; 0: none yet [m] */
-  double most;   /* largest shift at once [m] */
-  int alike;     /* steps alike in a row [-] */
-} drift;
-
-/* Shifts the state by `times` the last step. */
-static void go_on(sw_statics *p, double times) {
-  sw_system *s = sw_scene_system(p->s);
-  for (size_t i = 0; i < s->freedoms; i++) p->y[i] = s->x[i] + times * p->way[i];
-  sw_system_follow(s, p->y);
-  memcpy(s->x, p->y, s->freedoms * sizeof(double));
-}
-
-/* If the last steps were alike, takes many more of them at once. */
-static void hurry(sw_statics *p, drift *d) {
-  const sw_system *s = sw_scene_system(p->s);
-  double size = 0, along = 0;
-  for (size_t i = 0; i < s->freedoms; i++) {
-    const double shift = p->y[i] - p->from[i];
-    if (i < 3 * s->nodes) size += shift * shift, along += shift * p->way[i];
-    p->way[i] = shift;
-  }
-  const double before = d->size, share = before > 0 ? along / (before * before) : 0.0;
-  d->size = sqrt(size);
-  d->alike = share > ALMOST && along > ALIKE * d->size * before ? d->alike + 1 : 0;
-  if (d->alike < (d->before > 0 ? AGAIN_ALIKE : MANY_ALIKE)) return;
-  const double longest = FARTHEST * sw_rest_longest(p->s);
-  d->most = !(d->before > 0)               ? longest
-            : d->size > LONGER * d->before ? 0.5 * d->most
-                                           : 2.0 * d->most;
-  d->most = fmin(d->most, longest);
-  d->before = d->size, d->alike = 0;
-  const double left = share < 1 ? share / (1.0 - share) : HUGE_VAL;
-  go_on(p, fmin(left, d->most / fmax(p->report->residual, 1e-300)));
-}
-
-static const sw_newton CONTINUE = {
-    .max_iterations = 30, .accept_rotation = 0.01, .limit_rotation = 0.3, .counts = 1};
-
-/* Factors on the pseudo step after a failure. Just below the longest stable step wires leave an
- * unstable place fastest: with 0.25, 1.3 times as many iterations [-]. */
-static const double SHORTER = 0.25, SHORTER_UNSTABLE = 0.6;
-
-/* 1 if a step of continuation ended where meshes, with the mass of this step, are unstable. Their
- * stiffness is the whole one, so a long step may end in any equilibrium. */
-static int ends_unstable(const sw_statics *p, double tau) {
-  const sw_system *s = sw_scene_system(p->s);
-  int meshes = 0;
-  for (size_t b = 0; b < s->body_count; b++) meshes |= s->bodies[b].plan->web != NULL;
-  return meshes && p->report->negative > 0 && tau > first_step(p->s);
-}
-
-static sw_status continue_by(sw_statics *p, double tau, sw_error *err) {
-  sw_system *s = sw_scene_system(p->s);
-  SW_TRY(sw_rest_solve(p, tau, &CONTINUE, err));
-  if (!ends_unstable(p, tau)) return SW_OK;
-  memcpy(s->tension, p->tension, s->edges * sizeof(double));
-  return sw_fail(err, SW_ENOCONV, "a mesh would come to rest in an unstable place");
-}
-
-static sw_status transient(sw_statics *p, sw_error *err) {
-  sw_scene *s = p->s;
-  drift d = {0};
-  const double first = first_step(s);
-  /* inertia must not keep back wires that obstacles drag along */
-  double tau = is_dragged(p) ? SLOWEST_GROWTH * time_scale(s) : first;
-  p->report->transient = 1;
-  while (p->report->iterations < (size_t)p->args->max_iterations) {
-    if (p->interrupted && p->interrupted()) return SW_EINTR;
-    const size_t before = p->report->iterations;
-    const sw_status status = continue_by(p, tau, err);
-    if (sw_rest_stops(status)) return status;
-    if (status != SW_OK) {
-      tau *= ends_unstable(p, tau) ? SHORTER_UNSTABLE : SHORTER;
-      if (p->too_far && tau < time_scale(s) && is_dragged(p)) {
-        *p->too_far = 1;
-        return sw_fail(err, SW_ENOCONV, "obstacles drag the wires too far in one step");
-      }
-      if (tau < 1e-9 * first) return status;
-      continue;
-    }
-    p->report->residual = take(p, 0);
-    /* in a step shorter than the first one an imbalance shifts wires by tau^2 */
-    const double reserve = fmax(1.0, first * first / (tau * tau));
-    if (p->report->residual * reserve <= p->args->tolerance) return SW_OK;
-    hurry(p, &d);
-    const double factor = growth(s, p->report->iterations - before, tau < first);
-    tau = fmin(tau * factor, LARGEST_GROWTH * first);
-  }
-  return sw_fail(
-      err, SW_ENOCONV,
-      "not at rest after %zu iteration%s: the last iteration still moved the wires by %.3g m",
-      p->report->iterations, p->report->iterations == 1 ? "" : "s", p->report->residual);
-}
-
-/* Steps of continuation no longer than its first step bring stiff modes to rest, while slow swings
- * hardly move. RELAXING: number of such steps. MOST_FAILED: more failed steps end the search
- * [-]. */
-enum { RELAXING = 4, MOST_FAILED = 6 };
-
-sw_status sw_rest_relax(sw_statics *p, sw_error *err) {
-  const double first = first_step(p->s);
-  double tau = first;
-  for (int done = 0, failed = 0; done < RELAXING;) {
-    const sw_status status = sw_rest_solve(p, tau, &CONTINUE, err);
-    if (status != SW_OK && (sw_rest_stops(status) || ++failed > MOST_FAILED)) return status;
-    if (status == SW_OK) take(p, 0), done += tau == first;
-    tau = status == SW_OK ? fmin(4.0 * tau, first) : 0.25 * tau;
-  }
-  p->report->relaxed = 1;
-  return SW_OK;
 }
 
 /* Loads of held nodes and rails, from the last solve. They are not part of the live state, so they
@@ -360,12 +219,16 @@ static sw_status polish(sw_statics *p, int *unstable, sw_error *err) {
 sw_status sw_rest_continue(sw_statics *p, sw_error *err) {
   for (int k = 0;; k++) {
     int again = 0;
-    SW_TRY(transient(p, err));
+    SW_TRY(sw_rest_transient(p, err));
     SW_TRY(polish(p, &again, err));
     if (!again || k == MOST_NUDGES) return SW_OK;
     nudge(p, k);
   }
 }
+
+/* Of all iterations, so that some are left to find out that the pose is too far from the last one
+ * [-]. */
+static const double MOST_SLIDES = 0.5;
 
 static int found(const sw_statics *p, sw_status status) {
   return (status == SW_OK && p->report->negative == 0) || sw_rest_stops(status);
@@ -376,7 +239,7 @@ sw_status sw_rest_find(sw_statics *p, sw_error *err) {
   sw_rest_put_aside(p->s, p->kept);
   sw_status status = sw_rest_newton(p, SW_REST_ITERATIONS, err);
   if (found(p, status)) return status;
-  if (!p->rests && is_dragged(p)) {
+  if (!p->rests && sw_rest_dragged(p)) {
     sw_rest_take_back(p->s, p->kept);
     SW_TRY(sw_rest_before(p, &fell, err));
     if (fell) {
@@ -385,10 +248,10 @@ sw_status sw_rest_find(sw_statics *p, sw_error *err) {
       if (found(p, status)) return status;
     }
   }
-  if (status == SW_ENOCONV && is_dragged(p)) { /* touches may begin to slide one by one */
+  if (status == SW_ENOCONV && sw_rest_dragged(p)) { /* touches may begin to slide one by one */
     sw_rest_take_back(p->s, p->kept);
     const double most = SW_REST_ITERATIONS + SLIDES * (double)sw_scene_system(p->s)->nodes;
-    status = sw_rest_newton(p, (int)fmin(most, (double)p->args->max_iterations), err);
+    status = sw_rest_newton(p, (int)fmin(most, MOST_SLIDES * (double)p->args->max_iterations), err);
   }
   if (found(p, status)) return status;
   sw_rest_take_back(p->s, p->kept);

@@ -96,6 +96,7 @@ static sw_status follow_in(sw_statics *p, size_t parts, sw_error *err) {
   for (size_t i = 1; status == SW_OK && i <= parts; i++) {
     sw_scene_go_part(p->s, i < parts ? p->from_poses : NULL, (double)i / (double)parts);
     p->passing = i < parts || p->args->passing ? PASSING : 0.0;
+    p->before = p->report->iterations;
     status = sw_rest_find(p, err);
     if (status == SW_OK && i < parts) p->report->rubbed += sw_scene_rubbed(p->s);
     if (status == SW_OK && p->interrupted && p->interrupted()) status = SW_EINTR;

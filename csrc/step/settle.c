@@ -15,7 +15,7 @@ static const sw_param rows[] = {
      offsetof(sw_settle_args, tolerance),
      "largest shift of a node in the last iteration (or quantities, see help 'tolerance')"},
     {"max_iterations", SW_PARAM_INTEGER, "-", 4000, 1, 1e9, 0, NULL,
-     offsetof(sw_settle_args, max_iterations), "most matrix solves"},
+     offsetof(sw_settle_args, max_iterations), "most matrix solves in each part of a hold's path"},
 };
 const sw_params sw_settle_params = SW_PARAMS("scene:settle", rows);
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Data and functions of the search for an equilibrium. Used only by rest.c and equilibrium.c. */
+/* Data and functions of the search for an equilibrium, used by its parts only: rest.c, before.c,
+ * equilibrium.c, continuation.c. */
 #ifndef SW_STEP_STATICS_H
 #define SW_STEP_STATICS_H
 
@@ -25,6 +26,7 @@ typedef struct sw_statics {
   double *way;                 /* (freedoms) last step of continuation */
   double *tension;             /* (edges) at the start of an attempt */
   double *kept, *begun;        /* a stored state; the state at the beginning of the search */
+  size_t before;               /* iterations of earlier parts of the holds' path [-] */
   sw_pose *from_poses;         /* (holds) poses of the holds at the start */
 } sw_statics;
 
@@ -38,6 +40,24 @@ static inline void sw_rest_take_back(sw_scene *s, const double *kept) {
 }
 
 enum { SW_REST_ITERATIONS = 60 }; /* usual limit of Newton iterations [-] */
+/* An unstable direction counts as neutral if its disturbance needs longer than this to grow, over
+ * sw_rest_time_scale [-]. */
+#define SW_REST_SLOWEST_GROWTH 30.0
+
+/* Returns sqrt(length/g) [s]. For weightless scenes any scale will do. */
+double sw_rest_time_scale(const sw_scene *scene);
+/* Returns the first step of continuation [s]. */
+double sw_rest_first_step(const sw_scene *scene);
+/* 1 if obstacles have moved since contact last followed them. Friction then drags the wires. */
+int sw_rest_dragged(const sw_statics *p);
+/* 1 if this part of the path has taken more than this share of the iterations that it may take. */
+int sw_rest_is_late(const sw_statics *p, double share);
+/* Finds y from the present state, with a step hbar of implicit Euler or (HUGE_VAL) at rest. */
+sw_status sw_rest_solve(sw_statics *p, double hbar, const sw_newton *newton, sw_error *err);
+/* Makes y the state; contact commits it unless trial is 1. Returns the largest shift [m]. */
+double sw_rest_take(sw_statics *p, int trial);
+/* Continuation until the wires rest. */
+sw_status sw_rest_transient(sw_statics *p, sw_error *err);
 /* Returns the length of the longest wire [m]. */
 double sw_rest_longest(const sw_scene *scene);
 /* Returns the largest distance of a node from its place in an earlier state [m]. */
