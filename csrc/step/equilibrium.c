@@ -150,21 +150,44 @@ sw_status sw_rest_newton(sw_statics *p, int iterations, sw_error *err) {
   return SW_OK;
 }
 
+/* Returns where a particle is in its section: its distance from the section's middle along a
+ * direction like no axis of a scene, over the radius; 0 for nodes of a line [-]. */
+static double place_across(const sw_system *s, const sw_body *b, size_t i) {
+  const sw_web *web = b->plan->web;
+  const double *x = s->x + 3 * b->first_node;
+  if (!web || !web->per_ring) return 0;
+  size_t ring = 0;
+  for (size_t end = web->rings; end - ring > 1;) {
+    const size_t middle = (ring + end) / 2;
+    if (web->first[middle] <= i) ring = middle;
+    if (web->first[middle] > i) end = middle;
+  }
+  const size_t from = web->first[ring], to = web->first[ring + 1];
+  sw_vec sum = sw_v(0, 0, 0);
+  for (size_t k = from; k < to; k++) sum = sw_add(sum, sw_vec_at(x, k));
+  const sw_vec off = sw_sub(sw_vec_at(x, i), sw_scale(sum, 1.0 / (double)(to - from)));
+  return sw_dot(off, sw_v(0.6, 0.64, 0.48)) / b->plan->beam.radius;
+}
+
 /* Pushes the wires smoothly sideways, the same in every run. The push has none of a scene's
- * symmetries. */
+ * symmetries. It turns sections of meshes too: a mesh that lies on a corner falls by rolling, and
+ * friction takes back what only shifts it. */
 static void nudge(sw_statics *p, int number) {
   sw_system *s = sw_scene_system(p->s);
   const double size = NUDGE * sw_rest_longest(p->s);
+  memset(p->way, 0, s->freedoms * sizeof(double)); /* continuation begins anew */
   SW_ITEMS(const sw_body, body, s->bodies, s->body_count) {
     for (size_t i = 0; i < body->plan->nodes; i++) {
       if (body->plan->held[i] != SW_FREE) continue;
       const double u = body->plan->s[i] / body->plan->length + 0.3 * number;
-      double *x = s->x + 3 * (body->first_node + i);
-      x[0] += size * sin(2.3 * u + 0.4);
-      x[1] += size * sin(3.1 * u + 0.9);
-      x[2] += size * sin(4.7 * u + 1.3);
+      const double across = place_across(s, body, i);
+      double *shift = p->way + 3 * (body->first_node + i);
+      shift[0] = size * sin(2.3 * u + 0.4 + across);
+      shift[1] = size * sin(3.1 * u + 0.9 + across);
+      shift[2] = size * sin(4.7 * u + 1.3 + across);
     }
   }
+  for (size_t i = 0; i < 3 * s->nodes; i++) s->x[i] += p->way[i];
 }
 
 int sw_rest_stops(sw_status status) {
