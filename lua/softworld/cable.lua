@@ -92,8 +92,8 @@ function cable.get(name)
     or "sw.cables() lists them"), 0)
 end
 
---- Returns the fields that an entry was made of, for scene:script; nil for the catalogue's own entries. Raises
--- an error if the entry cannot be made again.
+--- Returns the fields that an entry was made of, for scene:script; nil for the catalogue's own entries.
+-- Raises an error if the entry cannot be made again.
 function cable.source(entry)
   load_all()
   local given = sources[entry]
