@@ -134,12 +134,120 @@ static sw_status brent(bridge *b, const sw_minimise_args *args, const double at[
   return conclude(b, code, near);
 }
 
+/* Three places of which the middle one has the smallest value, if found. */
+typedef struct bracket {
+  double at[3], value[3];
+  int found;
+} bracket;
+
+static void set_bracket(bracket *k, const double at[3], const double value[3]) {
+  for (int i = 0; i < 3; i++) k->at[i] = at[i], k->value[i] = value[i];
+  k->found = 1;
+}
+
+/* Evaluates a place between those of k and makes it the middle if its value is below both. */
+static sw_status try_middle(bridge *b, bracket *k, double at) {
+  const size_t before = b->out->nonfinite;
+  k->at[1] = at;
+  k->value[1] = on_line(at, b);
+  if (b->out->nonfinite > before) k->value[1] = DBL_MAX;
+  k->found = k->value[1] < k->value[0] && k->value[1] < k->value[2];
+  return b->status;
+}
+
+enum { CLOSER = 4 }; /* each place is this times nearer to the end than the one before [-] */
+
+/* Looks nearer and nearer, up to the tolerance, to the end at[0] of the interval, where the value
+ * is the smallest so far. k: the end and its neighbour, at 0 and 2; *flat: farthest place with the
+ * value of the end. */
+static sw_status close_in(bridge *b, const sw_minimise_args *args, bracket *k, double *flat) {
+  const double wanted = args->tolerance * (args->to - args->from);
+  *flat = k->at[0];
+  while (!k->found && fabs(k->at[2] - k->at[0]) > wanted &&
+         b->out->iterations < (size_t)args->max_iterations) {
+    const double x = k->at[0] + (k->at[2] - k->at[0]) / CLOSER;
+    if (x == k->at[0] || x == k->at[2]) break;
+    b->out->iterations++;
+    SW_TRY(try_middle(b, k, x));
+    if (k->found) break;
+    if (k->value[1] == k->value[0] && *flat == k->at[0]) *flat = x;
+    k->at[2] = x;
+    k->value[2] = k->value[1];
+  }
+  return SW_OK;
+}
+
+/* Looks between the places first to last, which all have the smallest value. */
+static sw_status look_between(bridge *b, const double at[LOOKS], double least, int first, int last,
+                              bracket *k) {
+  for (int i = first; i < last && !k->found; i++) {
+    k->at[0] = at[i], k->at[2] = at[i + 1];
+    k->value[0] = k->value[2] = least;
+    SW_TRY(try_middle(b, k, 0.5 * (at[i] + at[i + 1])));
+  }
+  return SW_OK;
+}
+
+/* Says why there is no minimum: the values from..to, which reach an end, are the smallest. */
+static sw_status no_minimum(bridge *b, const sw_minimise_args *args, double value, double from,
+                            double to) {
+  const int low = from == args->from, high = to == args->to;
+  sw_error *reason = &b->out->reason;
+  *b->x = low ? args->from : args->to;
+  b->out->value = value;
+  if (b->out->iterations >= (size_t)args->max_iterations)
+    sw_fail(reason, SW_ENOCONV, "iterations used up near the end %g of the interval", *b->x);
+  else if (low && high)
+    sw_fail(reason, SW_ENOCONV,
+            "f has the same value, %g, at all places between %g and %g that were tried", value,
+            from, to);
+  else if (from < to)
+    sw_fail(reason, SW_ENOCONV,
+            "the smallest value, %g, is the same from %g to %g, the %s end of the interval", value,
+            low ? to : from, *b->x, low ? "lower" : "upper");
+  else
+    sw_fail(reason, SW_ENOCONV, "the smallest value is at the end %g of the interval", *b->x);
+  return SW_OK;
+}
+
+/* Brackets the minimum. If there is none, the places *from..*to have the smallest value. */
+static sw_status enclose(bridge *b, const sw_minimise_args *args, bracket *k, double *from,
+                         double *to, double *least) {
+  double at[LOOKS], value[LOOKS], flat;
+  int best, low, high;
+  SW_TRY(look(b, args, at, value, &best));
+  for (low = best; low > 0 && !(value[low] > value[best]);) low--;
+  for (high = best; high < LOOKS - 1 && !(value[high] > value[best]);) high++;
+  const int rises[2] = {value[low] > value[best], value[high] > value[best]};
+  *least = value[best];
+  if (rises[0] && rises[1]) {
+    set_bracket(k, (double[3]){at[low], at[best], at[high]},
+                (double[3]){value[low], value[best], value[high]});
+    return SW_OK;
+  }
+  const int first = rises[0] ? low + 1 : 0, last = rises[1] ? high - 1 : LOOKS - 1;
+  *from = at[first], *to = at[last];
+  if (first < last) return look_between(b, at, *least, first, last, k);
+  const int beside = first == 0 ? 1 : last - 1;
+  k->at[0] = at[first], k->at[2] = at[beside];
+  k->value[0] = value[first], k->value[2] = value[beside];
+  SW_TRY(close_in(b, args, k, &flat));
+  if (first == 0)
+    *to = flat;
+  else
+    *from = flat;
+  if (k->found && k->at[0] > k->at[2])
+    set_bracket(k, (double[3]){k->at[2], k->at[1], k->at[0]},
+                (double[3]){k->value[2], k->value[1], k->value[0]});
+  return SW_OK;
+}
+
 sw_status sw_minimise_interval(sw_objective f, void *user, const sw_minimise_args *args,
                                int (*interrupted)(void), double *x, sw_minimum *out,
                                sw_error *err) {
   bridge b = {f, user, 1, x, NULL, NULL, NAN, interrupted, out, SW_OK, err};
-  double at[LOOKS], value[LOOKS];
-  int best;
+  bracket k = {.found = 0};
+  double from, to, least;
   *out = (sw_minimum){.value = NAN};
   if (!(args->from < args->to) || !isfinite(args->to - args->from))
     return sw_fail(
@@ -147,23 +255,12 @@ sw_status sw_minimise_interval(sw_objective f, void *user, const sw_minimise_arg
         "tune.minimise: from = %g and to = %g are not an interval; from must be below to",
         args->from, args->to);
   gsl_set_error_handler_off(); /* statuses are checked instead */
-  SW_TRY(look(&b, args, at, value, &best));
-  int low = best, high = best;
-  while (low > 0 && !(value[low] > value[best])) low--;
-  while (high < LOOKS - 1 && !(value[high] > value[best])) high++;
-  if (value[low] > value[best] && value[high] > value[best]) {
-    const double place[3] = {at[low], at[best], at[high]};
-    const double three[3] = {value[low], value[best], value[high]};
-    double found = at[best];
-    const sw_status status = brent(&b, args, place, three, &found);
-    *x = found;
-    return status;
-  }
-  *x = at[best];
-  out->value = value[best];
-  sw_fail(&out->reason, SW_ENOCONV, "the smallest value is at the end %g of the interval",
-          at[best]);
-  return SW_OK;
+  SW_TRY(enclose(&b, args, &k, &from, &to, &least));
+  if (!k.found) return no_minimum(&b, args, least, from, to);
+  double found = k.at[1];
+  const sw_status status = brent(&b, args, k.at, k.value, &found);
+  *x = found;
+  return status;
 }
 
 /* --- several parameters -------------------------------------------------------- */

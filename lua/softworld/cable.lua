@@ -37,15 +37,43 @@ keep.class("cable", Entry)
 local files = { "gxl", "flry", "h07v", "identified" }
 local by_name, names
 
--- Returns a checked entry that is not in the catalogue. Errors have no place.
-local function read(given) return setmetatable(sheet.read(given), Entry) end
+local DEEPEST = 9 -- deepest nesting of fields
+local sources = setmetatable({}, { __mode = "k" }) -- an entry made by a script -> the fields it was made of
+
+local function copy(value, depth)
+  if type(value) ~= "table" or depth > DEEPEST then return value end
+  local to = {}
+  for key, item in next, value do to[key] = copy(item, depth + 1) end
+  return to
+end
+
+-- True if two values have the same items.
+local function same(a, b)
+  if type(a) ~= "table" or type(b) ~= "table" then return a == b end
+  for key, item in next, a do
+    if not same(item, b[key]) then return false end
+  end
+  for key in next, b do
+    if a[key] == nil then return false end
+  end
+  return true
+end
+
+--- Returns a checked entry that is not in the catalogue, of the fields of cable.define. Errors have no place.
+function cable.read(given)
+  local entry = setmetatable(sheet.read(given), Entry)
+  sources[entry] = copy(given, 1)
+  return entry
+end
+
+local read = cable.read
 
 local function load_all()
   if by_name then return end
   by_name, names = {}, {}
   for _, file in ipairs(files) do
     for _, given in ipairs(require("softworld.cables." .. file)) do
-      local entry = read(given)
+      local entry = setmetatable(sheet.read(given), Entry)
       by_name[entry.name], names[#names + 1] = entry, entry.name
     end
   end
@@ -62,6 +90,17 @@ function cable.get(name)
   local near = core.nearest(name, names)
   error(("there is no cable '%s'; %s"):format(name, near and ("did you mean '%s'?"):format(near)
     or "sw.cables() lists them"), 0)
+end
+
+--- Returns the fields that an entry was made of, for scene:script; nil for the catalogue's own entries.
+-- Raises an error if the entry cannot be made again.
+function cable.source(entry)
+  load_all()
+  local given = sources[entry]
+  if given and same(entry, sheet.read(given)) then return given end
+  if not given and rawequal(by_name[entry.name], entry) then return nil end
+  error(given and "it was changed after it was made, which is not written"
+    or "it was read from a file, without the fields it was made of", 0)
 end
 
 -- Returns the results of a pcall, or raises its error with the place of the script's line. An error of
@@ -161,7 +200,6 @@ local function of_entry(name, f)
 end
 
 -- For other modules: errors without a place.
-cable.read = read -- a checked entry that is not in the catalogue
 cable.section, cable.bend_limit = of_entry("section", section), of_entry("bend_limit", bend_limit)
 
 --- Returns the parameters of scene:wire: EA [N], EI, GJ [N m2], mass_per_length [kg/m],

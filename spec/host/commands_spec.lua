@@ -8,7 +8,8 @@ local quote = program.quote
 local path = program.path:find "^/" and program.path or lfs.currentdir() .. "/" .. program.path
 
 local function run(folder, words)
-  return program.shell(("cd %s && %s %s"):format(quote(folder), quote(path), words))
+  -- the limit [s] is for programs that hang
+  return program.shell(("cd %s && timeout 300 %s %s"):format(quote(folder), quote(path), words))
 end
 
 local function lint(text)
@@ -160,13 +161,73 @@ sw.plot{ run, path = "x.svg" }
   end)
 
   it("has no warning for the examples", function()
-    for _, name in ipairs { "01_hanging_cable", "03_laying", "04_two_grippers", "13_fabric" } do
-      local folder = program.folder()
-      local file = lfs.currentdir() .. "/examples/" .. name .. ".lua"
-      local out, err, code = run(folder, "lint " .. quote(file))
-      assert.same({ 0, "" }, { code, err })
-      assert.truthy(out:find(": 0 warnings, 1 scene\n", 1, true), out)
+    local examples, count = lfs.currentdir() .. "/examples/", 0
+    for name in lfs.dir(examples) do
+      if name:find "%.lua$" then
+        local out, err, code = run(program.folder(), "lint " .. quote(examples .. name))
+        assert.same({ 0, "" }, { code, err }, name .. out)
+        assert.truthy(out:find(": 0 warnings, %d scene"), out)
+        count = count + 1
+      end
     end
+    assert.is_true(count >= 25)
+  end)
+
+  it("still reads the measurements of a calibration, whose wires are not the script's", function()
+    local call = "sw.calibration { outer_diameter = 0.004, mass_per_length = 0.02, %s = "
+      .. "{ length = 1, to = { 0.9, 0 }, points = { { 0.3, -0.1 }, { 0.5, -0.2 }, { 0.6, -0.2 } } } }\n"
+    local out, err, code = lint(start .. call:format "sag" .. wire:format(100))
+    assert.same({ 0, "", "s.lua: 0 warnings, 1 scene\n" }, { code, err, out })
+    err, code = select(2, lint(start .. call:format "sags"))
+    assert.equal(1, code)
+    assert.truthy(err:find("s.lua:3: ", 1, true) and err:find("did you mean 'sag'?", 1, true), err)
+  end)
+
+  describe("in loops over results of runs", function()
+    local bad = "sw.scene{}:wire{ E = 5, density = 1500, radius = 0.0025, from = {0, 0, 0}, "
+      .. "to = {1, 0, 0} }\n"
+    local run_it = start .. wire:format(100) .. "local run = s:run{ duration = 1 }\n"
+
+    it("goes once over a list, and continues", function()
+      local out, err, code = lint(run_it .. "local n = 0\n"
+        .. "for k, e in ipairs(run.events) do n = n + 1 print(k, e.text) end assert(n == 1)\n"
+        .. "for k, x in ipairs { 4, 5 } do assert(x == k + 3) end\n"
+        .. "for i = 1, #run.events do print(run.events[i].text) end\n" .. bad)
+      assert.same({ 1, "" }, { code, err })
+      assert.truthy(out:find("s.lua:9: wire 'wire1': E = 5 Pa", 1, true), out)
+    end)
+
+    local loops = {
+      { "repeat local x = 1 until run.time < x", 5 },
+      { "while run do local x = run.events[1] end", 5 },
+      { "for x in run:series() do print(x) end", 5 },
+      { "while s.time < 1 do s:advance{ duration = 0.1 } end", 5 },
+      { "repeat\nlocal t = sw.scene{} t:wire{ E = 5e7, density = 1500, radius = 0.0025, from = {0, 0, 0}, "
+        .. "to = {1, 0, 0} }\nuntil t:run{ duration = 1 }.time < 1", 7 },
+      { "repeat local fine = pcall(function() assert(run.time < 1) end) until fine", 5 }, -- swallows errors
+      { "local v = s:view{} v:wait() repeat until v.pages < 1", 5 },
+    }
+    for _, case in ipairs(loops) do
+      it("ends " .. case[1]:sub(1, 40), function()
+        local folder = program.folder()
+        program.write(folder .. "/s.lua", bad:gsub("^sw", "require 'softworld'") .. run_it .. case[1] .. "\n")
+        local out, err, code = run(folder, "lint s.lua")
+        assert.same({ 1, "" }, { code, err }, out)
+        assert.truthy(out:find("s.lua:1: wire 'wire1': E = 5 Pa", 1, true), out)
+        assert.truthy(out:find(("s.lua:%d: looked at as far as here, since runs were left out (a loop "
+          .. "seems to wait for the result of a run; it "):format(case[2] + 1), 1, true), out)
+      end)
+    end
+
+    it("is stopped by Ctrl-C, with what was found until then", function()
+      local folder = program.folder()
+      program.write(folder .. "/s.lua", bad:gsub("^sw", "require 'softworld'") .. "while true do end\n")
+      local out, err, code = program.run({ "lint", folder .. "/s.lua" },
+        { before = "env --default-signal=INT", signals = { 0.3 } })
+      assert.equal(130, code)
+      assert.truthy(err:find("s.lua:2: interrupted", 1, true), err)
+      assert.truthy(out:find("E = 5 Pa", 1, true), out)
+    end)
   end)
 end)
 

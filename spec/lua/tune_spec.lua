@@ -61,6 +61,36 @@ describe("tune.minimise", function()
     assert.are.equal(-1, r.x)
     assert.truthy(r.reason:find("at the end -1", 1, true))
     assert.is_false(minimise { f = function() return 1 end, from = 0, to = 1 }.ok) -- constant
+    r = minimise { f = function(x) return x end, from = 0, to = 1, max_iterations = 3 }
+    assert.same({ false, 0.0, 3 }, { r.ok, r.x, r.iterations })
+    assert.equal("iterations used up near the end 0 of the interval", r.reason)
+  end)
+
+  it("finds minima near an end of the interval", function()
+    local function inf_beyond(x) return x > 0.01 and math.huge or (x - 0.005) ^ 2 end
+    for place, f in pairs { [0.001] = "square", [0.999] = "square", [1e-4] = "kink", [1 - 1e-4] = "kink",
+      [5e-6] = "kink", [0.0625] = "square", [0.9375] = "square", [0.005] = inf_beyond } do
+      local functions = { square = function(x) return (x - place) ^ 2 end,
+        kink = function(x) return math.abs(x - place) end }
+      local r = minimise { from = 0, to = 1, f = functions[f] or f }
+      assert.is_true(r.ok, r.reason)
+      assert.near(place, r.x, 1e-6)
+    end
+  end)
+
+  it("says where the smallest values are the same", function()
+    for reason, f in pairs {
+      ["the smallest value, 0.5, is the same from 0.5 to 0, the lower end of the interval"] =
+        function(x) return math.max(0.5, x) end,
+      ["the smallest value, 0.5, is the same from 0.5 to 1, the upper end of the interval"] =
+        function(x) return math.max(0.5, 1 - x) end,
+      ["the smallest value, 0.01, is the same from 0.992188 to 1, the upper end of the interval"] =
+        function(x) return math.max(0.01, 1 - x) end,
+      ["f has the same value, 3, at all places between 0 and 1 that were tried"] =
+        function() return 3 end } do
+      local r = minimise { from = 0, to = 1, f = f }
+      assert.same({ false, reason, f(r.x) }, { r.ok, r.reason, r.value })
+    end
   end)
 
   it("keeps the search away from values that are not finite", function()

@@ -66,6 +66,20 @@ describe("chart", function()
     assert.same({ "it's.svg" }, files.list(folder))
   end)
 
+  it("draws SVG that is XML, whatever the names", function()
+    local run, path = scene.run { frames = 2 }, folder .. "/x.svg"
+    run.name = "]]> a ]]]>> & < > \" '"
+    run.series.columns[3] = { name = "]]>", unit = "]]>", values = run.series.columns[1].values }
+    chart.series { run = run, path = path }
+    local text = sink.read_file(path)
+    assert.is_nil(text:find("]]>", 1, true)) -- not allowed outside of CDATA
+    local _, count = text:gsub("]]&gt;", "")
+    assert.is_true(count >= 4)
+    assert.truthy(text:gsub("&gt;", ">"):find("]]> a ]]]>> &amp; &lt; > ", 1, true))
+    assert.is_nil(text:gsub("&%a+;", ""):find("&", 1, true))
+    files.xml(text)
+  end)
+
   it("draws PNG in the size asked for", function()
     chart.series { run = scene.run { frames = 2 }, path = folder .. "/a.png", size = { 640, 360 } }
     assert.same({ 640, 360 }, { files.png_size(folder .. "/a.png") })

@@ -295,4 +295,21 @@ describe("exchange", function()
     end
     assert.same(list, files.list(folder))
   end)
+
+  it("says that a run of 0 s has no frames, and why", function()
+    local scene, list = sw.scene {}, files.list(folder)
+    scene:wire { E = 1e7, density = 1200, radius = 0.003, from = { 0, 0, 0 }, to = { 1, 0, 0 } }
+    scene:process(function() end)
+    local empty = scene:run { dt = 0.01 }
+    assert.equal(0, empty.steps)
+    for method, kind in pairs { gltf = "glb", obj = "obj", stl = "stl", vtk = "pvd", film = "gif",
+      picture = "png" } do
+      local path = folder .. "/x." .. kind
+      local fine, why = pcall(empty[method], empty, method == "picture" and { path = path } or path)
+      assert.is_false(fine)
+      assert.truthy(why:find("the run of 'scene' has no frames, because it has no step: 0 s have passed", 1,
+        true), why)
+    end
+    assert.same(list, files.list(folder))
+  end)
 end)

@@ -116,12 +116,28 @@ describe("vtk", function()
     assert.error_matches(function() vtk.write(run, folder .. "/b.pvd") end, "no frame with finite")
   end)
 
+  it("makes no folder but its own", function()
+    local run = scene.run { frames = 2 }
+    local function refuses(path, why)
+      local fine, text = pcall(vtk.write, run, path)
+      assert.is_false(fine)
+      assert.equal(("cannot write %s: %s"):format(path, why), text:match "cannot write.*")
+    end
+    refuses(folder .. "/no/deep/x.pvd", "No such file or directory")
+    sink.write_file(folder .. "/file", "")
+    refuses(folder .. "/file/x.pvd", "Not a directory")
+    assert.same({ "file" }, files.list(folder))
+    vtk.write(run, folder .. "/x.pvd")
+    assert.same({ "file", "x.pvd", "x.vtk" }, files.list(folder))
+  end)
+
   it("names wrong arguments", function()
     local run = scene.run { frames = 1 }
     assert.error_matches(function() vtk.write(run, folder .. "/a.vtu") end, "does not end in .pvd")
     assert.error_matches(function() vtk.write({}, folder .. "/a.pvd") end, "a run with frames")
     sink.write_file(folder .. "/file", "")
-    assert.error_matches(function() vtk.write(run, folder .. "/file/a.pvd") end, "cannot make folder")
+    assert.error_matches(function() vtk.write(run, folder .. "/file/a.pvd") end,
+      "cannot write .*/file/a.pvd: Not a directory")
     run.obstacles = { { name = "cone1", shape = "cone" } }
     assert.has_error(function() vtk.write(run, folder .. "/a.pvd") end, "cone1: unknown shape cone")
   end)

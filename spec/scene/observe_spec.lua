@@ -254,4 +254,29 @@ describe("an error in an observer", function()
     assert.error_matches(function() o.every = 2 end, "to set")
     assert.error_matches(function() o.remove() end, "call it with a colon")
   end)
+
+  it("says why scene:save is refused, and what to do", function()
+    local scene = sw.scene { name = "seen" }
+    scene:clamp(scene:wire { E = 5e7, density = 1500, radius = 0.0025, from = { 0, 0, 1 }, to = { 1, 0, 1 } },
+      { s = 0 })
+    local path, kept, seen, changed = os.tmpname(), nil, nil, nil
+    os.remove(path)
+    scene:observe { every = 0.1, call = function(observer)
+      kept = kept or scene:snapshot()
+      seen = select(2, pcall(scene.save, scene, path))
+      observer:change(function() changed = select(2, pcall(scene.save, scene, path)) end)
+    end }
+    assert.is_true(scene:run { duration = 0.2, dt = 0.01 }.ok)
+    local why = "scene:save: a run of scene 'seen' is under way, and a scene can be saved only between runs"
+    for _, text in ipairs { seen, changed } do
+      assert.truthy(text:find(why, 1, true), text)
+      assert.is_nil(text:find("observer:change", 1, true))
+    end
+    assert.truthy(seen:find("take a scene:snapshot() here, and scene:restore it after", 1, true), seen)
+    assert.is_nil(io.open(path))
+    scene:restore(kept)
+    scene:save(path)
+    assert.near(0.1, sw.load(path).time, 1e-9)
+    os.remove(path)
+  end)
 end)

@@ -128,7 +128,11 @@ local function entry_of(own)
   return own.entry
 end
 
-local function define(self) return cable.define(entry.fields(fields(self))) end
+local function define(self)
+  local own = fields(self)
+  own.entry = cable.define(entry.fields(own)) -- .cable is this entry from now on
+  return own.entry
+end
 
 local function save(self, path)
   if type(path) ~= "string" or path == "" then

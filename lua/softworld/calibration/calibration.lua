@@ -324,13 +324,19 @@ local function fitted(model)
   end
 end
 
-local function make(args)
+-- Reads the arguments and the measurements: computes no wire.
+local function read(args)
   local o = call:read(args)
   local diameter = read_uncertain("outer_diameter", o.outer_diameter, "m")
   local mass = read_uncertain("mass_per_length", o.mass_per_length, "kg/m")
   if o.sag then o.sag.length = read_uncertain("sag: length", o.sag.length, "m") end
   calibrated.check_like(o.like)
-  local model, said = new_model(o, diameter, mass), {}
+  return o, diameter, mass, new_model(o, diameter, mass)
+end
+
+local function make(args)
+  local o, diameter, mass, model = read(args)
+  local said = {}
   start(model)
   estimate_sigma(model, said)
   local found = fitted(model)
@@ -340,5 +346,8 @@ end
 
 --- sw.calibration { ... }: see help "calibration".
 calibration.calibration = build.placed(make)
+
+--- Raises the errors of its arguments, without a calibration; for lint.
+calibration.check = build.placed(function(args) read(args) end)
 
 return calibration

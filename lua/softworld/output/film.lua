@@ -105,8 +105,7 @@ end
 -- @raise if ffmpeg is missing (its package is named) or fails, or the file cannot be written
 function film.write(run, o)
   if #run.frames == 0 then
-    sink.fail("a film: the run of '%s' has no frames; it was made with frames = false, or its scene has "
-      .. "forgotten them", run.name)
+    sink.fail("a film: the run of '%s' has no frames, %s", run.name, run.none)
   end
   sink.need("ffmpeg", "ffmpeg", "a film")
   local kind = sink.extension(o.path)

@@ -120,6 +120,16 @@ local function run(kind, size, script, output, id)
   error(failure, 0)
 end
 
+-- Escapes "]]>" of titles and names in an SVG: gnuplot writes ">" as it is, and XML allows no "]]>" in texts.
+-- Its own part of the file has none, because it has no CDATA without a mouse.
+local function escape_ends(output)
+  local text, count = sink.read_file(output):gsub("%]%]>", "]]&gt;")
+  if count == 0 then return end
+  local file = assert(io.open(output, "wb"))
+  local good, why = file:write(text)
+  if not (file:close() and good) then sink.fail("cannot write %s: %s", output, why) end
+end
+
 --- Draws a script into a file, or as characters.
 -- @tparam table script from gnuplot.script
 -- @tparam ?string path ending in .svg, .png or .pdf; nil for characters
@@ -141,6 +151,7 @@ function gnuplot.draw(script, path, size)
   end
   local output = sink.temporary(path)
   run(kind, size, script, output, "c_" .. sink.base(path):gsub("[^%w]", "_"))
+  if kind == "svg" then escape_ends(output) end
   whole.commit(output, path)
   return path
 end

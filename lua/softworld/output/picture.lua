@@ -312,8 +312,7 @@ local kinds = { png = sheet.dots, svg = sheet.lines }
 
 local function check(run, options)
   if not run.frames or #run.frames == 0 then
-    sink.fail("a picture: the run of '%s' has no frames; it was made with frames = false, or its scene has "
-      .. "forgotten them", run.name)
+    sink.fail("a picture: the run of '%s' has no frames, %s", run.name, run.none)
   end
   if not kinds[sink.extension(options.path)] then
     sink.fail("a picture: path %s ends in none of .png .svg", checks.shown(options.path))

@@ -8,6 +8,7 @@
 -- wires or obstacles from 0. Obstacles at rest share one file.
 -- @module softworld.output.vtk
 
+local core = require "softworld.core"
 local json = require "softworld.output.json"
 local letters = require "softworld.output.letters"
 local sink = require "softworld.output.sink"
@@ -266,13 +267,20 @@ end
 -- finite, which VTK cannot read, are left out.
 -- @tparam table run with wires, obstacles and frames
 -- @tparam string path of the collection, ending in .pvd; the .vtp files go
--- into a folder of the same name ending in .vtk, made if it is missing
+-- into a folder of the same name ending in .vtk, made if it is missing; folders above it are not made
 -- @treturn string the path
 function vtk.write(run, path)
   if type(run) ~= "table" or not run.frames or not run.wires then
     sink.fail("vtk: a run with frames is expected")
   end
   if sink.extension(path) ~= "pvd" then sink.fail("vtk: %s does not end in .pvd", path) end
+  if #run.frames == 0 and run.none then
+    sink.fail("vtk: the run of '%s' has no frames, %s", run.name, run.none)
+  end
+  local place = core.kind(sink.folder(path))
+  if place ~= "folder" then
+    sink.fail("cannot write %s: %s", path, place and "Not a directory" or "No such file or directory")
+  end
   run = setmetatable({ obstacles = run.obstacles or {} }, { __index = solid.finite_run(run) })
   local folder_name = sink.base(path):sub(1, -5) .. ".vtk"
   local folder = sink.folder(path) .. "/" .. folder_name

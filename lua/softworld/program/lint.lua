@@ -1,12 +1,13 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- The command `softworld lint SCRIPT [ARGUMENTS]`: lets the script build its scenes without running
 -- anything, and prints what is probably not meant, with the line of the script that made it. Runs return a
--- placeholder that accepts every call. If the script needs a number from the placeholder it ends there, and
--- lint says so.
+-- placeholder that accepts every call. If the script needs a number from the placeholder, or waits for one in
+-- a loop, it ends there, and lint says so.
 -- @module softworld.program.lint
 local advise = require "softworld.model.advise"
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
+local nothing = require "softworld.program.nothing"
 local place = require "softworld.place"
 local remarks = require "softworld.remarks"
 local vec = require "softworld.vec"
@@ -30,25 +31,9 @@ local function tell(at, text)
   found[#found + 1] = { at = at, text = text, line = tonumber(at:match ":(%d+)$") or 0, number = #found }
 end
 
--- --- a run that was not made -----------------------------------------------------------------
+local itself = nothing.itself
 
-local Nothing = {}
-local nothing = setmetatable({}, Nothing)
-Nothing.__name = "result of a run that lint leaves out"
-local used = false -- true once a run was left out
-local function itself()
-  used = true
-  return nothing
-end
-for _, event in ipairs { "add", "sub", "mul", "div", "mod", "pow", "unm", "idiv", "index", "call",
-  "concat" } do
-  Nothing["__" .. event] = itself
-end
-function Nothing.__lt() return false end
-function Nothing.__le() return true end
-function Nothing.__len() return 0 end
-function Nothing.__newindex() end
-function Nothing.__tostring() return "?" end
+local SCENES = 500 -- most scenes whose runs are left out; a loop that makes more waits for a result
 
 -- --- what scenes are made of -------------------------------------------------------------------
 
@@ -220,24 +205,43 @@ end
 
 -- --- the script -----------------------------------------------------------------------------------
 
--- Replaces runs by the placeholder. At a run the scene is checked, since lint cannot follow it further.
+local left = 0 -- scenes that were to be run
+
+-- Checks a scene that is to be run, since lint cannot follow it further.
+local function leave_scene(record)
+  if not record.left then left = left + 1 end
+  record.left = true
+  check_scene(record)
+end
+
+-- Replaces runs by the placeholder.
 local function leave_out(class)
   for _, name in ipairs { "run", "settle", "advance", "resume" } do
     class[name] = function(scene)
-      used = true
-      if core.type(scene) == "scene" then pcall(check_scene, record_of(scene)) end
-      return nothing
+      nothing.use()
+      if core.type(scene) == "scene" then pcall(leave_scene, record_of(scene)) end
+      if left > SCENES then
+        nothing.stop(("a loop seems to wait for the result of a run; it ran %d scenes"):format(SCENES))
+      end
+      return nothing.it
     end
   end
   core.class.wire.frequencies = itself
-  for _, name in ipairs { "picture", "save", "script" } do class[name] = itself end
+  for _, name in ipairs { "picture", "save", "script", "view" } do class[name] = itself end
 end
 
 -- Evaluates nothing, but lets setup build its scene.
 local function study_of(args)
-  used = true
+  nothing.use()
   if type(args) == "table" and type(args.setup) == "function" then args.setup() end
-  return nothing
+  return nothing.it
+end
+
+-- Reads the measurements, but computes no wires for them: these are not the script's.
+local function calibration_of(args)
+  require("softworld.calibration.calibration").check(args)
+  nothing.use()
+  return nothing.it
 end
 
 local function prepare()
@@ -245,13 +249,16 @@ local function prepare()
   follow_scenes(core.class.scene)
   leave_out(core.class.scene)
   for _, name in ipairs { "report", "plot", "calibrate" } do rawset(sw, name, itself) end
-  rawset(sw, "tune", nothing)
+  rawset(sw, "tune", nothing.it)
   rawset(sw, "study", study_of)
+  rawset(sw, "calibration", calibration_of)
   function remarks.write(at, text) tell(at, text) end
   local early = remarks.early
-  function remarks.early(what) return not used and early(what) end -- runs that were left out count as run
+  -- Runs that were left out count as run.
+  function remarks.early(what) return not nothing.used and early(what) end
   rawset(_G, "print", function() end)
-  rawset(os, "exit", function() error(nothing, 0) end)
+  rawset(_G, "ipairs", nothing.ipairs)
+  rawset(os, "exit", function() error(nothing.it, 0) end)
 end
 
 -- Runs the script. Returns nil, or the error that stopped it.
@@ -259,9 +266,9 @@ local function go(path, ...)
   local chunk, why = loadfile(path, "t")
   if not chunk then return why end
   local fine, problem = xpcall(chunk, function(e)
-    return type(e) == "string" and e or e == nothing and nothing or tostring(e)
+    return type(e) == "string" and e or e == nothing.it and e or tostring(e)
   end, ...)
-  if fine or problem == nothing then return nil end
+  if fine or problem == nothing.it then return nil end
   return problem
 end
 
@@ -275,7 +282,7 @@ local function report(path, problem)
     return a.number < b.number
   end)
   for _, f in ipairs(found) do io.write(f.at, ": ", f.text, "\n") end
-  local stopped = problem and used -- it may only have needed a number from a run
+  local stopped = problem and nothing.used -- it may only have needed a number from a run
   if stopped then
     io.write(("%s: looked at as far as here, since runs were left out (%s)\n"):format(
       problem:match "^([^\n]-:%d+):" or path, (problem:gsub("^[^\n]-:%d+: ", ""):gsub("\n.*", ""))))
@@ -300,10 +307,17 @@ function lint.run(path, ...)
   end
   local write = io.stdout
   arg = { [0] = path, ... } -- luacheck: globals arg
+  local exit = os.exit
   prepare()
+  function nothing.give_up(why)
+    io.output(write)
+    exit(report(path, ("%s: %s"):format(place.of_caller() or path, why)))
+  end
   local problem = go(path, ...)
   io.output(write)
-  return report(path, problem)
+  local code = report(path, problem)
+  if problem and problem:find "interrupted$" then error(problem, 0) end -- Ctrl-C: the program ends so
+  return code
 end
 
 return lint.run

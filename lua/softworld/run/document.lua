@@ -52,12 +52,18 @@ local function draw(self, doc, wires, numbers)
   add_fixings(self.scene, doc)
 end
 
+-- Returns why a run has no frames, if it has none.
+local function why_none(self)
+  if self.steps == 0 then return "because it has no step: 0 s have passed" end
+  return "because it was made with frames = false, or its scene has forgotten them"
+end
+
 -- Returns a run's data except its frames.
 local function outline(self)
   local doc = { name = self.name, ok = self.ok, reason = self.reason, time = self.time,
     events = self.events,
     steps = self.steps, wall = self.wall, cpu = self.cpu, gravity = self.scene:gravity(),
-    wires = {}, obstacles = {}, grips = {}, clamps = {}, frames = {} }
+    wires = {}, obstacles = {}, grips = {}, clamps = {}, frames = {}, none = why_none(self) }
   if not self.ok then return doc end
   doc.series, doc.summary = self:series(), kept.rows(self) or summary.of(self)
   local unmet = trust.unmet(self)
@@ -112,7 +118,7 @@ end
 function runfiles.moments(self, numbers)
   readable(self, "frames", true)
   local doc = { name = self.name, ok = self.ok, reason = self.reason, time = self.time,
-    gravity = self.scene:gravity(), frames = {}, seen = {} }
+    gravity = self.scene:gravity(), frames = {}, seen = {}, none = why_none(self) }
   draw(self, doc, self.ok and document.wires(self.scene) or self.drawn, numbers)
   drawn.add_particles(self.scene, doc)
   return doc

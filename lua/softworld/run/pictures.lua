@@ -246,8 +246,7 @@ end)
 local function exchanged(self, numbers)
   local doc = runfiles.moments(self, numbers)
   if #doc.frames == 0 then
-    error(("the run of '%s' has no frames; it was made with frames = false, or its scene has dropped them")
-      :format(self.name), 0)
+    error(("the run of '%s' has no frames, %s"):format(self.name, doc.none), 0)
   end
   doc = solid.finite_run(doc)
   for _, kind in ipairs { "wires", "particles" } do

@@ -123,13 +123,18 @@ local function check_file(what, file)
   end
 end
 
+-- Refuses to save during a run; seen: true in an observer's function.
+local function refuse(scene, seen)
+  error(("scene:save: a run of scene '%s' is under way, and a scene can be saved only between runs: call it "
+    .. "after scene:run has returned%s; scene:run{ save = 'file' } writes the scene after every step "
+    .. "(process:step) of its processes"):format(scene.name, seen and ". To save the state of this moment, "
+    .. "take a scene:snapshot() here, and scene:restore it after the run" or ""), 0)
+end
+
 local function save_now(scene, file)
   check_file("scene:save", file)
   local data = build.data(scene)
-  if data.running then
-    error(("scene:save: a run of scene '%s' is under way; scene:run{ save = 'file' } writes the scene "
-      .. "after every step of its processes"):format(scene.name), 0)
-  end
+  if data.running then refuse(scene, false) end
   check_processes(scene)
   data.origin = save.origin(scene)
   return save.write(scene, file, data.going)
@@ -137,6 +142,10 @@ end
 
 --- scene:save(file): writes the whole state of the scene, for scene:resume and sw.load.
 function class.scene.save(scene, file)
+  if core.type(scene) == "scene" then
+    local busy, seen = core.busy(scene)
+    if busy then build.call(3, refuse, scene, seen) end
+  end
   build.check(scene, "scene:save", 3)
   unread.used(build.data(scene))
   return build.call(3, save_now, scene, file)

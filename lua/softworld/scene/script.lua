@@ -9,6 +9,7 @@
 -- @module softworld.scene.script
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
+local cable = require "softworld.cable"
 local literal = require "softworld.scene.literal"
 local record = require "softworld.scene.record"
 local rows = require "softworld.rows"
@@ -67,7 +68,7 @@ local function name_of(object)
   return fine and type(name) == "string" and name or nil
 end
 
-local taken_words = { scene = true, sw = true, made = true }
+local taken_words = { scene = true, sw = true, made = true, cables = true }
 
 -- Returns a name for a local variable, from the object's name.
 local function word_for(object, call, words)
@@ -85,11 +86,34 @@ end
 
 -- --- text -------------------------------------------------------------------------------------
 
-local function of_cable(entry, path)
-  local fine, known = pcall(require "softworld.cable".get, entry.name)
-  if fine and rawequal(known, entry) then return ("sw.cable %q"):format(entry.name) end
-  error(("%s is the cable '%s', which is not in the catalogue; sw.cable.define, or define of a calibration, "
-    .. "puts it there"):format(path, entry.name), 0)
+-- Returns the source of a cable: its name, or a variable that the head of the text defines. cables: the lines
+-- of the definitions, and by entry the variables.
+local function of_cable(entry, path, cables)
+  if cables[entry] then return cables[entry] end
+  local fine, given = pcall(cable.source, entry)
+  if not fine then
+    error(("%s is the cable '%s', and %s; make it with sw.cable.define"):format(path, entry.name, given), 0)
+  end
+  if not given then return ("sw.cable %q"):format(entry.name) end
+  cables[entry] = ("cables[%d]"):format(#cables + 1)
+  local text = literal.of(given, function()
+    error(("%s is the cable '%s', whose fields cannot be written as Lua"):format(path, entry.name), 0)
+  end, "cable", "")
+  cables[#cables + 1] = ("%s = sw.cable.read %s"):format(cables[entry], text)
+  return cables[entry]
+end
+
+-- Returns arguments in which a cable that a script has put into the catalogue is not named, but given.
+local function with_cables(args)
+  local name = type(args[1]) == "table" and getmetatable(args[1]) == nil and args[1].cable
+  local fine, entry = pcall(cable.get, type(name) == "string" and name or nil)
+  if not fine or not select(2, pcall(cable.source, entry)) then return args end
+  local first = {}
+  for key, value in next, args[1] do first[key] = value end
+  first.cable = entry
+  local list = table.move(args, 1, args.n, 1, { n = args.n })
+  list[1] = first
+  return list
 end
 
 local function is_cable(value)
@@ -108,14 +132,14 @@ local function call_text(self, method, args, object, path)
 end
 
 -- Returns a function that gives the source of an object: the variable it was given, or a call.
-local function namer(scene, words)
+local function namer(scene, words, cables)
   local function object(value, path)
     if rawequal(value, scene) then return "scene" end
     if words[value] then return words[value] end
     local of = record.trajectory(value)
     if of and of.self then return call_text(object(of.self, path), of.method, of.args, object, path) end
     if of then return "sw.trajectory " .. literal.of(of.args[1], object, path) end
-    if is_cable(value) then return of_cable(value, path) end
+    if is_cable(value) then return of_cable(value, path, cables) end
     if value == record.a_function then
       error(path .. " is a Lua function, which cannot be written as Lua", 0)
     end
@@ -128,7 +152,8 @@ end
 local function line_of(call, k, list, words, object)
   local self = object(call.self, call.method)
   local kind = core.type(call.self) or (getmetatable(call.self) or {}).__name
-  local text = call_text(self, call.method, call.args, object, ("%s:%s"):format(kind, call.method))
+  local args = with_cables(call.args)
+  local text = call_text(self, call.method, args, object, ("%s:%s"):format(kind, call.method))
   if not list[k] then return text end
   local result = call.results[1]
   local word = words.of[k]
@@ -187,10 +212,12 @@ local function text_of(scene)
       .. "recorded"):format(scene.name,
       #log + log.missed, #log), 0)
   end
-  local lines, list = head(scene), needed(log, makers(log))
+  local lines, list, cables = head(scene), needed(log, makers(log)), {}
   local words, many = words_of(log, list)
   if many then lines[#lines + 1] = "local made = {}" end
-  body(log, lines, list, words, namer(scene, words))
+  local place = #lines + 1
+  body(log, lines, list, words, namer(scene, words, cables))
+  if #cables > 0 then table.insert(lines, place, "local cables = {}\n" .. table.concat(cables, "\n")) end
   if build.data(scene).process_count then
     lines[#lines + 1] = "\n-- The steps of its processes are Lua functions, which are not written."
   end
