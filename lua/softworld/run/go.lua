@@ -119,7 +119,7 @@ local function begin(scene, args)
   if not data.going then build.call(3, core.begin_run, scene, args.wear) end -- else the file's run goes on
   told.begin(scene)
   data.going = nil
-  observe.begin(scene, args)
+  observe.begin(scene, args, total.start)
   total.drawn = document.wires(scene)
   if not going then released.begin(data, total.start) end -- else the file has what was released
   return data, total

@@ -181,7 +181,8 @@ local function check_steps(data)
     expect(math.type(number) == "integer" and is_list(done), "steps")
     for _, step in ipairs(done) do
       expect(is_list(step) and type(step.name) == "string" and is_list(step.results)
-        and math.type(step.count) == "integer" and step.count >= 0 and step.count < 1000, "steps")
+        and math.type(step.count) == "integer" and step.count >= 0 and step.count < 1000
+        and type(step.from) == "number" and type(step.to) == "number", "steps")
     end
   end
 end
