@@ -22,6 +22,7 @@ local tables = require "softworld.rows"
 local runfiles = require "softworld.run.files"
 local save = require "softworld.scene.save"
 local sealed = require "softworld.sealed"
+local settings = require "softworld.run.settings"
 local series = require "softworld.run.series"
 local summary = require "softworld.run.summary"
 local trust = require "softworld.run.trust"
@@ -98,6 +99,7 @@ local function check_start(scene, args)
   if #data.wires + #data.particles + #data.processes == 0 and not data.going then -- a process may make some
     error(("scene '%s': there is no wire"):format(scene.name), 0)
   end
+  if data.going then settings.check(data.going.settings, args, data.from_file) end
   cliproom.check(scene)
 end
 
@@ -160,7 +162,7 @@ function core.class.scene.run(scene, args)
   end
   build.call(3, core.check_run, args)
   if not args.quasistatic then remarks.on("run", "scene:run", args) end
-  if args.resume ~= nil then build.call(3, save.resume, scene, args.resume) end
+  if args.resume ~= nil then build.call(3, save.resume, scene, args.resume, args) end
   build.call(3, check_start, scene, args)
   return hide_failure(run_once(scene, args))
 end
