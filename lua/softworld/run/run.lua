@@ -8,6 +8,7 @@ local choose = require "softworld.model.choose"
 local cliproom = require "softworld.link.cliproom"
 local document = require "softworld.run.document"
 local go = require "softworld.run.go"
+local inherited = require "softworld.inherited"
 local kept = require "softworld.run.kept"
 local ledger = require "softworld.run.ledger"
 local outs = require "softworld.link.outs"
@@ -147,9 +148,7 @@ function core.class.scene.run(scene, args)
     if checks.kind(args) ~= "table" then
       error("scene:run takes one table of parameters, got " .. checks.kind(args), 2)
     end
-    local own = {} -- only the table's own fields, nothing from metamethods
-    for key, value in next, args do own[key] = value end
-    args = own
+    args = build.call(3, inherited.copy, args, "run", "scene:run")
     build.call(3, check_files, scene, args)
     build.call(3, check_frames, args)
   end
