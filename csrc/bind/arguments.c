@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "bind/class.h"
+#include "bind/inherited.h"
 
 static int unknown_key(lua_State *L, const char *object, const lsw_section *sections, int count,
                        const char *key) {
@@ -124,22 +125,61 @@ static void read_value(lua_State *L, const char *object, const sw_param *row, vo
   }
 }
 
-static void read_key(lua_State *L, const char *object, const lsw_section *sections, int count) {
-  const int top = lua_gettop(L);
+/* Returns the section that has a row of the key at -2, and the row; raises if there is none. */
+static const lsw_section *find_key(lua_State *L, const char *object, const lsw_section *sections,
+                                   int count, const sw_param **row) {
   if (lua_type(L, -2) != LUA_TSTRING) {
     const int plain = lua_type(L, -2) == LUA_TNUMBER || lua_type(L, -2) == LUA_TBOOLEAN;
     const char *shown = plain ? luaL_tolstring(L, -2, NULL) : lsw_describe(L, -2);
     luaL_error(L, "%s: parameters have names; [%s] is not a name", object, shown);
   }
   const char *key = lua_tostring(L, -2);
-  for (int k = 0; k < count; k++) {
-    const sw_param *row = sw_params_find(sections[k].params, key);
-    if (!row) continue;
-    read_value(L, object, row, sections[k].args);
-    lua_settop(L, top);
-    return;
-  }
+  for (int k = 0; k < count; k++)
+    if ((*row = sw_params_find(sections[k].params, key)) != NULL) return &sections[k];
   unknown_key(L, object, sections, count, key);
+  return NULL;
+}
+
+static void read_key(lua_State *L, const char *object, const lsw_section *sections, int count) {
+  const int top = lua_gettop(L);
+  const sw_param *row = NULL;
+  const lsw_section *section = find_key(L, object, sections, count, &row);
+  read_value(L, object, row, section->args);
+  lua_settop(L, top);
+}
+
+/* Reads one parameter that the table at the absolute index inherits. A function that gives it is
+ * refused, because other names that it gives cannot be checked. */
+static void read_base(lua_State *L, int index, const char *object, const sw_param *row,
+                      void *args) {
+  const int top = lua_gettop(L);
+  if (row->type == SW_PARAM_OTHER) return; /* the binding reads it */
+  lua_pushstring(L, row->name);
+  const int own = lua_rawget(L, index) != LUA_TNIL;
+  if (!own && lsw_inherited(L, index, row->name))
+    read_value(L, object, row, args);
+  else if (!own && lsw_gives(L, index, row->name))
+    luaL_error(L,
+               "%s: %s comes from a function, the __index of a metatable; write it into the table, "
+               "or into one that it inherits from",
+               object, row->name);
+  lua_settop(L, top);
+}
+
+/* Reads the parameters that the table at the absolute index inherits. Unknown ones raise, too. */
+static void read_inherited(lua_State *L, int index, const char *object, const lsw_section *sections,
+                           int count) {
+  const int top = lua_gettop(L);
+  const sw_param *row = NULL;
+  if (!lsw_inherits(L, index)) return;
+  for (int k = 0; k < count; k++)
+    for (size_t i = 0; i < sections[k].params->count; i++)
+      read_base(L, index, object, &sections[k].params->rows[i], sections[k].args);
+  lua_pushvalue(L, index);
+  for (int n = 0; n < LSW_LONGEST_CHAIN && lsw_base(L); n++)
+    for (lua_pushnil(L); lua_next(L, -2); lua_pop(L, 1))
+      if (lsw_is_field(L)) find_key(L, object, sections, count, &row);
+  lua_settop(L, top);
 }
 
 static void require_keys(lua_State *L, int index, const char *object, const sw_params *params) {
@@ -165,6 +205,7 @@ void lsw_sections(lua_State *L, int index, const char *object, const lsw_section
       read_key(L, object, sections, count);
       lua_pop(L, 1);
     }
+    read_inherited(L, index, object, sections, count);
   }
   for (int k = 0; k < count; k++) require_keys(L, index, object, sections[k].params);
 }
@@ -192,8 +233,19 @@ static int refuse_change(lua_State *L, const char *object, const sw_params *para
                     object, name, lua_tostring(L, -1));
 }
 
+/* Refuses inherited parameters that cannot be changed. */
+static void refuse_inherited(lua_State *L, int index, const char *object, const sw_params *params) {
+  if (!lsw_inherits(L, index)) return;
+  for (size_t i = 0; i < params->count; i++) {
+    const sw_param *row = &params->rows[i];
+    if (row->flags & SW_PARAM_CHANGES || !lsw_inherited(L, index, row->name)) continue;
+    refuse_change(L, object, params, row->name);
+  }
+}
+
 void lsw_changes(lua_State *L, int index, const char *object, const sw_params *params, void *args) {
   const lsw_section one = {params, args};
+  index = lua_absindex(L, index);
   if (!lua_istable(L, index))
     luaL_error(L, "%s takes one table of parameters, got %s", object, lsw_describe(L, index));
   lua_pushnil(L);
@@ -204,6 +256,8 @@ void lsw_changes(lua_State *L, int index, const char *object, const sw_params *p
     read_key(L, object, &one, 1);
     lua_pop(L, 1);
   }
+  refuse_inherited(L, index, object, params);
+  read_inherited(L, index, object, &one, 1);
 }
 
 static void push_number(lua_State *L, const char *place) {

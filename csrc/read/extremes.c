@@ -254,6 +254,7 @@ static void keep_tension(sw_scene *s, size_t w, const sw_wire_extremes *now) {
   const sw_body *b = &sw_scene_system(s)->bodies[w];
   const double *T = step_tension(s, b);
   sw_extreme step = now->tension;
+  course->means = mean_tension(s, b) != NULL;
   if (T) largest_tension(b, T, &step), step.time = sw_scene_time(s);
   if (step.value > kept->raw.value) kept->raw = step, kept->raw_span = course->span;
   if (!sw_scene_is_averaged(s)) keep_largest(&kept->tension, &step);
@@ -267,9 +268,10 @@ static void keep_tension(sw_scene *s, size_t w, const sw_wire_extremes *now) {
 void sw_scene_run_tension(const sw_scene *s, size_t w, const sw_wire_extremes *now,
                           sw_wire_extremes *run) {
   const sw_window *window = &sw_scene_wire_in(s, w)->window;
-  const int counted = isfinite(run->raw.value) && mean_tension(s, &sw_scene_system(s)->bodies[w]);
+  const sw_course *course = sw_scene_course(s); /* its stepper may be new: of a file, or edited */
+  const int counted = isfinite(run->raw.value) && course->span > 0 && course->means;
   if (!counted && now->tension.value > run->raw.value)
-    run->raw = now->tension, run->raw_span = sw_scene_course(s)->span;
+    run->raw = now->tension, run->raw_span = course->span;
   const int fits = window->marks && window->edges == watched_edges(&sw_scene_system(s)->bodies[w]);
   const int missing = !isfinite(run->tension.value); /* the record is shorter than the window */
   if (!fits && (missing || !counted))

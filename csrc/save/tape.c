@@ -41,7 +41,7 @@ static size_t tape_list(sw_tape *t, void *list_pointer, size_t *count, size_t *c
   } while (0)
 
 static void tape_numbers(sw_tape *t, sw_scene *s) {
-  SW_TAPE_STRUCT(t, sw_scene, 3376);
+  SW_TAPE_STRUCT(t, sw_scene, 3384);
   sw_tape_name(t, s->name);
   sw_tape_uint32(t, &s->serial);
   sw_tape_vec(t, &s->gravity);
@@ -57,7 +57,7 @@ static void tape_numbers(sw_tape *t, sw_scene *s) {
                      !isnan(s->course.blow_since) && !isnan(s->course.blow_until) &&
                      s->course.part >= 0 && s->course.part <= 1e9 && !isnan(s->course.stop_until),
                  "a blow");
-  sw_tape_int(t, &s->course.next);
+  sw_tape_int(t, &s->course.next), sw_tape_int(t, &s->course.means);
   sw_tape_extreme(t, &s->deepest);
   sw_tape_int(t, &s->wears);
 }

@@ -22,6 +22,7 @@ typedef struct sw_course {
   sw_stepper stepper;
   double window; /* of the present or last run, see sw_run_args [s] */
   double span;   /* size of the last step; 0: the state is an equilibrium [s] */
+  int means;     /* 1: the last step gave its mean tensions, which the raw peaks count */
   /* A blow that began at blow_since, or a bundle that converges badly, is followed in parts
    * (substeps) of blow_part until blow_until [s]. */
   double blow_part, blow_since, blow_until;

@@ -3,6 +3,7 @@
 -- function that calls the check.
 -- @module softworld.checks
 local core = require "softworld.core"
+local inherited = require "softworld.inherited"
 
 local checks = {}
 
@@ -54,12 +55,14 @@ function checks.kind(value)
   return type(name) == "string" and name or core.type(value) or type(value)
 end
 
---- Raises an error unless args is a table whose keys are all known.
+--- Raises an error unless args is a table whose keys are all known, also those that it inherits.
 function checks.keys(what, args, known, level)
   if checks.kind(args) ~= "table" then
     error(("%s takes one table of parameters, got %s"):format(what, checks.kind(args)), level)
   end
-  for key in pairs(args) do
+  local fine, flat = pcall(inherited.flat, args, known, what)
+  if not fine then error(flat, level) end
+  for key in pairs(flat) do
     if not known[key] then
       local names = names_of(known)
       local near = core.nearest(shown(key), names)

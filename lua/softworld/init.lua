@@ -13,6 +13,7 @@
 -- @module softworld
 local checks = require "softworld.checks"
 local core = require "softworld.core"
+local inherited = require "softworld.inherited"
 local build = require "softworld.scene.build" -- adds to the classes: names, files, drawing data
 local methods = require "softworld.methods"
 local record = require "softworld.scene.record" -- of calls, for scene:script and scene:describe
@@ -50,6 +51,7 @@ local save = require "softworld.scene.save" -- scene:save, scene:resume
 --- Returns a new scene. Parameters: { name =, gravity = {x, y, z} [m/s2] }
 function sw.scene(args)
   if type(args) == "table" then remarks.gravity(rawget(args, "gravity")) end
+  args = inherited.flat(args)
   local scene = build.call(3, core.scene, args)
   record.begin(scene, args)
   return scene

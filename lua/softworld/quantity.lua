@@ -6,6 +6,7 @@ local blame = require "softworld.scene.blame"
 local checks = require "softworld.checks"
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
+local inherited = require "softworld.inherited"
 local reading = require "softworld.run.reading"
 local window = require "softworld.run.window"
 
@@ -209,7 +210,7 @@ local function own(scene, what, number, given)
     error(("%s must be a table { name =, value =, unit =, of = function }, got %s"):format(label,
       checks.kind(given)), 0)
   end
-  for key, value in pairs(given) do
+  for key, value in pairs(inherited.flat(given, own_keys)) do
     if not own_keys[key] then
       local near = core.nearest(checks.shown(key), own_names)
       error(("%s: there is no parameter '%s'; %s"):format(label, checks.shown(key), near
@@ -240,7 +241,7 @@ end
 function quantity.list(scene, tolerance, what)
   local found, names = directory(scene)
   local list, taken, words = {}, {}, {}
-  for key, value in pairs(tolerance) do
+  for key, value in pairs(inherited.flat(tolerance)) do
     if type(key) == "string" then
       words[#words + 1] = key
     elseif math.type(key) ~= "integer" or key < 1 or key > #tolerance then

@@ -19,6 +19,7 @@
 -- @module softworld.rows
 local core = require "softworld.core"
 local checks = require "softworld.checks"
+local inherited = require "softworld.inherited"
 
 local rows = {
   all = {},     -- name -> Call
@@ -157,12 +158,15 @@ local function names_of(self)
   return names
 end
 
---- Checks names and values of the arguments and returns a copy with defaults. what: the owner in the message
+--- Checks names and values of the arguments, also of those that they inherit, and returns a copy with
+-- defaults. what: the owner in the message
 -- about an unknown name, default the call's name; prefix: text before a name in other messages.
 function Call:read(args, what, prefix)
   what = what or self.name
   prefix = prefix or what .. ": "
-  checks.keys(what, args, names_of(self), 0)
+  local names = names_of(self)
+  checks.keys(what, args, names, 0)
+  args = inherited.flat(args, names)
   local copy = {}
   for key, value in pairs(args) do copy[key] = value end
   for _, row in ipairs(self.rows) do

@@ -40,6 +40,7 @@ local readers = {
     end
     add(all, { wire:min_bend_radius() })
     add(all, { wire:max_tension() })
+    add(all, { wire:max_tension{ raw = true } })
   end,
   particles = function(all, object)
     add(all, (object:positions()))

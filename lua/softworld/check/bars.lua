@@ -4,6 +4,7 @@
 -- @module softworld.check.bars
 local check = require "softworld.check.check"
 local checks = require "softworld.checks"
+local inherited = require "softworld.inherited"
 local registry = require "softworld.check.registry"
 
 local bars = {}
@@ -68,8 +69,7 @@ function bars.take(job, args)
     error("scene:run: check must be a table of what run:check takes, such as { use = 'movement' }, got "
       .. checks.got(given), 0)
   end
-  job.check = {}
-  for key, value in pairs(given) do job.check[key] = value end
+  job.check = inherited.copy(given)
   check.early(job.scene, job.check)
   if args.wear == nil and wears(job.check) then args.wear = true end
   local taken, rows = {}, {}

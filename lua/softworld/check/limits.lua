@@ -4,6 +4,7 @@
 -- @module softworld.check.limits
 local core = require "softworld.core"
 local checks = require "softworld.checks"
+local inherited = require "softworld.inherited"
 local registry = require "softworld.check.registry"
 local rows = require "softworld.rows"
 
@@ -108,7 +109,7 @@ function limits.read(given, context)
   end
   local names, known = names_of(context)
   local list = {}
-  for name, value in pairs(given) do
+  for name, value in pairs(inherited.flat(given)) do
     if not known[name] then
       error(("run:check: limits: there is no check '%s'; %s"):format(checks.shown(name),
         type(name) == "string" and meant(name, names, known) or "known are: " .. table.concat(names, " ")), 0)

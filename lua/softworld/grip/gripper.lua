@@ -19,6 +19,7 @@ local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local grasp = require "softworld.grip.grasp"
+local inherited = require "softworld.inherited"
 local reactions = require "softworld.grip.reactions"
 local stand = require "softworld.grip.stand"
 local gripmoves = require "softworld.grip.moves"
@@ -194,7 +195,7 @@ local rotate = rows.call("gripper:rotate", "{...}", "turns the tool about its ce
 function Gripper:rotate(args)
   rotate:read(args)
   local t = {}
-  for k, v in pairs(args) do t[k] = v end
+  for k, v in pairs(inherited.flat(args)) do t[k] = v end
   t.turn, t.axis, t.angle = { axis = args.axis, angle = args.angle }, nil, nil
   return self:move(t)
 end

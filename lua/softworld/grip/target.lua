@@ -4,6 +4,7 @@
 -- @module softworld.grip.target
 local build = require "softworld.scene.build"
 local core = require "softworld.core"
+local inherited = require "softworld.inherited"
 local trajectory = require "softworld.trajectory"
 
 local target = {}
@@ -51,7 +52,7 @@ end
 -- Returns the trajectory's table for a move from the present pose.
 local function table_of(args, here, facing)
   local t = {}
-  for k, v in pairs(args) do
+  for k, v in pairs(inherited.flat(args)) do
     if not own_keys[k] then t[k] = v end
   end
   here.rotation = facing

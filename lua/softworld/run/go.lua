@@ -15,6 +15,7 @@ local progress = require "softworld.output.progress"
 local reactions = require "softworld.grip.reactions"
 local released = require "softworld.check.released"
 local save = require "softworld.scene.save"
+local settings = require "softworld.run.settings"
 local tables = require "softworld.rows"
 local told = require "softworld.run.told"
 local waiting = require "softworld.run.waiting"
@@ -119,7 +120,10 @@ local function begin(scene, args)
   if not data.going then build.call(3, core.begin_run, scene, args.wear) end -- else the file's run goes on
   told.begin(scene)
   data.going = nil
-  observe.begin(scene, args)
+  local now = settings.of(args)
+  if going then settings.tell(scene, total.settings, now, data.from_file) end
+  total.settings = now
+  observe.begin(scene, args, total.start)
   total.drawn = document.wires(scene)
   if not going then released.begin(data, total.start) end -- else the file has what was released
   return data, total

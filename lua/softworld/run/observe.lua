@@ -9,6 +9,7 @@ local checks = require "softworld.checks"
 local counted = require "softworld.output.number".count
 local methods = require "softworld.methods"
 local place = require "softworld.place"
+local process = require "softworld.run.process"
 local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
 local unread = require "softworld.unread"
@@ -76,18 +77,28 @@ local function set_next(own, now)
   own.at_wall = own.wall and core.clock() + own.wall or math.huge
 end
 
--- soon: calls it after the first step in any case.
-local function begin(own, now)
-  own.from = now
-  own.at = (own.each or own.soon) and -math.huge or own.every and now + own.every
-    or own.wall and math.huge or -math.huge
-  own.at_wall = own.wall and core.clock() + own.wall or math.huge
-end
-
 local SAME_TIME = 1e-12 -- of the time: the core's own rounding [-]
 
-local function is_due(own, now)
-  return now >= own.at - SAME_TIME * math.max(1, math.abs(now)) or core.clock() >= own.at_wall
+local function is_past(at, now) return now >= at - SAME_TIME * math.max(1, math.abs(now)) end
+
+local function is_due(own, now) return is_past(own.at, now) or core.clock() >= own.at_wall end
+
+-- Returns the first time after now. from: the clock's start; before now in a run that goes on from a file,
+-- where the calls up to now were made before the file was written.
+local function first_time(from, every, now)
+  local count = math.max(1, math.floor((now - from) / every))
+  for _ = 1, 2 do -- the quotient is rounded
+    if is_past(from + count * every, now) then count = count + 1 end
+  end
+  return from + count * every
+end
+
+-- soon: calls it after the first step in any case.
+local function begin(own, from, now)
+  own.from = from
+  own.at = (own.each or own.soon) and -math.huge or own.every and first_time(from, own.every, now)
+    or own.wall and math.huge or -math.huge
+  own.at_wall = own.wall and core.clock() + own.wall or math.huge
 end
 
 -- --- in a run -----------------------------------------------------------------------------------
@@ -102,6 +113,7 @@ end
 -- Keeps in mind an observer that no run was long enough for, until one is.
 local function note_uncalled(scene, own)
   if own.calls > 0 or own.note or not own.every or scene.time <= own.from then return end
+  if is_past(own.from + own.every, scene.time) then return end -- called before the run's file was written
   own.note = unread.note(("softworld: note: the observer%s was never called: every = %g s is longer than the "
     .. "run of '%s', %.4g s"):format(own.at_line and " at " .. own.at_line or "", own.every, scene.name,
     scene.time - own.from))
@@ -113,13 +125,14 @@ function observe.finish(scene, ok, reason)
   for _, observer in ipairs(list_of(scene)) do note_uncalled(scene, fields(observer)) end
 end
 
---- Called at the start of a run: times are counted from here.
-function observe.begin(scene, args)
+--- Called at the start of a run. start: times are counted from here; a run that goes on from a file began
+-- before [s].
+function observe.begin(scene, args, start)
   tell("begin", scene, args)
   for _, observer in ipairs(list_of(scene)) do
     local own = fields(observer)
     own.wants, own.reason = nil, nil
-    begin(own, scene.time)
+    begin(own, start, scene.time)
   end
 end
 
@@ -168,7 +181,7 @@ end
 local function make(scene, args)
   local own = new:read(args)
   own.scene, own.calls, own.at_line = scene, 0, place.of_caller()
-  begin(own, scene.time)
+  begin(own, process.moment(scene), scene.time)
   local list = list_of(scene)
   list[#list + 1] = sealed.new(Observer, own)
   return list[#list]

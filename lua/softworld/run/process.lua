@@ -100,6 +100,16 @@ function process.done(self)
   return data.done[self.number]
 end
 
+--- Returns the time at which the script came to the place where it is now [s]: while a process leaves out the
+-- steps of a file, the time of that place in the run that wrote the file.
+function process.moment(scene)
+  local self = process.current()
+  if not self or self.scene ~= scene or self.inside or self.moves > 1 then return scene.time end
+  local done = process.done(self)
+  if self.steps == 0 then return done[1] and done[1].from or scene.time end
+  return done[self.steps] and done[self.steps].to or scene.time
+end
+
 --- Raises an error if steps are kept in a file and the running process is between two of them: a script that
 -- continues from the file would do it again.
 function process.guard(what)
@@ -253,12 +263,12 @@ function Process:step(name, work)
   self.steps = self.steps + 1
   if done[self.steps] then return recall(self, name, done[self.steps]) end
   self.inside = name
-  local stage = stages.begin(self.scene, self.number, name)
+  local stage, from = stages.begin(self.scene, self.number, name), self.scene.time
   local results = table.pack(work())
   self.inside, stage.to = nil, self.scene.time
   local count = results.n
   results.n = nil
-  done[self.steps] = { name = name, results = results, count = count }
+  done[self.steps] = { name = name, results = results, count = count, from = from, to = self.scene.time }
   self.between, self.wake = true, self.scene.time -- other steps that end now end first
   coroutine.yield()
   return table.unpack(results, 1, count)

@@ -8,6 +8,7 @@ local choose = require "softworld.model.choose"
 local cliproom = require "softworld.link.cliproom"
 local document = require "softworld.run.document"
 local go = require "softworld.run.go"
+local inherited = require "softworld.inherited"
 local kept = require "softworld.run.kept"
 local ledger = require "softworld.run.ledger"
 local outs = require "softworld.link.outs"
@@ -22,6 +23,7 @@ local tables = require "softworld.rows"
 local runfiles = require "softworld.run.files"
 local save = require "softworld.scene.save"
 local sealed = require "softworld.sealed"
+local settings = require "softworld.run.settings"
 local series = require "softworld.run.series"
 local summary = require "softworld.run.summary"
 local trust = require "softworld.run.trust"
@@ -98,6 +100,7 @@ local function check_start(scene, args)
   if #data.wires + #data.particles + #data.processes == 0 and not data.going then -- a process may make some
     error(("scene '%s': there is no wire"):format(scene.name), 0)
   end
+  if data.going then settings.check(data.going.settings, args, data.from_file) end
   cliproom.check(scene)
 end
 
@@ -145,9 +148,7 @@ function core.class.scene.run(scene, args)
     if checks.kind(args) ~= "table" then
       error("scene:run takes one table of parameters, got " .. checks.kind(args), 2)
     end
-    local own = {} -- only the table's own fields, nothing from metamethods
-    for key, value in next, args do own[key] = value end
-    args = own
+    args = build.call(3, inherited.copy, args, "run", "scene:run")
     build.call(3, check_files, scene, args)
     build.call(3, check_frames, args)
   end
@@ -160,7 +161,7 @@ function core.class.scene.run(scene, args)
   end
   build.call(3, core.check_run, args)
   if not args.quasistatic then remarks.on("run", "scene:run", args) end
-  if args.resume ~= nil then build.call(3, save.resume, scene, args.resume) end
+  if args.resume ~= nil then build.call(3, save.resume, scene, args.resume, args) end
   build.call(3, check_start, scene, args)
   return hide_failure(run_once(scene, args))
 end

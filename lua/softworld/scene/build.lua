@@ -6,6 +6,7 @@ local blame = require "softworld.scene.blame"
 local core = require "softworld.core"
 local cable = require "softworld.cable"
 local checks = require "softworld.checks"
+local inherited = require "softworld.inherited"
 local keep = require "softworld.scene.keep"
 local meshfile = require "softworld.meshfile"
 local remarks = require "softworld.remarks"
@@ -79,10 +80,8 @@ end
 
 local function table_of(args, what)
   if args == nil then return {} end
-  if type(args) ~= "table" then
-    error(("%s takes one table of parameters, got %s"):format(what, type(args)), 3)
-  end
-  return copy(args)
+  if type(args) == "table" then return build.call(4, inherited.copy, args, nil, what) end
+  error(("%s takes one table of parameters, got %s"):format(what, type(args)), 3)
 end
 
 -- Lists only grow, or are replaced by new ones.

@@ -6,6 +6,7 @@
 -- @module softworld.scene.record
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
+local inherited = require "softworld.inherited"
 local trajectory = require "softworld.trajectory"
 
 local record = {}
@@ -44,11 +45,13 @@ record.a_function = setmetatable({}, Function)
 -- table -> its copy, because tables may contain themselves.
 local function copied(value, seen, depth)
   if type(value) == "function" then return record.a_function end
-  if type(value) ~= "table" or getmetatable(value) ~= nil or depth > DEEPEST then return value end
+  if type(value) ~= "table" or depth > DEEPEST then return value end
+  local flat = inherited.flat(value)
+  if rawequal(flat, value) and getmetatable(value) ~= nil then return value end
   if seen[value] then return seen[value] end
   local copy = {}
   seen[value] = copy
-  for key, item in next, value do copy[key] = copied(item, seen, depth + 1) end
+  for key, item in next, flat do copy[key] = copied(item, seen, depth + 1) end
   return copy
 end
 

@@ -14,6 +14,7 @@ local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local keep = require "softworld.scene.keep"
 local process = require "softworld.run.process"
+local settings = require "softworld.run.settings"
 local turns = require "softworld.run.turns"
 local unread = require "softworld.unread"
 local sealed = require "softworld.sealed"
@@ -190,7 +191,8 @@ local function check_steps(data)
     expect(math.type(number) == "integer" and is_list(done), "steps")
     for _, step in ipairs(done) do
       expect(is_list(step) and type(step.name) == "string" and is_list(step.results)
-        and math.type(step.count) == "integer" and step.count >= 0 and step.count < 1000, "steps")
+        and math.type(step.count) == "integer" and step.count >= 0 and step.count < 1000
+        and type(step.from) == "number" and type(step.to) == "number", "steps")
     end
   end
 end
@@ -210,6 +212,7 @@ local function check_note(note)
   for k, value in ipairs(note.origin) do expect(k % 2 == 0 or type(value) == "string", "note") end
   expect(note.run == nil or is_list(note.run) and type(note.run.ok) == "boolean", "run")
   for _, name in ipairs(note.run and totals or {}) do expect(type(note.run[name]) == "number", "run") end
+  expect(note.run == nil or settings.fit(note.run.settings), "run")
 end
 
 local kinds = { wire = true, particles = true, clamp = true, obstacle = true, force = true, join = true,
@@ -309,8 +312,9 @@ local function is_there(file)
   return kind ~= nil
 end
 
---- Continues from a file; returns false if there is none.
-function save.resume(scene, file)
+--- Continues from a file; returns false if there is none. args: those of the run that goes on, if they are
+-- known.
+function save.resume(scene, file, args)
   check_file("scene:resume", file)
   check_before(scene)
   if not is_there(file) then return false end
@@ -318,6 +322,7 @@ function save.resume(scene, file)
   local text, note
   tell("scene:resume", file, function() text, note = note_from(bytes, scene) end)
   compare(scene, note, file)
+  if args and note.run then settings.check(note.run.settings, args, file) end
   tell("scene:resume", file, core.resume, scene, bytes)
   local data = build.data(scene)
   note = take(scene, text)
@@ -331,7 +336,7 @@ end
 -- the same script, to its state when the file was written.
 function class.scene.resume(scene, file)
   build.check(scene, "scene:resume", 3)
-  return build.call(3, save.resume, scene, file)
+  return build.call(3, save.resume, scene, file, nil)
 end
 
 local function load(file)

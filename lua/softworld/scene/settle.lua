@@ -3,6 +3,7 @@
 -- @module softworld.scene.settle
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
+local inherited = require "softworld.inherited"
 local kept = require "softworld.run.kept"
 local rest = require "softworld.scene.rest"
 local counted = require "softworld.output.number".count
@@ -24,8 +25,7 @@ local function settle(scene, args)
 end
 
 local function with_bars(scene, given)
-  local args = {}
-  for k, v in pairs(given) do args[k] = v end
+  local args = inherited.copy(given)
   local job = trust.job(scene, "scene:settle", args)
   local shown = args.progress
   if shown ~= nil and type(shown) ~= "boolean" then

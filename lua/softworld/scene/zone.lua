@@ -4,6 +4,7 @@
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
+local inherited = require "softworld.inherited"
 local meshfile = require "softworld.meshfile"
 local rows = require "softworld.rows"
 local solid = require "softworld.output.solid"
@@ -36,8 +37,7 @@ local function make(scene, args)
   if checks.kind(args) ~= "table" then
     error("scene:zone takes one table of parameters, got " .. checks.kind(args), 0)
   end
-  local own = {}
-  for key, value in pairs(args) do own[key] = value end
+  local own = inherited.copy(args)
   local name, shape, position, rotation, slot, within, turned = meshfile.make("zone", own.name, own,
     function(all) return core.zone(scene, all) end)
   local data = build.data(scene)

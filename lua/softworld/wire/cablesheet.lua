@@ -4,6 +4,7 @@
 -- @module softworld.wire.cablesheet
 local core = require "softworld.core"
 local checks = require "softworld.checks"
+local inherited = require "softworld.inherited"
 local bendrule = require "softworld.wire.bendrule"
 local lifecurve = require "softworld.wire.lifecurve"
 local material = require "softworld.wire.material"
@@ -55,7 +56,7 @@ local did_you_mean = sheet.did_you_mean
 local function check_keys(name, what, t, known)
   if checks.kind(t) ~= "table" then fail(name, "%s must be a table, got %s", what, checks.kind(t)) end
   local known_set = set(known)
-  for key in pairs(t) do
+  for key in pairs(inherited.flat(t, known_set)) do
     if not known_set[key] then
       fail(name, "%s has no field '%s'; %s", what, checks.shown(key), did_you_mean(key, known))
     end

@@ -41,6 +41,7 @@ local checks = require "softworld.checks"
 local core = require "softworld.core"
 local cable = require "softworld.cable"
 local with_body = require "softworld.wire.body"
+local inherited = require "softworld.inherited"
 
 local calibrate = {}
 
@@ -96,8 +97,7 @@ local function with_cable(args)
         entry.name), 0)
     end
   end
-  local all = {}
-  for key, value in pairs(args) do all[key] = value end
+  local all = inherited.copy(args)
   for key, value in pairs(cable.section(entry, args.stiffness)) do
     if all[key] == nil then all[key] = value end
   end
