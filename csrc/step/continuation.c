@@ -77,6 +77,12 @@ static const sw_newton CONTINUE = {
  * unstable place fastest: with 0.25, 1.3 times as many iterations [-]. */
 static const double SHORTER = 0.25, SHORTER_UNSTABLE = 0.6;
 
+static int has_meshes(const sw_system *s) {
+  int meshes = 0;
+  for (size_t b = 0; b < s->body_count; b++) meshes |= s->bodies[b].plan->web != NULL;
+  return meshes;
+}
+
 /* Share of the first step below which a step may end anywhere. A mesh that rolls over a corner had
  * unstable directions in steps of half the first one, which threw it to and fro between two places
  * (spec/contact/sinking_poses_spec) [-]. */
@@ -87,9 +93,7 @@ static const double LEAST_STABLE = 0.3;
  * along follow these. */
 static int ends_unstable(const sw_statics *p, double tau) {
   const sw_system *s = sw_scene_system(p->s);
-  int meshes = 0;
-  for (size_t b = 0; b < s->body_count; b++) meshes |= s->bodies[b].plan->web != NULL;
-  return meshes && p->report->negative > 0 && tau > LEAST_STABLE * sw_rest_first_step(p->s);
+  return has_meshes(s) && p->report->negative > 0 && tau > LEAST_STABLE * sw_rest_first_step(p->s);
 }
 
 /* Share of all iterations after which unstable steps are taken, too: wires that slide or yield may
@@ -107,9 +111,9 @@ static sw_status continue_by(sw_statics *p, double tau, int *unstable, sw_error 
   return sw_fail(err, SW_ENOCONV, "a mesh would come to rest in an unstable place");
 }
 
-/* Touches that slide by turns may go through the same places again and again, some nanometres
- * apart. After MOST_LONGEST of the longest steps continuation begins anew with longest steps that
- * are shorter by SHORTER_LONGEST, down to LEAST_GROWTH times the first one [-]. */
+/* Touches of a mesh that slide by turns may go through the same places again and again, some
+ * nanometres apart. After MOST_LONGEST of the longest steps continuation begins anew with longest
+ * steps that are shorter by SHORTER_LONGEST, down to LEAST_GROWTH times the first one [-]. */
 enum { MOST_LONGEST = 8 };
 static const double SHORTER_LONGEST = 0.01, LEAST_GROWTH = 10.0;
 
@@ -144,7 +148,7 @@ sw_status sw_rest_transient(sw_statics *p, sw_error *err) {
     hurry(p, &d);
     const double factor = growth(s, p->report->iterations - before, tau < first);
     tau = fmin(tau * factor, longest);
-    steps = tau < longest ? 0 : steps + 1;
+    steps = tau < longest || !has_meshes(sw_scene_system(s)) ? 0 : steps + 1;
     if (steps <= MOST_LONGEST) continue;
     longest = fmax(SHORTER_LONGEST * longest, LEAST_GROWTH * first);
     tau = first, steps = 0;

@@ -8,109 +8,14 @@
 #include "base/alloc.h"
 #include "body/join.h"
 #include "body/live.h"
-#include "body/touching.h"
 #include "scene/parts.h"
-#include "scene/wire.h"
-#include "state/mesh.h"
-#include "step/passing.h"
 #include "step/statics.h"
 #include "system/rail.h"
 
-enum { SLIDES = 8, MOST_REDOS = 20 };
-static const double FIRST_PSEUDO_STEP = 0.02; /* of sqrt(length/g) [-] */
-static const double STATIC_TURN = 1e-7;       /* last rotation of a converged solve [rad] */
+enum { SLIDES = 8 };
+static const double STATIC_TURN = 1e-7; /* last rotation of a converged solve [rad] */
 static const double NUDGE = 1e-4; /* push away from an unstable equilibrium, over the length [-] */
 enum { MOST_NUDGES = 2 };
-
-double sw_rest_longest(const sw_scene *s) {
-  double length = 0;
-  SW_EACH(wire, wire, s) {
-    const sw_mesh *m = &wire->mesh;
-    length = fmax(length, m->s[m->n - 1] - m->s[0]);
-  }
-  return length;
-}
-
-double sw_rest_time_scale(const sw_scene *s) {
-  return sqrt(sw_rest_longest(s) / fmax(sw_norm(sw_scene_gravity(s)), 1.0));
-}
-
-double sw_rest_first_step(const sw_scene *s) { return FIRST_PSEUDO_STEP * sw_rest_time_scale(s); }
-
-/* 1 if a loose mesh moved further than its own size: an obstacle that touches it on one side pushes
- * it for the whole pseudo step. */
-static int thrown(const sw_statics *p) {
-  const sw_system *s = sw_scene_system(p->s);
-  SW_ITEMS(const sw_body, body, s->bodies, s->body_count) {
-    const double size = body->plan->length + 2.0 * body->plan->beam.radius;
-    double least = HUGE_VAL;
-    for (size_t i = 0; body->plan->web && i < body->plan->nodes; i++) {
-      const size_t n = body->first_node + i;
-      const int is_free = body->plan->held[i] == SW_FREE;
-      least = fmin(least, is_free ? sw_dist(sw_vec_at(p->y, n), sw_vec_at(s->x, n)) : 0.0);
-    }
-    if (isfinite(least) && least > size) return 1;
-  }
-  return 0;
-}
-
-sw_status sw_rest_solve(sw_statics *p, double hbar, const sw_newton *newton, sw_error *err) {
-  sw_scene *s = p->s;
-  sw_system *system = sw_scene_system(s);
-  sw_stage_report r = {0};
-  const sw_stage stage = {.time = sw_scene_time(s),
-                          .hbar = hbar,
-                          .xhat = p->from,
-                          .vhat = p->zero,
-                          .y = p->y,
-                          .v = p->v};
-  memcpy(p->from, system->x, system->freedoms * sizeof(double));
-  memcpy(p->tension, system->tension, system->edges * sizeof(double));
-  sw_system_begin_step(system);
-  sw_status status = SW_OK;
-  const double h = isfinite(hbar) ? hbar : 0.0;
-  status = sw_scene_begin_contact(s, SW_CONTACT_STATIC, p->touched, h, sw_rest_first_step(s), err);
-  for (int redo = 0; status == SW_OK; redo++) {
-    status = sw_system_stage(system, &stage, newton, &r, err);
-    p->report->iterations += (size_t)r.iterations;
-    if (status != SW_OK || !sw_scene_review_static(s, p->y)) break;
-    if (newton->statics || redo == MOST_REDOS)
-      status = sw_fail(err, SW_ENOCONV, "the wire would pass through an obstacle");
-  }
-  if (status == SW_OK && !newton->statics && hbar > sw_rest_first_step(s) &&
-      sw_scene_has_contact(s) && thrown(p))
-    status = sw_fail(err, SW_ENOCONV, "a loose mesh would be thrown far");
-  if (status == SW_OK && !p->args->stays && sw_passing_too_far(s, p->y))
-    status = sw_fail(err, SW_ENOCONV, "a wire would spring past a clip");
-  p->report->negative = r.negative;
-  if (status != SW_OK) memcpy(system->tension, p->tension, system->edges * sizeof(double));
-  return status;
-}
-
-double sw_rest_take(sw_statics *p, int trial) {
-  sw_scene *s = p->s;
-  sw_system *system = sw_scene_system(s);
-  double shift = 0;
-  for (size_t i = 0; i < 3 * system->nodes; i++) shift = fmax(shift, fabs(p->y[i] - system->x[i]));
-  sw_system_follow(system, p->y);
-  memcpy(system->x, p->y, system->freedoms * sizeof(double));
-  memset(system->v, 0, system->freedoms * sizeof(double));
-  memset(system->a, 0, system->freedoms * sizeof(double));
-  sw_system_strain_from_state(system);
-  if (trial) return shift;
-  sw_scene_commit_contact(s);
-  p->touched = sw_scene_time(s);
-  return shift;
-}
-
-int sw_rest_is_late(const sw_statics *p, double share) {
-  return (double)(p->report->iterations - p->before) >= share * (double)p->args->max_iterations;
-}
-
-int sw_rest_dragged(const sw_statics *p) {
-  return sw_scene_contact(p->s) && p->touched != sw_scene_time(p->s) &&
-         sw_contact_moves(sw_scene_contact(p->s));
-}
 
 /* 1 if a line has no hold. On a smooth table it can be shifted without force, and rounding alone
  * would carry it far. Meshes have enough touches to keep them in place. */
@@ -188,10 +93,6 @@ static void nudge(sw_statics *p, int number) {
     }
   }
   for (size_t i = 0; i < 3 * s->nodes; i++) s->x[i] += p->way[i];
-}
-
-int sw_rest_stops(sw_status status) {
-  return status == SW_ECALLBACK || status == SW_ENOMEM || status == SW_EINTR || status == SW_ELIMIT;
 }
 
 /* Loads of held nodes and rails, from the last solve. They are not part of the live state, so they

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Data and functions of the search for an equilibrium, used by its parts only: rest.c, before.c,
- * equilibrium.c, continuation.c. */
+ * equilibrium.c, continuation.c, attempt.c. */
 #ifndef SW_STEP_STATICS_H
 #define SW_STEP_STATICS_H
 

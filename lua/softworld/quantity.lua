@@ -292,8 +292,8 @@ end
 
 local INSTEAD = "read the scene as the run left it, for example wire:position(s) or hold:force()"
 
--- Calls the function of a quantity of the script. Its error is the script's fault in any model, unless it asks
--- for something that this model of the wire does not have.
+-- Calls the function of a quantity of the script. Its error is the script's fault in any model, unless it
+-- asks for something that this model of the wire does not have.
 local function own_value(q)
   local unlike, fine, value = reading.call(q.scene, ("the quantity '%s'"):format(q.name), INSTEAD, q.of)
   if not fine then (unlike and error or blame.fault)(value, 0) end
