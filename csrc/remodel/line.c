@@ -132,6 +132,23 @@ static void find_strains(const sw_beam *beam, sw_line *l) {
   }
 }
 
+int sw_line_face(sw_line *l, const sw_beam *beam, double s, sw_vec towards, double least) {
+  size_t at = 0;
+  for (size_t i = 1; i < l->n; i++)
+    if (fabs(l->s[i] - s) < fabs(l->s[at] - s)) at = i;
+  const sw_vec t = sw_load(l->frame + 6 * at), u = sw_load(l->frame + 6 * at + 3);
+  const sw_vec way = sw_unit_or(towards, t), wanted = sw_madd(way, t, -sw_dot(way, t));
+  if (!(sw_norm(wanted) > least)) return 0;
+  const double turn = atan2(sw_dot(sw_cross(u, wanted), t), sw_dot(u, wanted));
+  for (size_t i = 0; i < l->n; i++) {
+    const sw_vec along = sw_load(l->frame + 6 * i);
+    const sw_quat q = sw_quat_exp(sw_scale(along, turn));
+    sw_store(l->frame + 6 * i + 3, sw_rotate(q, sw_load(l->frame + 6 * i + 3)));
+  }
+  find_strains(beam, l);
+  return 1;
+}
+
 void sw_line_free(sw_line *l) {
   sw_free(l->block);
   l->block = NULL;

@@ -25,6 +25,9 @@ typedef struct sw_line {
 /* Reads the line off a built wire at n points, with arc lengths at (n); at = NULL: equidistant. */
 sw_status sw_line_read(sw_scene *scene, sw_handle wire, size_t n, const double *at, sw_line *out,
                        sw_error *err);
+/* Turns all sections about the line so that their first direction across is `towards` at s. Returns
+ * 0, and turns none, if the sine of the angle between `towards` and the line is `least` or less. */
+int sw_line_face(sw_line *line, const sw_beam *beam, double s, sw_vec towards, double least);
 void sw_line_free(sw_line *line);
 /* Arc lengths of about `segments` even edges with nodes for the wire's living holds: out (count,
  * to be freed) [m]. SW_ENOMEM. */

@@ -32,6 +32,10 @@ static const sw_param rows[] = {
     {"region", SW_PARAM_OTHER, "m", 0, 0, 0, 0, NULL, 0,
      "{s1, s2}: the wire becomes a mesh only there and beside clamps; elsewhere it is a line of "
      "particles with EA and EI, without twist (not given: all of the wire)"},
+    {"normal", SW_PARAM_VECTOR, "-", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL,
+     offsetof(sw_wire_args, normal),
+     "of a line that becomes a mesh: direction of a corner of its sections in the middle of the "
+     "region; a squeeze along it does not turn them (not given: any)"},
 };
 const sw_params sw_remodel_params = SW_PARAMS("remodel", rows);
 
@@ -184,6 +188,25 @@ static sw_status check_twist(const sw_scene_wire *w, const sw_line *l, sw_error 
                  w->name, most);
 }
 
+static const double LEAST_SINE = 1e-3; /* of the angle between a normal and the wire [-] */
+
+/* Turns the sections of a mesh to be, if asked for. A wire that is a mesh keeps its sections. */
+static sw_status face(const sw_scene *s, size_t wire, const sw_wire_args *args,
+                      const double *region, sw_line *l, sw_error *err) {
+  const sw_scene_wire *w = sw_scene_wire_in(s, wire);
+  if (!isfinite(args->normal.x)) return SW_OK;
+  if (w->strand.web || !sw_wire_all()[args->model]->mesh)
+    return sw_fail(err, SW_EINVAL,
+                   "remodel: wire '%s': normal goes with a rod or string that becomes a mesh",
+                   w->name);
+  const double middle = region ? 0.5 * (region[0] + region[1]) : 0.5 * l->s[l->n - 1];
+  if (sw_line_face(l, &w->beam, middle, args->normal, LEAST_SINE)) return SW_OK;
+  return sw_fail(err, SW_EINVAL,
+                 "remodel: wire '%s': normal = {%.6g, %.6g, %.6g} must not be zero or along the "
+                 "wire at s = %.6g m",
+                 w->name, args->normal.x, args->normal.y, args->normal.z, middle);
+}
+
 /* Replaces the wire. A rod that becomes a rod with other edges keeps its bends beside holds. */
 static sw_status exchange(sw_scene *s, size_t wire, sw_scene_wire *next, sw_error *err) {
   const sw_scene_wire *w = sw_scene_wire_in(s, wire);
@@ -244,6 +267,7 @@ sw_status sw_scene_remodel(sw_scene *s, sw_handle h, const sw_wire_args *args,
   sw_status status = region ? plan_region(s, h, args, &plan, region, &stations, err) : SW_OK;
   if (status == SW_OK) status = read_line(s, h, args, &plan, cls, &stations, &l, err);
   l.stations = &stations;
+  if (status == SW_OK) status = face(s, h.slot, args, region, &l, err);
   if (status == SW_OK && region) status = check_twist(sw_scene_wire_in(s, h.slot), &l, err);
   if (status == SW_OK) status = sw_scene_snapshot(s, &before, err);
   if (status == SW_OK) status = change(s, h, &plan, &l, &next, out, err);

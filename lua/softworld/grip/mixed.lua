@@ -6,6 +6,7 @@
 -- @module softworld.grip.mixed
 local build = require "softworld.scene.build"
 local process = require "softworld.run.process"
+local vec = require "softworld.vec"
 
 local mixed = {}
 
@@ -38,6 +39,8 @@ function mixed.prepare(self, args)
   end
   how.region = { math.max(0, self.s - half), math.min(wire.length, self.s + half) }
   how.segments = wire.segments
+  local _, q = self.tool:pose()
+  how.normal = vec.rotate(q, { 0, 1, 0 }) -- the pads close along it: they must not turn sections like a nut
   self.segments = wire.segments
   build.call(4, wire.remodel, wire, how)
 end
