@@ -67,8 +67,9 @@ describe("wire:remodel with a normal", function()
       t.share(width(turn), width(-turn), 1e-9, ("width at %g rad"):format(turn))
     end
     -- eight sides are wider over their corners by 1/cos(pi/8) = 1.082, less as corners are round
-    t.below(1 / math.cos(math.pi / 8), width(0) / width(math.pi / 8), "width over corners, over that of sides")
-    t.above(1.05, width(0) / width(math.pi / 8), "width over corners, over that of sides")
+    local share = width(0) / width(math.pi / 8)
+    t.below(1 / math.cos(math.pi / 8), share, "width over corners, over that of sides")
+    t.above(1.05, share, "width over corners, over that of sides")
   end)
 
   it("refuses a normal along the wire, of length zero, or for what is no line or becomes none", function()
