@@ -8,6 +8,7 @@
 #include "scene/parts.h"
 #include "scene/wire.h"
 #include "state/mesh.h"
+#include "step/let_go.h"
 #include "step/passing.h"
 #include "step/statics.h"
 #include "system/axial.h"
@@ -75,6 +76,8 @@ sw_status sw_rest_solve(sw_statics *p, double hbar, const sw_newton *newton, sw_
     status = sw_fail(err, SW_ENOCONV, "a loose mesh would be thrown far");
   if (status == SW_OK && !p->args->stays && sw_passing_too_far(s, p->y))
     status = sw_fail(err, SW_ENOCONV, "a wire would spring past a clip");
+  if (status == SW_OK && p->args->poses && p->too_far && sw_jaws_let_go(s))
+    status = sw_fail(err, SW_ENOCONV, "a wire would leave the pads that hold it");
   p->report->negative = r.negative;
   if (status != SW_OK) memcpy(system->tension, p->tension, system->edges * sizeof(double));
   return status;
