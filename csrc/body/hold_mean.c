@@ -70,17 +70,18 @@ int sw_hold_jerked(const sw_scene *s, const sw_hold *h, sw_vec *force, sw_vec *m
   return jerked(s, h, sw_scene_course(s)->span, h->force, force, moment);
 }
 
-void sw_hold_trial_load(const sw_scene *s, const sw_hold *h, double span, sw_vec *force,
-                        sw_vec *moment) {
+void sw_hold_coming_load(const sw_scene *s, const sw_hold *h, double span, sw_vec *force,
+                         sw_vec *moment) {
   const sw_system *system = sw_scene_system((sw_scene *)s);
   const int k = (int)h->number;
-  const double *x = sw_scene_course(s)->stepper.trial_x;
   const sw_vec point = system->hold_states[k].pose.p;
-  sw_vec plain, plain_moment, borne, borne_moment;
-  sw_system_hold_loads(system, sw_scene_hold_loads(s)); /* their arms are those of the trial */
+  const double *x = span > 0 ? sw_scene_course(s)->stepper.trial_x : system->x;
+  sw_vec plain, plain_moment;
+  sw_system_bears(system, k, x, point, force, moment);
+  if (!(span > 0)) return;
   sw_system_reaction(system, k, point, &plain, &plain_moment);
-  sw_system_bears(system, k, x, point, &borne, &borne_moment);
-  *force = sw_add(sw_scene_hold_loads(s)[k].force, sw_sub(borne, plain));
-  *moment = sw_add(sw_scene_hold_loads(s)[k].moment, sw_sub(borne_moment, plain_moment));
+  sw_system_hold_loads(system, sw_scene_hold_loads(s)); /* their arms are those of the trial */
+  *force = sw_add(sw_scene_hold_loads(s)[k].force, sw_sub(*force, plain));
+  *moment = sw_add(sw_scene_hold_loads(s)[k].moment, sw_sub(*moment, plain_moment));
   (void)jerked(s, h, span, *force, force, moment);
 }

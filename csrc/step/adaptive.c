@@ -90,7 +90,7 @@ sw_status sw_step_adaptive(sw_ladder *p, double left, double t1, sw_error *err) 
       continue;
     }
     if (grows > 0) next = fmin(next, fmax(h, h / grows));
-    if (fine) SW_TRY(sw_grips_overloaded(s, h, &p->lost, err));
+    if (fine) SW_TRY(sw_grips_overloaded(s, sw_scene_time(s), sw_scene_time(s) + h, &p->lost, err));
     if (p->lost) {
       sw_ladder_undo(p);
       return SW_OK;

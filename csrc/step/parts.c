@@ -237,7 +237,8 @@ sw_status sw_step_fixed(sw_ladder *p, double h, double t1, sw_error *err) {
       p->asked = k.part;
       continue;
     }
-    if (status == SW_OK) SW_TRY(sw_grips_overloaded(p->s, k.part, &p->lost, err));
+    const double t0 = sw_scene_time(p->s);
+    if (status == SW_OK) SW_TRY(sw_grips_overloaded(p->s, t0, t0 + k.part, &p->lost, err));
     if (p->lost) {
       sw_ladder_undo(p);
       sw_scene_books(p->s)->sums.redone = redone;
