@@ -70,6 +70,26 @@ describe("a mixed grip drawn beyond what its pads hold", function()
     end
   end)
 
+  it("nor when it stands and the cable's end is drawn away", function()
+    for _, dt in ipairs{ 0.02, 0.01, 0.002 } do
+      local scene = sw.scene{ gravity = { 0, 0, 0 } }
+      local wire = scene:wire{ cable = "FLRY-B 2.5", from = { 0, 0, 0 }, to = { 0.2, 0, 0 }, segments = 24 }
+      scene:force{ kind = "damping", mass = 8 }
+      local hand = scene:gripper{ name = "hand", at = { 0.05, 0, 0 },
+        pads = { width = 0.01, friction = mu, opening = 3 * wire.radius } }
+      local far = scene:gripper{ name = "far", at = { 0.2, 0, 0 } }
+      scene:process(function()
+        far:grasp(wire, { s = 0.2 })
+        hand:grasp(wire, { s = 0.05, approach = "mixed", force = 10, region = 0.03 })
+        far:move{ by = { 0.003, 0, 0 }, speed = 0.03 }
+      end)
+      t.fine(scene:run{ dt = dt })
+      assert.equal("thawed", hand.events[2].kind)
+      t.below(ABOVE * 2 * mu * 10, hand.peak_force, ("hand at %g ms"):format(1e3 * dt))
+      t.below(ABOVE * 2 * mu * 10, far.peak_force, ("far end at %g ms"):format(1e3 * dt))
+    end
+  end)
+
   it("slips at the same time at any step", function()
     local times = {}
     for k, dt in ipairs{ 0.01, 0.002 } do
