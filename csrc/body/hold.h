@@ -11,6 +11,10 @@ void sw_hold_book(sw_scene *scene, const sw_booking *booking);
 /* 1 if the last step had a jerk, so that the hold's load at its end differs from the mean over it.
  * Sets the means, about the hold's place [N], [N m]. */
 int sw_hold_jerked(const sw_scene *scene, const sw_hold *hold, sw_vec *force, sw_vec *moment);
+/* Sets the load that the hold's read-outs would show if the last trial, of size `span`, became the
+ * state; 0: at the state itself, a pose. The moment is about the hold's place [s], [N], [N m]. */
+void sw_hold_coming_load(const sw_scene *scene, const sw_hold *hold, double span, sw_vec *force,
+                         sw_vec *moment);
 /* Returns the span written beside a force: above 0 the time that the force is a mean over; below 0
  * minus the step at whose end it acts [s]. */
 double sw_hold_span(const sw_scene *scene, int mean);

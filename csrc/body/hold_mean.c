@@ -10,6 +10,7 @@
 #include "link/hold.h"
 #include "scene/course.h"
 #include "scene/parts.h"
+#include "system/axial.h"
 #include "system/system.h"
 
 static sw_vec booked(const sw_booking *b, sw_vec now, sw_vec before, sw_vec first) {
@@ -50,16 +51,37 @@ double sw_hold_span(const sw_scene *s, int mean) {
   return mean && !rings ? c->span : -c->span;
 }
 
-int sw_hold_jerked(const sw_scene *s, const sw_hold *h, sw_vec *force, sw_vec *moment) {
-  sw_course *c = sw_scene_course(s);
+/* 1 if a step `span` that ends with the force `end` had a jerk [s], [N]. Sets the means. */
+static int jerked(const sw_scene *s, const sw_hold *h, double span, sw_vec end, sw_vec *force,
+                  sw_vec *moment) {
   const sw_hold_sums *sums = &h->sums;
-  if (!sums->known || !(c->span > 0)) return 0;
-  const sw_vec mean = sw_scale(sums->force[sums->last], 1.0 / c->span);
-  const double off = sw_norm(sw_sub(h->force, mean));
+  if (!sums->known || !(span > 0)) return 0;
+  const sw_vec mean = sw_scale(sums->force[sums->last], 1.0 / span);
+  const double off = sw_norm(sw_sub(end, mean));
   const int sharp =
-      off > JERK * fmax(sw_norm(h->force), sw_norm(mean)) && off > SHARP * usual_force(s, h->wire);
-  if (!sharp && !c->jerks) return 0;
+      off > JERK * fmax(sw_norm(end), sw_norm(mean)) && off > SHARP * usual_force(s, h->wire);
+  if (!sharp && !sw_scene_course(s)->jerks) return 0;
   *force = mean;
-  *moment = sw_scale(sums->moment[sums->last], 1.0 / c->span);
+  *moment = sw_scale(sums->moment[sums->last], 1.0 / span);
   return 1;
+}
+
+int sw_hold_jerked(const sw_scene *s, const sw_hold *h, sw_vec *force, sw_vec *moment) {
+  return jerked(s, h, sw_scene_course(s)->span, h->force, force, moment);
+}
+
+void sw_hold_coming_load(const sw_scene *s, const sw_hold *h, double span, sw_vec *force,
+                         sw_vec *moment) {
+  const sw_system *system = sw_scene_system((sw_scene *)s);
+  const int k = (int)h->number;
+  const sw_vec point = system->hold_states[k].pose.p;
+  const double *x = span > 0 ? sw_scene_course(s)->stepper.trial_x : system->x;
+  sw_vec plain, plain_moment;
+  sw_system_bears(system, k, x, point, force, moment);
+  if (!(span > 0)) return;
+  sw_system_reaction(system, k, point, &plain, &plain_moment);
+  sw_system_hold_loads(system, sw_scene_hold_loads(s)); /* their arms are those of the trial */
+  *force = sw_add(sw_scene_hold_loads(s)[k].force, sw_sub(*force, plain));
+  *moment = sw_add(sw_scene_hold_loads(s)[k].moment, sw_sub(*moment, plain_moment));
+  (void)jerked(s, h, span, *force, force, moment);
 }

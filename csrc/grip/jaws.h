@@ -18,6 +18,12 @@ sw_status sw_tool_look_out(sw_scene *scene, size_t tool, sw_error *err);
 /* 1 if a run should end: a tool that ends runs slipped, it or a frozen one lost its wire, or any
  * tool ran into an obstacle after `since`, the step's start. */
 int sw_tool_slipped(const sw_scene *scene, double since);
+/* *over: 1 if a frozen grip would bear far more than its pads at the time `until`, where the last
+ * trial ends, or where the scene is if it went there by a pose. The grip then counts as lost at the
+ * time `since`, and the scene must stay or go back there [s]. sw_grips_frozen: 1 if one may be. */
+sw_status sw_grips_overloaded(sw_scene *scene, double since, double until, int *over,
+                              sw_error *err);
+int sw_grips_frozen(const sw_scene *scene);
 
 void sw_tape_tool(sw_tape *tape, sw_scene *scene, sw_tool *tool);
 void sw_tape_jaw(sw_tape *tape, sw_jaw *jaw);

@@ -12,6 +12,7 @@
 #include "grip/jaws.h"
 #include "remodel/exchange.h"
 #include "remodel/remodel.h"
+#include "scene/course.h"
 #include "scene/drive.h"
 #include "scene/events.h"
 #include "scene/gripper.h"
@@ -261,6 +262,7 @@ static sw_status tell_jump(sw_scene *s, sw_handle tool, const sw_handle wire,
   const double turning = fmax(sw_norm(was->moment), borne * beam->radius);
   const double off = sw_dist(force, was->force), turned = sw_dist(moment, was->moment);
   if (off <= FORCE_STAYS * borne && turned <= MOMENT_STAYS * turning) return SW_OK;
+  sw_course_jump(sw_scene_course(s));
   const char *name = sw_scene_wire_in(s, wire.slot)->name;
   sw_scene_tell(
       s, "unbalanced", name, NAN, off,

@@ -2,6 +2,7 @@
 /* Steps by `tolerance`: the size of a step follows its error. */
 #include <math.h>
 
+#include "grip/jaws.h"
 #include "scene/course.h"
 #include "scene/parts.h"
 #include "step/blow.h"
@@ -89,6 +90,11 @@ sw_status sw_step_adaptive(sw_ladder *p, double left, double t1, sw_error *err) 
       continue;
     }
     if (grows > 0) next = fmin(next, fmax(h, h / grows));
+    if (fine) SW_TRY(sw_grips_overloaded(s, sw_scene_time(s), sw_scene_time(s) + h, &p->lost, err));
+    if (p->lost) {
+      sw_ladder_undo(p);
+      return SW_OK;
+    }
     if (fine) {
       const double before = sw_scene_time(s);
       sw_ladder_accept(p, h, last ? t1 : before + h);

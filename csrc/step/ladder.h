@@ -28,7 +28,8 @@ typedef struct sw_ladder {
   double asked;  /* part (substep) that was first tried; later parts are shorter because of refusals
                     or the step's end; 0: dt [s] */
   sw_error held; /* why the last part was rejected */
-  int smooth;    /* 1: the last rejected step made energy where nothing touches */
+  int lost;   /* 1: the step ended early, since a frozen grip would bear too much: it thaws first */
+  int smooth; /* 1: the last rejected step made energy where nothing touches */
   double made_at; /* start of that step [s] */
   double made;    /* the energy that it made [J] */
   int changed;    /* 1: the scene was changed since the last step; the energy of this step is not

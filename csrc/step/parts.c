@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "body/guide.h"
+#include "grip/jaws.h"
 #include "scene/course.h"
 #include "step/blow.h"
 #include "step/buckle.h"
@@ -223,7 +224,7 @@ sw_status sw_step_fixed(sw_ladder *p, double h, double t1, sw_error *err) {
   p->cuts = 0;
   p->changed = sw_restart_changed(p->s);
   k.rough = !p->args->parts || !sw_coarse_applies(p->s);
-  for (int arrived = 0; k.done < h && !arrived;) {
+  for (int arrived = 0; k.done < h && !arrived && !p->lost;) {
     int may_grow = 1;
     SW_TRY(begin(p, &k, err));
     const int smallest = 0.5 * k.part < k.least;
@@ -234,6 +235,13 @@ sw_status sw_step_fixed(sw_ladder *p, double h, double t1, sw_error *err) {
       sw_ladder_undo(p);
       sw_scene_books(p->s)->sums.redone = redone; /* counts only steps that are taken */
       p->asked = k.part;
+      continue;
+    }
+    const double t0 = sw_scene_time(p->s);
+    if (status == SW_OK) SW_TRY(sw_grips_overloaded(p->s, t0, t0 + k.part, &p->lost, err));
+    if (p->lost) {
+      sw_ladder_undo(p);
+      sw_scene_books(p->s)->sums.redone = redone;
     } else {
       SW_TRY(status == SW_OK ? take(p, &k, may_grow, err) : refuse(p, &k, status, err));
       arrived = jaws_arrive(p->s, &k, moving);

@@ -6,6 +6,7 @@
 #include "base/alloc.h"
 #include "body/live.h"
 #include "contact/contact.h"
+#include "grip/jaws.h"
 #include "scene/course.h"
 #include "scene/drive.h"
 #include "scene/gripper.h"
@@ -22,8 +23,8 @@ enum { MOST_HALVINGS = 6 }; /* a pose step is halved at most this often [-] */
 /* Most iterations of a trial. If a pose needs more, smaller steps find it sooner [-]. */
 enum { FEW_ITERATIONS = 300 };
 
-/* The scene at the start of a pose. It is kept if a tie may break, a wire may enter a clip, or pads
- * may press a section. */
+/* The scene at the start of a pose. It is kept if a tie may break, a wire may enter a clip, pads
+ * may press a section, or a rigid grip may bear too much. */
 typedef struct kept {
   sw_tape live;
   sw_jaw *jaws; /* (tools) */
@@ -50,6 +51,14 @@ static sw_status keep(const sw_scene *s, kept *k, sw_error *err) {
   if (status == SW_OK) return SW_OK;
   drop(k);
   return sw_fail(err, status, "scene '%s': out of memory", sw_scene_name(s));
+}
+
+/* The same for a grip that may be lost: the way to the pose is not followed more closely. */
+static sw_status keep_loosely(const sw_scene *s, kept *k, sw_error *err) {
+  SW_TRY(keep(s, k, err));
+  sw_free(k->x);
+  k->x = NULL;
+  return SW_OK;
 }
 
 static sw_status put_back(sw_scene *s, const kept *k, double t0, sw_error *err) {
@@ -146,6 +155,8 @@ static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_ar
   if (start->jaws && t1 - t0 > how->shortest &&
       sw_scene_check_ties(s, sw_scene_system(s)->x, &why) != SW_OK)
     return again(s, t0, 0.5 * (t0 + t1), halvings, how, report, start, err);
+  if (start->jaws) SW_TRY(sw_grips_overloaded(s, t0, t1, how->lost, err));
+  if (*how->lost) return put_back(s, start, t0, err);
   int passed = 0;
   const double part = start->x ? followed_part(s, start->x, t1 - t0, &passed) : t1 - t0;
   if (passed && !shortest)
@@ -159,6 +170,8 @@ static sw_status pose(sw_scene *s, double t1, int halvings, const sw_pose_args *
   kept start = {0};
   if (sw_scene_may_break(s) || sw_passing_any(s) || sw_jaw_presses_sections(s))
     SW_TRY(keep(s, &start, err));
+  else if (sw_grips_frozen(s))
+    SW_TRY(keep_loosely(s, &start, err));
   const sw_status status = one_pose(s, t1, halvings, how, report, &start, err);
   drop(&start);
   return status;

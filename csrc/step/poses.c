@@ -36,9 +36,10 @@ static sw_status pose_steps(sw_ladder *p, double t, sw_error *err) {
       return sw_fail(err, SW_ENOCONV, "a wire is fed too fast for the steps");
     SW_TRY(sw_ledger_open(s, err));
     const sw_pose_args how = {p->interrupted, SW_SHORTEST_BREAK * p->args->dt,
-                              SHORTEST_PASSING * p->args->dt, between};
+                              SHORTEST_PASSING * p->args->dt, between, &p->lost};
     const int passes = sw_passing_any(s);
     SW_TRY(sw_scene_pose(s, part, &how, p->report, err));
+    if (p->lost) return SW_OK;
     most = passes ? fmax(how.passing, 2 * (sw_scene_time(s) - t0)) : HUGE_VAL;
     sw_scene_course(s)->span = 0;
     SW_TRY(sw_step_observe(s, err));
@@ -61,7 +62,7 @@ sw_status sw_step_poses(sw_ladder *p, double t1, sw_error *err) {
     return sw_fail(err, SW_EDIVERGED,
                    "a hold of a wire turns by %g rad between two poses; they must be closer", turn);
   const int parts = 1 + (int)(turn / SW_WIDEST_TURN);
-  for (int part = 1; part <= parts; part++)
+  for (int part = 1; part <= parts && !p->lost; part++)
     SW_TRY(pose_steps(p, part < parts ? t0 + (t1 - t0) * part / parts : t1, err));
   p->report->steps++;
   return SW_OK;

@@ -53,6 +53,7 @@ static sw_status run_loop(sw_ladder *p, double until, int (*interrupted)(void), 
   const size_t first = p->report->steps;
   double began = t0; /* start of the last step [s] */
   for (size_t k = 1; sw_scene_time(s) < until - slack;) {
+    if (p->lost) return SW_OK;
     if (interrupted && interrupted()) return SW_EINTR;
     if ((double)(p->report->steps - first) >= (double)p->args->max_steps) return SW_OK;
     if (p->report->steps > first && (sw_tool_slipped(s, began) || sw_hold_crashed(s, began)))
