@@ -228,7 +228,7 @@ static const double CARRIED = 5e-6, SLIDES = 1e-3;
  * thrown, or lies on something that has jumped to a speed. */
 static int comes_sliding(const sw_contact *c, const sw_system *s, const sw_touch *t) {
   const sw_body *b = &s->bodies[t->body];
-  const sw_vec wall = sw_obstacle_velocity(&c->start[t->obstacle], t->point);
+  const sw_vec wall = sw_obstacle_velocity_before(c, s, t);
   sw_vec v = sw_sub(sw_mean_of(s->v, 0, &t->spot), wall);
   if (b->roll_block) {
     const sw_levers levers = sw_touch_levers(s, t);
