@@ -174,6 +174,9 @@ int sw_contact_search(sw_contact *c, const sw_system *s, const double *delta);
 
 /* Number of touches that pull, or that should press and do not. */
 size_t sw_contact_wrong(const sw_contact *c);
+/* Coefficient of a touch: that of sliding if it slid before, or comes sliding (loose.c) [-]. */
+double sw_contact_coefficient(const sw_contact *c, const sw_system *s, const sw_memory *m,
+                              const sw_touch *t);
 /* Returns the softened stiffness of a touch in the search [N/m]. */
 double sw_contact_softer(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                          double stiffness);
