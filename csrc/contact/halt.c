@@ -148,7 +148,7 @@ void sw_contact_against(const sw_contact *c, const sw_system *s, sw_against *sum
     const sw_press *p = &t->press;
     if (t->held || !(t->friction > 0) || !(p->normal_force > 0)) continue;
     const sw_levers l = sw_touch_levers(s, t);
-    const sw_vec o = sw_obstacle_velocity(&c->start[t->obstacle], t->point);
+    const sw_vec o = sw_obstacle_velocity_before(c, s, t);
     const sw_vec v = sliding_part(sw_sub(sw_mean_of(s->v, 0, &t->spot), o), p->normal, &l);
     if (sw_norm(v) < SLOW) continue;
     sum->against -= sw_dot(p->tangential, sw_scale(v, 1.0 / sw_norm(v)));

@@ -52,6 +52,7 @@ typedef struct sw_touch {
   double steady;   /* steady normal force [N] */
   sw_vec point;    /* on the obstacle, world [m] */
   sw_vec local;    /* the same in the obstacle's coordinates [m] */
+  sw_quat axes;    /* the obstacle's rotation at this evaluation [-] */
   sw_vec acts;     /* where the force acts: the axis, or a rolling surface, world [m] */
   double forgiven; /* part of the true depth that this step does not correct [m] */
   double left;     /* rest of `forgiven` after the touch was stiffened [m] */

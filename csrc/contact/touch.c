@@ -218,34 +218,17 @@ static int counts_reversals(const sw_contact *c, const sw_system *s, const sw_to
   return (web && web->solid_rate2 > 0) || sw_contact_moves(c);
 }
 
-/* A touch that did not slide before slides at once if its speed along the surface at the step's
- * start would carry it farther than CARRIED in the step (friction's spring holds up to about as
- * far), or is above SLIDES: in the short parts of a blow a wire that lands slides less far [m],
- * [m/s]. */
-static const double CARRIED = 5e-6, SLIDES = 1e-3;
-
-/* 1 if a touch that did not slide before slides already at the step's start: the wire lands, was
- * thrown, or lies on something that has jumped to a speed. */
-static int comes_sliding(const sw_contact *c, const sw_system *s, const sw_touch *t) {
-  const sw_body *b = &s->bodies[t->body];
-  const sw_vec wall = sw_obstacle_velocity(&c->start[t->obstacle], t->point);
-  sw_vec v = sw_sub(sw_mean_of(s->v, 0, &t->spot), wall);
-  if (b->roll_block) {
-    const sw_levers levers = sw_touch_levers(s, t);
-    v = sw_add(v, sw_levers_shift(&levers, s->v + 3 * s->nodes + b->first_roll, 1));
-    v = sw_add(v, sw_levers_tilt(&levers, s->v));
+/* Sets the spring of friction. A turning obstacle turns the slide of the step's first stage with
+ * it: otherwise friction of a wire that slides would have a direction of earlier in the step. */
+static void aim(const sw_contact *c, const sw_touch *last, sw_vec u, sw_touch *t) {
+  const int same = last && last->stage == c->stage;
+  if (!last || same || !c->broad.moves[t->obstacle]) {
+    sw_press_aim(&t->press, u, last ? &last->press : NULL, same, c->first);
+    return;
   }
-  v = sw_madd(v, t->press.normal, -sw_dot(v, t->press.normal));
-  return sw_norm(v) > fmin(CARRIED / c->h, SLIDES);
-}
-
-/* Coefficient of a touch [-]. */
-static double coefficient(const sw_contact *c, const sw_system *s, const sw_memory *m,
-                          const sw_touch *t) {
-  const sw_contact_obstacle *o = &c->obstacles[t->obstacle];
-  if (o->kinetic == o->friction) return o->friction;
-  if (m && m->kept.sliding) return o->kinetic;
-  return c->regime != SW_CONTACT_STATIC && comes_sliding(c, s, t) ? o->kinetic : o->friction;
+  sw_press before = last->press;
+  before.slip = sw_rotate(t->axes, sw_unrotate(last->axes, before.slip));
+  sw_press_aim(&t->press, u, &before, same, c->first);
 }
 
 /* Begins friction of a touch. A new touch has moved freely, so it slides first. For a rolling wire
@@ -261,13 +244,13 @@ static void begin_friction(const sw_contact *c, const sw_system *s, const sw_mem
     u = sw_v(0, 0, 0);
   else
     u = without_rounding(u, press->normal, t->point);
-  sw_press_aim(press, u, last ? &last->press : NULL, last && last->stage == c->stage, c->first);
+  aim(c, last, u, t);
   if (last && last->press.reversals > 0 && counts_reversals(c, s, t))
     press->reversals = last->press.reversals;
   const int rolls = s->bodies[t->body].roll_block != NULL, searches = last && c->ahead_count;
   /* its couple lifts a touch that sticks: it would close in every other iterate */
   const int went_on = last && (last->press.active || (rolls && last->press.next_sliding));
-  t->friction = sw_contact_arc_friction(c, s, m, t, coefficient(c, s, m, t));
+  t->friction = sw_contact_arc_friction(c, s, m, t, sw_contact_coefficient(c, s, m, t));
   t->slid = m ? m->slid : 0.0;
   if (searches) press->ahead = last->press.ahead;
   sw_press_resume(press, m ? &m->kept : NULL, last ? &last->press : NULL, went_on || searches,
@@ -333,6 +316,7 @@ static void take_place(const sw_contact *c, const sw_system *s, const sw_candida
   t->sharp = place->sharp, t->edge = place->edge;
   t->spot = spot_of(s, k, t, at);
   t->local = place->near.point, t->point = sw_pose_point(*pose, t->local);
+  t->axes = pose->q;
   t->seen = sw_pose_local(*pose, sw_mean_place(c, y, &t->spot));
   t->acts = sw_mean_of(y, 0, &t->spot);
   t->held = sw_contact_is_held(s, k);

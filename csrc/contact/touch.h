@@ -174,6 +174,9 @@ int sw_contact_search(sw_contact *c, const sw_system *s, const double *delta);
 
 /* Number of touches that pull, or that should press and do not. */
 size_t sw_contact_wrong(const sw_contact *c);
+/* Coefficient of a touch: that of sliding if it slid before, or comes sliding (loose.c) [-]. */
+double sw_contact_coefficient(const sw_contact *c, const sw_system *s, const sw_memory *m,
+                              const sw_touch *t);
 /* Returns the softened stiffness of a touch in the search [N/m]. */
 double sw_contact_softer(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                          double stiffness);
@@ -226,6 +229,15 @@ static inline double sw_contact_aslant(const sw_contact *c, size_t node, size_t 
 /* Velocity of the obstacle's material at world point p [m/s]. */
 static inline sw_vec sw_obstacle_velocity(const sw_contact_at *o, sw_vec p) {
   return sw_add(o->v, sw_cross(o->omega, sw_sub(p, o->pose.p)));
+}
+
+/* The same at the step's start, where the touch's part of the wire was then. Where it is now there
+ * was another part of a turning obstacle: its velocity differs by that of the turn, over the wire's
+ * way [m/s]. */
+static inline sw_vec sw_obstacle_velocity_before(const sw_contact *c, const sw_system *s,
+                                                 const sw_touch *t) {
+  const sw_vec back = sw_sub(sw_mean_of(s->x, 0, &t->spot), t->acts);
+  return sw_obstacle_velocity(&c->start[t->obstacle], sw_add(t->point, back));
 }
 
 #endif

@@ -33,38 +33,41 @@ static const double EVEN = 0.25;
 
 static sw_vec across(sw_vec v, sw_vec n) { return sw_madd(v, n, -sw_dot(v, n)); }
 
-/* Adds a touch; v0, v1: velocities at the start, with the obstacle at `from`, and at the end. */
-static void add(const sw_contact *c, const sw_touch *t, const sw_contact_at *from, const double *v0,
-                const double *v1, slip *sum) {
+/* Adds a touch. v1: velocities at the step's end. over: the step was accepted, and the system is at
+ * its end; the slip at its start is then not known. */
+static void add(const sw_contact *c, const sw_system *s, const sw_touch *t, const double *v1,
+                int over, slip *sum) {
   const double N = t->press.normal_force;
   const sw_vec n = t->press.normal;
   if (N > 0) sum->gripped |= c->obstacles[t->obstacle].grips > 0;
   if (!(N > 0) || !c->broad.moves[t->obstacle]) return;
-  const sw_vec was = sw_obstacle_velocity(&from[t->obstacle], t->point);
-  const sw_vec is = sw_obstacle_velocity(&c->now[t->obstacle], t->point);
-  const sw_vec before = across(sw_sub(sw_mean_of(v0, 0, &t->spot), was), n);
+  const sw_contact_at *from = &c->start[t->obstacle], *to = &c->now[t->obstacle];
+  const sw_vec here = sw_pose_point(from->pose, sw_pose_local(to->pose, t->point));
+  const sw_vec part =
+      sw_obstacle_velocity(from, here); /* of the obstacle's part that is here now */
+  const sw_vec was = over ? part : sw_obstacle_velocity_before(c, s, t);
+  const sw_vec is = sw_obstacle_velocity(to, t->point);
+  const sw_vec before = across(sw_sub(sw_mean_of(s->v, 0, &t->spot), was), n);
   sum->before = sw_madd(sum->before, before, N);
   sum->after = sw_madd(sum->after, across(sw_sub(sw_mean_of(v1, 0, &t->spot), is), n), N);
   sum->wall = sw_madd(sum->wall, across(sw_sub(is, was), n), N);
   sum->size += N * sw_norm(before);
   sum->force += N;
-  const sw_vec here =
-      sw_pose_point(from[t->obstacle].pose, sw_pose_local(c->now[t->obstacle].pose, t->point));
   sum->way = sw_madd(sum->way, sw_sub(t->point, here), N);
-  sum->mean = sw_madd(sum->mean, sw_add(was, is), 0.5 * N);
+  sum->mean = sw_madd(sum->mean, sw_add(part, is), 0.5 * N);
   sum->rub += t->friction * N;
   sum->slides |= t->press.sliding;
 }
 
 /* Sums the slip of the free wire at touch *i and goes on to the next wire. Returns its mass; 0:
  * it is not free [kg]. */
-static double next_slip(const sw_contact *c, const sw_system *s, size_t *i,
-                        const sw_contact_at *from, const double *v1, slip *sum) {
+static double next_slip(const sw_contact *c, const sw_system *s, size_t *i, const double *v1,
+                        int over, slip *sum) {
   const size_t body = c->touches[*i].body;
   const sw_body *b = &s->bodies[body];
   *sum = (slip){.size = 0};
   for (; *i < c->touch_count && c->touches[*i].body == body; ++*i)
-    add(c, &c->touches[*i], from, s->v, v1, sum);
+    add(c, s, &c->touches[*i], v1, over, sum);
   const int free = !b->held && !b->coupled && !b->roll_block && !sum->gripped;
   return free ? b->plan->beam.mass * b->plan->length : 0.0;
 }
@@ -96,7 +99,7 @@ int sw_contact_turns(sw_contact *c, const sw_system *s, const double *v1, double
   slip sum;
   if (c->regime != SW_CONTACT_IMPLICIT || !c->broad.mover_count || !isfinite(c->least)) return 0;
   for (size_t i = 0; i < c->touch_count;) {
-    const double mass = next_slip(c, s, &i, c->start, v1, &sum);
+    const double mass = next_slip(c, s, &i, v1, 0, &sum);
     const double at = mass > 0 ? turns_at(&sum, mass, h) : HUGE_VAL;
     if (at > AT_START * h && at < AT_END * h) c->soonest = fmin(c->soonest, at);
   }
@@ -107,7 +110,7 @@ int sw_contact_turned(const sw_contact *c, const sw_system *s, double h) {
   slip sum;
   if (c->regime != SW_CONTACT_IMPLICIT || !c->broad.mover_count) return 0;
   for (size_t i = 0; i < c->touch_count;) {
-    const double mass = next_slip(c, s, &i, c->start, s->v, &sum); /* start: of the last step */
+    const double mass = next_slip(c, s, &i, s->v, 1, &sum);
     if (mass > 0 && sum.slides && hurries(&sum, mass, c->h) &&
         sw_norm(sum.after) < slow_of(&sum, mass, h))
       return 1;
