@@ -47,6 +47,18 @@ describe("a run that goes on from a file", function()
     assert.is_true(c.scene:run({ dt = 0.005, window = 0.02 }).ok)
   end)
 
+  it("makes no step if the file's run has already made the allowed number", function()
+    local path, c = file_of({ dt = 0.005 }, 2), script()
+    local run = c.scene:run{ dt = 0.005, resume = path, max_steps = 1 }
+    has(run.reason, { "the allowed number of steps was used: max_steps = 1, and ", " were made before" })
+    assert.is_true(run.ok)
+    local steps = run.steps
+    assert.is_true(steps > 1)
+    local more = script().scene:run{ dt = 0.005, resume = path, max_steps = steps + 3 }
+    assert.equal(steps + 3, more.steps)
+    assert.equal("the allowed number of steps was used", more.reason)
+  end)
+
   it("tells another step, tolerance or method by an event that names both values", function()
     local path, c = file_of({ dt = 0.005 }, 2), script()
     local texts = resumed(c.scene:run{ dt = 0.002, integrator = "sdirk2", resume = path })

@@ -74,6 +74,10 @@ local function drive(scene, args, total, bar)
   local bounds = type(args.frames) == "table" and go.frames:read(args.frames, "scene:run: frames")
   core.keep_frames(scene, bounds and bounds.memory or nil)
   local left = (args.max_steps or math.huge) - total.steps
+  if left <= 0 then -- a run that goes on from a file counts the steps before it
+    return ("the allowed number of steps was used: max_steps = %d, and %d were made before the file was "
+      .. "saved"):format(args.max_steps, total.steps), "stopped"
+  end
   while true do
     if args.guard then args.guard:look(options, total) end
     local alive, wake, watching = turns.step(scene)
