@@ -141,7 +141,7 @@ describe("a thin tube in pure bending", function()
       assert.are.equal(wire.name, told[1].object)
       assert.matches("^tube 'wire1' kinks at s = [%d.]+ m: its curvature there is [%d.]+ 1/m and its moment "
         .. "[%d.]+ N m; its wall buckles at about 3.81 1/m and 0.0936 N m$", told[1].text)
-      assert.matches("at rest after %d+ iterations.*; tube 'wire1' kinks at s", tostring(scene:settle()))
+      assert.matches("at rest after %d+ iterations?.*; tube 'wire1' kinks at s", tostring(scene:settle()))
     end
   end)
 
