@@ -5,7 +5,6 @@
 #include <math.h>
 
 #include "base/alloc.h"
-#include "contact/contact.h"
 #include "grip/frozen.h"
 #include "scene/parts.h"
 #include "solve/dense.h"
@@ -20,8 +19,7 @@ typedef struct list {
   size_t count;
 } list;
 
-/* Returns the finger of the pad that pushes at touch k; below 0: none does. */
-static int finger_at(const sw_contact *c, const sw_tool *t, size_t k) {
+int sw_held_finger(const sw_contact *c, const sw_tool *t, size_t k) {
   const int obstacle = sw_contact_pusher(c, k);
   for (size_t i = 0; obstacle >= 0 && i < t->pads; i++)
     if (t->pad[i].obstacle == (size_t)obstacle) return t->pad[i].finger;
@@ -33,7 +31,7 @@ static sw_status make_list(const sw_contact *c, sw_tool *t, list *l) {
   size_t most = 0;
   const size_t touches = c && t->pads ? sw_contact_touches(c) : 0;
   *l = (list){0};
-  for (size_t k = 0; k < touches; k++) most += finger_at(c, t, k) >= 0;
+  for (size_t k = 0; k < touches; k++) most += sw_held_finger(c, t, k) >= 0;
   if (!most) return SW_OK;
   const size_t each = sizeof *l->touch + 3 * sizeof(sw_vec) + sizeof(size_t);
   SW_TRY(sw_grow_empty(&t->room, &t->room_size, most * each, 1));
@@ -75,7 +73,7 @@ static void collect(sw_scene *s, const sw_tool *t, list *l, sw_held *out) {
   const sw_system *system = sw_scene_system(s);
   for (size_t k = 0; k < sw_contact_touches(contact); k++) {
     sw_contact_push p;
-    const int finger = finger_at(contact, t, k);
+    const int finger = sw_held_finger(contact, t, k);
     if (finger < 0) continue;
     sw_contact_push_at(contact, system, k, &p);
     out->press |= 1u << finger;

@@ -4,6 +4,7 @@
 #ifndef SW_GRIP_HELD_H
 #define SW_GRIP_HELD_H
 
+#include "contact/contact.h"
 #include "scene/gripper.h"
 #include "scene/scene.h"
 
@@ -18,6 +19,8 @@ typedef struct sw_held {
                         tool's axes [m], [rad] */
 } sw_held;
 
+/* Returns the finger of the pad that pushes at touch k; below 0: none does [-]. */
+int sw_held_finger(const sw_contact *contact, const sw_tool *tool, size_t k);
 /* Reads the touches of the tool's pads. slipped, turned: slip and turn before this step, in the
  * tool's axes [m], [rad]; they grow by those of this step. *furthest: the longest way of a touch by
  * both [m], as it was if nothing presses. SW_ENOMEM. */

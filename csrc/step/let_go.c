@@ -3,16 +3,12 @@
  * Pads let go only where there is none with the wire between them. */
 #include "step/let_go.h"
 
-#include "contact/contact.h"
-#include "scene/gripper.h"
+#include "grip/held.h"
 #include "scene/parts.h"
 
 static int presses(const sw_contact *c, const sw_tool *t) {
-  for (size_t k = 0; k < sw_contact_touches(c); k++) {
-    const int obstacle = sw_contact_pusher(c, k);
-    for (size_t i = 0; obstacle >= 0 && i < t->pads; i++)
-      if (t->pad[i].obstacle == (size_t)obstacle) return 1;
-  }
+  for (size_t k = 0; k < sw_contact_touches(c); k++)
+    if (sw_held_finger(c, t, k) >= 0) return 1;
   return 0;
 }
 
