@@ -175,6 +175,7 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   sw_scene_enter(s, -1);
   sw_scene_system(s)->judged = NULL;
   if (status == SW_OK && !args->quasistatic) status = sw_scene_look_for_buckling(s, &why);
+  if (status == SW_OK) sw_scene_end_unbent(s);
   sw_free(p.v_start);
   /* stores the last good state, for pictures of the failure */
   if (status == SW_ENOCONV && isfinite(args->frame) && sw_scene_frames_of(s)->count &&

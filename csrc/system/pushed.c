@@ -69,18 +69,17 @@ static sw_pushed next_piece(const row *w, size_t first, size_t *end) {
   size_t from = most, to = most + 1;
   while (from > first && push_in(w, from - 1) >= least) from--;
   while (to < *end && push_in(w, to) >= least) to++;
-  sw_pushed out = {.edge = (from + to) / 2};
+  sw_pushed out = {.edge = (from + to) / 2, .from = from, .to = to};
   for (size_t k = from; k < to; k++)
     out.push += push_in(w, k) * rest_of(w, k), out.length += rest_of(w, k);
   out.push /= out.length;
   return out;
 }
 
-/* Returns the rate at which the bend of a real wire grows; 0: it does not [1/s]. A wave of
- * wavenumber k grows at the rate r, m r^2 = k^2 (P - EI k^2): at most at k^2 = P/(2 EI), but no
- * wave is longer than a piece whose ends are held. On a table the weight must be lifted off the
- * bend that the wire has. */
-static double rate_of(const sw_beam *beam, double gravity, const sw_pushed *p) {
+/* A wave of wavenumber k grows at the rate r, m r^2 = k^2 (P - EI k^2): at most at k^2 = P/(2 EI),
+ * but no wave is longer than a piece whose ends are held. On a table the weight must be lifted off
+ * the bend that the wire has. */
+double sw_pushed_rate_of(const sw_beam *beam, double gravity, const sw_pushed *p) {
   const double longest = 2 * M_PI / p->length;
   const double k2 = fmax(p->push / (2 * beam->EI), longest * longest);
   const double r2 = k2 * (p->push - beam->EI * k2) / beam->mass - gravity / (CROOKED * p->length);
@@ -107,7 +106,7 @@ double sw_pushed_rate(const sw_system *system, const sw_body *b, const double *x
   if (!may_buckle(&w)) return 0;
   for (size_t e = 0; e < w.edges;) {
     const sw_pushed p = next_piece(&w, e, &e);
-    const double r = p.push > 0 ? rate_of(&b->plan->beam, gravity, &p) : 0;
+    const double r = p.push > 0 ? sw_pushed_rate_of(&b->plan->beam, gravity, &p) : 0;
     if (r > rate) rate = r, *most = p;
   }
   return rate;

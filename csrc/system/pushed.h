@@ -10,6 +10,7 @@
 typedef struct sw_pushed {
   double push, length; /* mean [N], [m] */
   size_t edge;         /* or slice, in its middle */
+  size_t from, to;     /* its first edge or slice, and the one after its last */
 } sw_pushed;
 
 /* Returns the fastest rate at which a small bend of one of the wire's pieces grows under the
@@ -17,5 +18,7 @@ typedef struct sw_pushed {
  * [1/s]. x: places of all nodes of the system [m]. *most: that piece. gravity [m/s2]. */
 double sw_pushed_rate(const sw_system *system, const sw_body *body, const double *x, double gravity,
                       sw_pushed *most);
+/* The same of one piece. */
+double sw_pushed_rate_of(const sw_beam *beam, double gravity, const sw_pushed *piece);
 
 #endif

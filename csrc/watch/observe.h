@@ -104,6 +104,9 @@ sw_status sw_scene_look_for_buckling(sw_scene *scene, sw_error *err);
 /* Reports a wire that stayed straight, or in a plane, under a push that bends real wires, and then
  * buckled. */
 void sw_scene_watch_unbent(sw_scene *scene, size_t wire);
+/* The run ended: reports wires that still stay straight under such a push. Call it after
+ * sw_scene_look_for_buckling. */
+void sw_scene_end_unbent(sw_scene *scene);
 
 /* Adds a row of the accepted state to a wire's series. */
 sw_status sw_watch_wire(sw_scene *scene, size_t wire, const sw_wire_extremes *now, sw_error *err);
