@@ -197,11 +197,13 @@ static int push_report(lua_State *L, const sw_freeze_report *r) {
   lsw_set_vector(L, "moment", r->moment);
   lsw_set_momentum(L, "before", r->before);
   lsw_set_momentum(L, "after", r->after);
+  if (r->on_rod) lsw_set_text(L, "on", "rod");
   return 1;
 }
 
 /* tool:freeze(wire), tool:thaw() -> { s1, s2 [m], energy_before, energy_after [J], force [N] and
- * moment [N m] of the tool before the change, before, after = momentum { linear, angular } } */
+ * moment [N m] of the tool before the change, before, after = momentum { linear, angular }, on =
+ * "rod" if the pads press on a rod after a thaw } */
 static int meth_freeze(lua_State *L) {
   sw_freeze_report r;
   const lsw_self t = check(L);

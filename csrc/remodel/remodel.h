@@ -31,6 +31,7 @@ typedef struct sw_freeze_report {
   double energy_before, energy_after; /* of the scene [J] */
   double before[6], after[6];         /* momentum and its moment [N s], [N m s] */
   sw_vec force, moment;               /* of the tool before, about its centre [N], [N m] */
+  int on_rod;                         /* 1: the thawed pads press on a rod */
 } sw_freeze_report;
 
 /* Turns the wire, a mesh between the tool's pads, into a rod that the tool holds rigidly where the
@@ -39,7 +40,7 @@ typedef struct sw_freeze_report {
 sw_status sw_scene_tool_freeze(sw_scene *scene, sw_handle tool, sw_handle wire, sw_balance *balance,
                                sw_freeze_report *out, sw_error *err);
 /* Turns it back into a mesh: between the pads as it was, with their friction; elsewhere as the rod
- * lies. */
+ * lies. If the wire is a mesh between the pads of another tool by now, it stays as it is. */
 sw_status sw_scene_tool_thaw(sw_scene *scene, sw_handle tool, sw_balance *balance,
                              sw_freeze_report *out, sw_error *err);
 

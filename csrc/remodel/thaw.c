@@ -244,6 +244,23 @@ static sw_status change_to_mesh(sw_scene *s, const sw_exchange *x, const double 
   return SW_OK;
 }
 
+/* The wire became a mesh elsewhere, between the pads of another gripper, while this one held it. It
+ * stays as it is, and the pads press on the rod. */
+static sw_status change_to_pads(sw_scene *s, const sw_exchange *x, const double *a, size_t count,
+                                sw_freeze_report *out, sw_error *err) {
+  const size_t wire = x->frozen->wire.slot;
+  sw_vec about;
+  sw_momentum_of(s, wire, &about, out->before);
+  out->energy_before = sw_scene_total_energy(s, err);
+  SW_TRY(sw_scene_release_hold(s, x->frozen->hold, err));
+  SW_TRY(sw_scene_tool_pads_on(s, x->tool, 1, err));
+  SW_TRY(sw_scene_build(s, err));
+  (void)a, (void)count; /* not moved into balance: the jaws must close on the rod first */
+  sw_momentum_about(s, wire, about, out->after);
+  out->energy_after = sw_scene_total_energy(s, err);
+  return SW_OK;
+}
+
 /* Changes of the tool's force and moment by a thaw above which they are told: of the force before,
  * or of the wire's weight (without gravity of EI/L^2, which bends it); of the moment before, or of
  * that force at a radius [-]. Rod and mesh differ by less than that (mixed.md). */
@@ -272,6 +289,13 @@ static sw_status tell_jump(sw_scene *s, sw_handle tool, const sw_handle wire,
   return SW_OK;
 }
 
+/* The jaws close on the rod with the force that they had on the mesh. */
+static void close_again(sw_jaw *j) {
+  if (!(j->now > 0)) return;
+  j->mode = SW_JAW_FORCE, j->status = SW_JAW_MOVES;
+  j->force = j->now, j->now = 0, j->stiffness = 0;
+}
+
 sw_status sw_scene_tool_thaw(sw_scene *s, sw_handle tool, sw_balance *balance,
                              sw_freeze_report *out, sw_error *err) {
   sw_line line = {0};
@@ -281,19 +305,20 @@ sw_status sw_scene_tool_thaw(sw_scene *s, sw_handle tool, sw_balance *balance,
   sw_frozen *f = t->frozen;
   if (!f) return sw_fail(err, SW_EINVAL, "gripper '%s' does not hold its wire rigidly", t->name);
   f->wire = sw_scene_body_now(s, f->wire); /* others may have left */
-  if (sw_scene_wire_in(s, f->wire.slot)->strand.web)
-    return sw_fail(err, SW_EINVAL, "gripper '%s': wire '%s' was remodelled while it was held",
-                   t->name, sw_scene_wire_in(s, f->wire.slot)->name);
+  const int is_mesh = sw_scene_wire_in(s, f->wire.slot)->strand.web != NULL;
   SW_TRY(sw_scene_build(s, err));
-  const sw_exchange exchange = {tool, f->wire.slot, f, &line, NULL, balance, change_to_mesh};
+  const sw_exchange exchange = {
+      tool, f->wire.slot, f, &line, NULL, balance, is_mesh ? change_to_pads : change_to_mesh};
   sw_status status = sw_scene_tool_force(s, tool, NULL, &out->force, &out->moment, err);
   if (status == SW_OK) status = sw_frozen_exchange(s, &exchange, out, err);
   sw_line_free(&line);
   if (status == SW_OK) {
     const sw_handle wire = f->wire;
+    out->on_rod = is_mesh;
     sw_tool *thawed = sw_scene_tool_in(s, tool.slot);
     thawed->jaw = f->jaw;
     thawed->jaw.since = sw_scene_time(s), thawed->jaw.speed = 0;
+    if (is_mesh) close_again(&thawed->jaw);
     thawed->frozen = NULL;
     thawed->now.lost_time = NAN;
     sw_frozen_release(f);

@@ -91,6 +91,8 @@ function mixed.thaw(self)
   local report = build.call(3, self.tool.thaw, self.tool)
   self.frozen = nil
   note(self, "thawed", report)
+  self.events[#self.events].on = report.on
+  if report.on then self.way = "plates" end -- the mesh is between another gripper's pads
   return self
 end
 
