@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "system/axis.h"
+
 /* Edges with at least this share of the largest push are pushed [-]. */
 static const double PUSHED = 0.5;
 /* Bend of a real wire over its length [-]. */
@@ -30,7 +32,7 @@ static double push_of_slice(const row *w, size_t e) {
   const sw_web *web = w->body->plan->web;
   const sw_vec from = sw_web_centre(web, w->x, e), to = sw_web_centre(web, w->x, e + 1);
   const sw_vec chord = sw_sub(to, from);
-  const double rest = web->s[web->first[e + 1]] - web->s[web->first[e]];
+  const double rest = sw_axis_rest(w->body, e);
   double turns = 0, sides = 0;
   if (e > 0) turns += turn2(sw_sub(from, sw_web_centre(web, w->x, e - 1)), chord), sides++;
   if (e + 1 < w->edges) turns += turn2(chord, sw_sub(sw_web_centre(web, w->x, e + 2), to)), sides++;
@@ -43,15 +45,9 @@ static double push_in(const row *w, size_t e) {
   return fmax(0, -w->system->tension[w->body->first_edge + e]);
 }
 
-static double rest_of(const row *w, size_t e) {
-  const sw_web *web = w->body->plan->web;
-  return web ? web->s[web->first[e + 1]] - web->s[web->first[e]] : w->body->plan->rest[e];
-}
-
 /* 1 if a hold is at the start of edge or slice e. */
 static int is_held(const row *w, size_t e) {
-  const sw_plan *p = w->body->plan;
-  return p->held[p->web ? p->web->first[e] : e] != SW_FREE;
+  return w->body->plan->held[sw_axis_first(w->body, e)] != SW_FREE;
 }
 
 /* Returns the piece around the largest push from edge `first` to the next held node; *end: the edge
@@ -71,7 +67,7 @@ static sw_pushed next_piece(const row *w, size_t first, size_t *end) {
   while (to < *end && push_in(w, to) >= least) to++;
   sw_pushed out = {.edge = (from + to) / 2, .from = from, .to = to};
   for (size_t k = from; k < to; k++)
-    out.push += push_in(w, k) * rest_of(w, k), out.length += rest_of(w, k);
+    out.push += push_in(w, k) * sw_axis_rest(w->body, k), out.length += sw_axis_rest(w->body, k);
   out.push /= out.length;
   return out;
 }
@@ -99,10 +95,9 @@ static int may_buckle(const row *w) {
 
 double sw_pushed_rate(const sw_system *system, const sw_body *b, const double *x, double gravity,
                       sw_pushed *most) {
-  const sw_web *web = b->plan->web;
-  row w = {.system = system, .body = b, .x = x + 3 * b->first_node, .edges = b->plan->edges};
+  const row w = {
+      .system = system, .body = b, .x = x + 3 * b->first_node, .edges = sw_axis_edges(b)};
   double rate = 0;
-  if (web) w.edges = web->per_ring && web->rings > 1 ? web->rings - 1 : 0;
   if (!may_buckle(&w)) return 0;
   for (size_t e = 0; e < w.edges;) {
     const sw_pushed p = next_piece(&w, e, &e);

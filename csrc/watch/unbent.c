@@ -12,6 +12,7 @@
 #include "scene/events.h"
 #include "scene/parts.h"
 #include "scene/wire.h"
+#include "system/axis.h"
 #include "system/pushed.h"
 #include "watch/observe.h"
 
@@ -35,25 +36,27 @@ static const double CROOKED = 1e-3;
 /* How far a wire has left its line. */
 enum { STRAIGHT_ON, IN_PLANE, LEFT };
 
-static sw_vec aside_of(const double *x, size_t e, sw_vec chord) {
-  const sw_vec edge = sw_unit_or(sw_sub(sw_vec_at(x, e + 1), sw_vec_at(x, e)), chord);
+static sw_vec aside_of(const sw_body *b, const double *x, size_t e, sw_vec chord) {
+  const sw_vec from = sw_axis_place(b, x, e), to = sw_axis_place(b, x, e + 1);
+  const sw_vec edge = sw_unit_or(sw_sub(to, from), chord);
   return sw_madd(edge, chord, -sw_dot(edge, chord));
 }
 
 static int shape_of(const sw_system *system, const sw_body *b) {
   const double *x = system->x + 3 * b->first_node;
-  const size_t last = b->plan->nodes - 1;
-  const sw_vec chord = sw_unit_or(sw_sub(sw_vec_at(x, last), sw_vec_at(x, 0)), sw_v(1, 0, 0));
+  const size_t last = sw_axis_edges(b);
+  const sw_vec whole = sw_sub(sw_axis_place(b, x, last), sw_axis_place(b, x, 0));
+  const sw_vec chord = sw_unit_or(whole, sw_v(1, 0, 0));
   sw_vec most = sw_v(0, 0, 0);
   for (size_t e = 0; e < last; e++) {
-    const sw_vec aside = aside_of(x, e, chord);
+    const sw_vec aside = aside_of(b, x, e, chord);
     if (sw_norm2(aside) > FLAT * FLAT) return LEFT; /* most wires, at once */
     if (sw_norm2(aside) > sw_norm2(most)) most = aside;
   }
   if (sw_norm(most) <= STRAIGHT) return STRAIGHT_ON;
   const sw_vec across = sw_unit_or(sw_cross(chord, most), sw_v(0, 0, 0));
   for (size_t e = 0; e < last; e++)
-    if (fabs(sw_dot(aside_of(x, e, chord), across)) > STRAIGHT) return LEFT;
+    if (fabs(sw_dot(aside_of(b, x, e, chord), across)) > STRAIGHT) return LEFT;
   return IN_PLANE;
 }
 
@@ -85,14 +88,22 @@ static void tell_borne(sw_scene *s, size_t wire, const sw_unbent *u) {
 
 /* A touch of a piece of a wire. */
 typedef struct touch {
-  size_t edge; /* counted from the wire's start */
+  size_t edge; /* or slice, counted from the wire's start */
   sw_contact_push push;
 } touch;
 
 static int touch_of(const sw_scene *s, const sw_body *b, size_t k, touch *out) {
   if (!sw_contact_push_at(sw_scene_contact(s), sw_scene_system(s), k, &out->push)) return 0;
-  out->edge = out->push.node - b->first_node;
+  out->edge = sw_axis_of(b, out->push.node - b->first_node);
   return 1;
+}
+
+/* Touches from edge or slice `from` to before `to`. */
+static void touches_of(const sw_scene *s, const sw_body *b, size_t from, size_t to, size_t *first,
+                       size_t *end) {
+  const size_t last = sw_axis_edges(b) + 1;
+  sw_contact_touches_of(sw_scene_contact(s), b->first_node + sw_axis_first(b, from),
+                        b->first_node + sw_axis_first(b, to < last ? to : last), first, end);
 }
 
 static int faces(const sw_scene *s, const sw_body *b, const touch *one, size_t k) {
@@ -105,8 +116,7 @@ static int is_between(const sw_scene *s, const sw_body *b, size_t k) {
   size_t first, end;
   touch one;
   if (!touch_of(s, b, k, &one)) return 0;
-  sw_contact_touches_of(sw_scene_contact(s), b->first_node + one.edge - (one.edge > 0),
-                        b->first_node + one.edge + 2, &first, &end);
+  touches_of(s, b, one.edge - (one.edge > 0), one.edge + 2, &first, &end);
   for (size_t i = first; i < end; i++)
     if (faces(s, b, &one, i)) return 1;
   return 0;
@@ -132,7 +142,7 @@ static double friction_on(const sw_scene *s, const sw_body *b, sw_pushed *piece)
       sum += t.push.friction * t.push.normal_force;
   }
   piece->length = 0, piece->from = best, piece->to = best + most, piece->edge = best + most / 2;
-  for (size_t e = best; e < best + most; e++) piece->length += b->plan->rest[e];
+  for (size_t e = best; e < best + most; e++) piece->length += sw_axis_rest(b, e);
   return most ? sum / piece->length : 0;
 }
 
@@ -166,7 +176,7 @@ void sw_scene_watch_unbent(sw_scene *s, size_t wire) {
   const double time = sw_scene_time(s), since = time - u->seen;
   sw_pushed most = {0};
   u->seen = time;
-  if (b->plan->web || b->waits || !(b->plan->beam.EI > 0)) return;
+  if (b->waits || !(b->plan->beam.EI > 0)) return;
   const double rate = rate_of(s, b, &most);
   const int shape = (rate > 0 || u->due > 0) && since > 0 ? shape_of(system, b) : LEFT;
   const int was_straight = u->due > 0 && !u->plane; /* it buckles in a plane */
@@ -175,7 +185,7 @@ void sw_scene_watch_unbent(sw_scene *s, size_t wire) {
     u->plane |= shape == IN_PLANE;
     if (u->growth < GROWTH) return;
     if (!(u->due > 0)) u->due = most.push;
-    if (most.push > u->push) u->push = most.push, u->at = b->plan->s[most.edge] - b->plan->s[0];
+    if (most.push > u->push) u->push = most.push, u->at = sw_axis_arc(b, most.edge);
     return;
   }
   if (is_too_much(u) && rate > 0)

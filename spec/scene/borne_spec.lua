@@ -17,7 +17,8 @@ local function lying(o)
     local k = o.swap and n - i or i
     path[i + 1] = place(L * k / n + (o.start or 0), (o.bent or 0) * L * math.sin(math.pi * k / n) ^ 2)
   end
-  local wire = scene:wire{ name = "w", cable = o.cable, path = path, segments = n,
+  local wire = scene:wire{ name = "w", cable = o.cable, path = path, model = o.model,
+    spacing = o.model and 1.5e-3 or nil, segments = not o.model and n or nil,
     rest = o.bent and "path" or nil }
   scene:obstacle{ shape = "plane", at = { 0, 0, -wire.radius }, friction = o.friction }
   scene:force{ kind = "damping", mass = 4, stiffness = 0.003 }
@@ -119,6 +120,19 @@ describe("a straight cable on a table with friction", function()
       local real, silent = handed(o)
       assert.equal(0, #silent)
       t.below(most, real, "push that a bent cable bears [N]")
+    end
+  end)
+
+  it("is told of as a mesh too, with friction or without", function()
+    for _, model in ipairs{ "tube", "radial" } do
+      for _, friction in ipairs(model == "tube" and { 0, 0.05 } or { 0.05 }) do
+        local peak, events, lay = pushed{ cable = "GXL 1.5", model = model, friction = friction, times = 6 }
+        assert.equal(1, #events)
+        assert.matches("stayed straight", events[1].text)
+        local most = tonumber(events[1].text:match "buckles under ([%d.e+-]+) N at most")
+        t.above(0.96 * bound(lay), most, "most that a real one bears [N]")
+        t.below(peak, most, "most that a real one bears [N]")
+      end
     end
   end)
 
