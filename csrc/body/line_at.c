@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* State at a place on a line: between its nodes, and beside its holds. */
+/* State at a place on a line: between its nodes, and beside its holds and joints. */
 #include <math.h>
 
 #include "body/body.h"
+#include "body/side.h"
 #include "body/spin.h"
 #include "scene/course.h"
 #include "scene/parts.h"
@@ -39,13 +40,15 @@ static void node_state(const sw_system *s, const sw_body *b, size_t node, size_t
                        sw_vec *tangent, double *curvature) {
   const sw_plan *p = b->plan;
   const sw_field *f = &b->field;
-  const sw_clamp_hinge *c = clamp_at(p, node, edge);
+  const sw_clamp_hinge *c;
   const sw_vec own = sw_field_tangent(f, edge);
+  sw_bent_side side;
+  const int bent = sw_scene_side_at(s, b, node, edge, &side);
   *curvature = 0.0;
   *tangent = own;
-  if (c) {
-    *tangent = director(s, c);
-    *curvature = sw_scene_clamp_curvature(s, b, c);
+  if (bent) *curvature = sw_scene_side_curvature(s, b, &side);
+  if (bent && side.clamp) {
+    *tangent = director(s, side.clamp);
   } else if (p->held[edge] != SW_FREE && p->held[edge + 1] != SW_FREE &&
              (c = face_at(p, node)) != NULL) { /* inside a grip, at its face */
     *tangent = director(s, c);
@@ -53,7 +56,10 @@ static void node_state(const sw_system *s, const sw_body *b, size_t node, size_t
     const sw_vec t1 = sw_field_tangent(f, node - 1), t2 = sw_field_tangent(f, node);
     const double l1 = p->rest[node - 1], l2 = p->rest[node];
     *tangent = sw_unit_or(sw_add(sw_scale(t1, l2), sw_scale(t2, l1)), own);
-    if (p->hinge[node] > 0) *curvature = angle_between(t1, t2) / p->hinge[node];
+    if (p->hinge[node] > 0 && !bent) *curvature = angle_between(t1, t2) / p->hinge[node];
+  } else if (bent) { /* the middle of the edge has its direction */
+    const sw_vec half = sw_scale(sw_scene_side_bend(s, b, &side), 0.5 * p->rest[edge]);
+    *tangent = sw_unit_or(sw_madd(own, half, -side.side), own);
   } else if (p->edges > 1) { /* free or pinned end: no moment, so the bend does not change
                                 further */
     const size_t inner = node == 0 ? 1 : p->edges - 2;
@@ -96,8 +102,9 @@ static double node_torque(const sw_body *b, size_t node, size_t edge) {
 
 /* Returns the bend beyond that at rest at a node, as seen from one of its edges. */
 static double node_flexure(const sw_system *s, const sw_body *b, size_t node, size_t edge) {
-  const sw_clamp_hinge *c = clamp_at(b->plan, node, edge);
-  return sw_scene_flexure(s, b, c ? b->plan->nodes + (size_t)(c - b->plan->clamps) : node);
+  sw_bent_side side;
+  if (sw_scene_side_at(s, b, node, edge, &side)) return sw_scene_side_flexure(s, b, &side);
+  return sw_scene_flexure(s, b, node);
 }
 
 /* With frames from the hinges beside the place; else from the span that contains it, 0 outside

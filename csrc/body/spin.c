@@ -61,9 +61,7 @@ static sw_edge_frame present(const sw_field *f, size_t e) {
                          sw_v(f->normals[0][e], f->normals[1][e], f->normals[2][e])};
 }
 
-/* Finds the bend of a hinge about the normals' axes; returns its length, 0: there is none [rad],
- * [m]. */
-static double bend_of(const sw_system *s, const sw_body *body, size_t number, double bend[2]) {
+double sw_scene_hinge_bend(const sw_system *s, const sw_body *body, size_t number, double bend[2]) {
   const sw_plan *p = body->plan;
   const sw_field *f = &body->field;
   sw_edge_frame a, b;
@@ -86,7 +84,7 @@ static double bend_of(const sw_system *s, const sw_body *body, size_t number, do
 
 double sw_scene_flexure(const sw_system *s, const sw_body *body, size_t number) {
   double bend[2] = {0, 0};
-  const double length = bend_of(s, body, number, bend);
+  const double length = sw_scene_hinge_bend(s, body, number, bend);
   const double *rest = body->plan->rest_bend + 2 * number;
   return length > 0 ? hypot(bend[0] - rest[0], bend[1] - rest[1]) / length : 0;
 }
@@ -98,7 +96,7 @@ static double curved_at_clamp(const sw_system *s, const sw_body *body, size_t cl
   const sw_plan *p = body->plan;
   const size_t number = p->nodes + clamp;
   double bend[2] = {0, 0};
-  const double hinge = bend_of(s, body, number, bend);
+  const double hinge = sw_scene_hinge_bend(s, body, number, bend);
   const double half = 0.5 * p->rest[p->clamps[clamp].edge];
   const double *rest = p->rest_bend + 2 * number;
   return hypot((bend[0] - rest[0]) / hinge + rest[0] / half,

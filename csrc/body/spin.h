@@ -13,6 +13,10 @@ void sw_scene_unloaded_near(const sw_scene *scene, size_t wire, sw_plan *plan, s
 /* Present frames: into the system's state, and back into a mesh. */
 void sw_scene_frame_in(sw_scene *scene);
 void sw_scene_frame_out(sw_scene *scene, size_t wire);
+/* Finds the bend of a hinge along the normals and across them, as an angle; returns the hinge's
+ * length, 0: there is none. For refreshed bodies with frames [rad], [m]. */
+double sw_scene_hinge_bend(const sw_system *system, const sw_body *body, size_t number,
+                           double bend[2]);
 /* Returns the bend of a hinge beyond that at rest, over its length [1/m]. number: in the plan's
  * list, with clamps after nodes. For refreshed bodies with frames. */
 double sw_scene_flexure(const sw_system *system, const sw_body *body, size_t number);

@@ -120,6 +120,7 @@ static sw_status add_hub(const sw_joint *j, const sw_link_wire *wires) {
     if (!(stiffness > 0)) continue;
     hub.arms[hub.count++] = (struct sw_join_arm){.from = system_node(w, nodes[0]),
                                                  .to = system_node(w, nodes[1]),
+                                                 .node = sw_joint_node(&j->ends[k], w),
                                                  .k = stiffness,
                                                  .rest = j->ends[k].rest};
   }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Energy stored in bending, by model.
  *
- * Lines of nodes: the energy of their bending forces, minus what yields or slips.
+ * Lines of nodes: the energy of their bending forces, minus what yields or slips, and of their bend
+ * within rigid joints.
  *
  * Meshes: springs and elements do not separate bending from stretching. So the energy is 1/2 M^2/EI
  * summed over the slices, where M is the moment that springs and elements bear across a slice, plus
@@ -17,6 +18,7 @@
 #include "scene/parts.h"
 #include "scene/wire.h"
 #include "system/axial.h"
+#include "system/join.h"
 
 static double of_line(sw_scene *s, size_t body) {
   sw_system *system = sw_scene_system(s);
@@ -73,7 +75,8 @@ static sw_status read(sw_scene *s, sw_handle h, double place, double *out, sw_er
   if (!b->plan->web) {
     SW_TRY(sw_scene_still(s, err)); /* inside a step the fields are the solver's */
     sw_system_show(system, h.slot);
-    *out = of_line(s, h.slot);
+    *out = of_line(s, h.slot) +
+           sw_joins_bend_energy(system, b->first_node, b->first_node + b->plan->nodes);
     return SW_OK;
   }
   if (beam->EI_axis[0] != beam->EI_axis[1])

@@ -8,6 +8,7 @@
 #include "base/each.h"
 #include "base/simd.h"
 #include "body/section.h"
+#include "body/side.h"
 #include "body/spin.h"
 #include "contact/jolt.h"
 #include "record/wear.h"
@@ -17,7 +18,6 @@
 #include "scene/parts.h"
 #include "scene/values.h"
 #include "scene/wire.h"
-#include "state/clamp.h"
 #include "system/axial.h"
 #include "system/system.h"
 
@@ -51,8 +51,9 @@ static void curvature_extreme(const sw_scene *s, const sw_body *b, double above,
   const sw_field *f = &b->field;
   const double bound2 =
       largest_curvature2(p->nodes, p->hinge, f->tangent[0], f->tangent[1], f->tangent[2]);
-  const sw_clamp_hinge *clamp = NULL;
-  size_t node = 0;
+  sw_bent_side side, sharpest;
+  size_t node = 0, next = 0;
+  int aside = 0;
   *out = (sw_extreme){.s = p->s[0]};
   *sharp = (sw_sharpness){0};
   for (size_t i = 1; i + 1 < p->nodes; i++) {
@@ -63,13 +64,14 @@ static void curvature_extreme(const sw_scene *s, const sw_body *b, double above,
     node = i;
     break;
   }
-  SW_ITEMS(const sw_clamp_hinge, h, p->clamps, p->clamp_count) {
-    const double value = sw_scene_clamp_curvature(sw_scene_system(s), b, h);
+  while (sw_scene_next_side(sw_scene_system(s), b, &next, &side)) {
+    const double value = sw_scene_side_curvature(sw_scene_system(s), b, &side);
     if (!(value > out->value)) continue;
-    *out = (sw_extreme){.value = value, .s = p->s[h->node]};
-    node = h->node, clamp = h;
+    *out = (sw_extreme){.value = value, .s = p->s[side.node]};
+    sharpest = side, aside = 1;
   }
-  if (out->value > above) *sharp = sw_scene_sharpness(s, b, node, clamp, out->value);
+  if (out->value > above)
+    *sharp = sw_scene_sharpness(s, b, node, aside ? &sharpest : NULL, out->value);
 }
 
 /* Number of edges, or of slices between rings, whose tension is recorded. */
@@ -124,10 +126,10 @@ static void framed_strain(const sw_system *s, const sw_body *b, sw_extreme *out)
     const double bent = radius * sw_scene_flexure(s, b, i), mean = 0.5 * (T[i] + T[i - 1]) / EA;
     keep_largest(out, &(sw_extreme){.value = mean + bent, .s = p->s[i]});
   }
-  for (size_t c = 0; c < p->clamp_count; c++) {
-    const double bent = radius * sw_scene_flexure(s, b, p->nodes + c);
-    keep_largest(out, &(sw_extreme){.value = T[p->clamps[c].edge] / EA + bent,
-                                    .s = p->s[p->clamps[c].node]});
+  sw_bent_side side;
+  for (size_t next = 0; sw_scene_next_side(s, b, &next, &side);) {
+    const double bent = radius * sw_scene_side_flexure(s, b, &side);
+    keep_largest(out, &(sw_extreme){.value = T[side.edge] / EA + bent, .s = p->s[side.node]});
   }
 }
 
@@ -150,9 +152,10 @@ static void strain_extreme(const sw_system *s, const sw_body *b, sw_extreme *out
     *out = (sw_extreme){.value = mean + per_length * sw_angle_of_chord(chord), .s = p->s[i]};
     break;
   }
-  SW_ITEMS(const sw_clamp_hinge, h, p->clamps, p->clamp_count) {
-    const double bent = radius * sw_scene_clamp_curvature(s, b, h);
-    keep_largest(out, &(sw_extreme){.value = T[h->edge] / EA + bent, .s = p->s[h->node]});
+  sw_bent_side side;
+  for (size_t next = 0; sw_scene_next_side(s, b, &next, &side);) {
+    const double bent = radius * sw_scene_side_curvature(s, b, &side);
+    keep_largest(out, &(sw_extreme){.value = T[side.edge] / EA + bent, .s = p->s[side.node]});
   }
 }
 

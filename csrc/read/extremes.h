@@ -3,6 +3,7 @@
 #ifndef SW_READ_EXTREMES_H
 #define SW_READ_EXTREMES_H
 
+#include "body/side.h"
 #include "read/reading.h"
 #include "scene/values.h"
 #include "state/clamp.h"
@@ -29,8 +30,8 @@ static inline double sw_angle_of_chord(double chord) { return 2.0 * asin(fmin(1.
 /* Returns |t2 - t1| at inner node i of a line [-]. */
 double sw_scene_hinge_chord(const sw_field *field, size_t i);
 /* How sharp a refreshed line's bend of this curvature is for its edges: about an inner node, or
- * from a clamp on (else NULL). At a free end the curvature is zero [1/m]. */
+ * from a clamp or joint on (else NULL). At a free end the curvature is zero [1/m]. */
 sw_sharpness sw_scene_sharpness(const sw_scene *scene, const sw_body *body, size_t node,
-                                const sw_clamp_hinge *clamp, double value);
+                                const sw_bent_side *side, double value);
 
 #endif

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "body/section.h"
+#include "body/side.h"
 #include "body/spin.h"
 #include "body/touching.h"
 #include "read/extremes.h"
@@ -44,18 +45,18 @@ static void line_values(const sw_system *s, const sw_body *b, float *out) {
   }
 }
 
-/* Sets the values at clamps: their bend is that relative to the held direction. */
-static void clamp_values(const sw_system *s, const sw_body *b, float *out) {
+/* Sets the values at clamps, whose bend is that relative to the held direction, and at joints. */
+static void side_values(const sw_system *s, const sw_body *b, float *out) {
   const sw_plan *p = b->plan;
   const double *T = sw_system_elastic(s, b);
-  for (size_t c = 0; c < p->clamp_count; c++) {
-    const sw_clamp_hinge *h = &p->clamps[c];
-    float *at = out + SW_FRAME_VALUES * h->node;
-    const double bent = sw_scene_clamp_curvature(s, b, h);
-    const double beyond = p->beam.curved ? sw_scene_flexure(s, b, p->nodes + c) : bent;
+  sw_bent_side h;
+  for (size_t next = 0; sw_scene_next_side(s, b, &next, &h);) {
+    float *at = out + SW_FRAME_VALUES * h.node;
+    const double bent = sw_scene_side_curvature(s, b, &h);
+    const double beyond = p->beam.curved ? sw_scene_side_flexure(s, b, &h) : bent;
     at[SW_FRAME_CURVATURE] = fmaxf(at[SW_FRAME_CURVATURE], (float)bent);
     at[SW_FRAME_STRESS] =
-        fmaxf(at[SW_FRAME_STRESS], (float)fibre_stress(&p->beam, T[h->edge], beyond));
+        fmaxf(at[SW_FRAME_STRESS], (float)fibre_stress(&p->beam, T[h.edge], beyond));
   }
 }
 
@@ -125,7 +126,7 @@ void sw_scene_node_values(sw_scene *s, size_t w, size_t n, float *out) {
     strand_values(s, w, n, out);
   } else {
     line_values(system, b, out);
-    clamp_values(system, b, out);
+    side_values(system, b, out);
   }
   press_obstacles(s, b, out);
   press_wires(s, b, out);

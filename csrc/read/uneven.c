@@ -2,7 +2,7 @@
 /* Sharpness of a wire's largest curvature against its edges, and the curvature between nodes. */
 #include <math.h>
 
-#include "body/spin.h"
+#include "body/side.h"
 #include "contact/contact.h"
 #include "read/extremes.h"
 #include "scene/course.h"
@@ -23,12 +23,13 @@ static const double EVEN = 0.4;
 /* A wire may lie on a round obstacle along a way if TWICE the error told makes it as sharp. If it
  * is sharper, it lies there, or a little off it [-]. */
 static const double TWICE = 2, AROUND_LESS = 0.02;
-/* The hinge of a clamp has this share of an edge: a taut wire's bend within it is too wide, as
- * watch/edges.c tells within 8 %; 0.1 and 0.05 were measured for other loads [-]. */
-static const double CLAMPED = 5.0 / 12, TAUT = 1.1, LOADED = 0.1, SAGGING = 0.05;
+/* The hinge of a clamp or a joint has this share of an edge: a taut wire's bend within it is too
+ * wide, as watch/edges.c tells within 8 %; 0.1 and 0.05 were measured for other loads [-]. */
+static const double CLAMPED = 5.0 / 12, JOINED = 0.5, TAUT = 1.1, LOADED = 0.1, SAGGING = 0.05;
 
 /* Returns the curvature at node i along the axis about which the wire bends there. Beyond the
- * wire's ends and at nodes without a hinge it is that of a clamp there, along `along`, or zero. */
+ * wire's ends and at nodes without a hinge it is that of a clamp or joint there, along `along`, or
+ * zero. */
 static sw_vec curvature_at(const sw_system *s, const sw_body *b, long i, sw_vec along) {
   const sw_plan *p = b->plan;
   const sw_field *f = &b->field;
@@ -39,9 +40,9 @@ static sw_vec curvature_at(const sw_system *s, const sw_body *b, long i, sw_vec 
     return sw_scale(sw_unit_or(axis, sw_v(0, 0, 0)), angle / p->hinge[i]);
   }
   double most = 0;
-  for (size_t k = 0; k < p->clamp_count; k++)
-    if ((long)p->clamps[k].node == i)
-      most = fmax(most, sw_scene_clamp_curvature(s, b, &p->clamps[k]));
+  sw_bent_side side;
+  for (size_t next = 0; sw_scene_next_side(s, b, &next, &side);)
+    if ((long)side.node == i) most = fmax(most, sw_scene_side_curvature(s, b, &side));
   return sw_scale(sw_unit_or(along, sw_v(0, 0, 0)), most);
 }
 
@@ -51,10 +52,10 @@ static double uneven_at(const sw_system *s, const sw_body *b, long i) {
   return sw_norm(sw_madd(sw_add(before, after), here, -2.0));
 }
 
-static double uneven_at_clamp(const sw_system *s, const sw_body *b, const sw_clamp_hinge *h) {
+static double uneven_beside(const sw_system *s, const sw_body *b, const sw_bent_side *h) {
   const long way = h->side, i = (long)h->node;
   const sw_vec next = curvature_at(s, b, i + way, sw_v(0, 0, 0));
-  const sw_vec here = sw_scale(sw_unit_or(next, sw_v(0, 0, 0)), sw_scene_clamp_curvature(s, b, h));
+  const sw_vec here = sw_scale(sw_unit_or(next, sw_v(0, 0, 0)), sw_scene_side_curvature(s, b, h));
   const sw_vec third = curvature_at(s, b, i + 2 * way, next);
   return sw_norm(sw_madd(sw_add(here, third), next, -2.0));
 }
@@ -116,10 +117,12 @@ static void between_holds(const double c[AROUND], double uneven, sw_sharpness *o
   out->less = KINK_LESS * uneven;
 }
 
-/* A bend at a clamp under the axial force T: the share of an edge that the clamp's hinge has. */
-static void at_clamp(const sw_plan *p, double T, double h, double uneven, sw_sharpness *out) {
+/* A bend at a clamp or joint under the axial force T: the share of an edge that its hinge has. */
+static void at_side(const sw_plan *p, double T, const sw_bent_side *side, double uneven,
+                    sw_sharpness *out) {
+  const double h = p->rest[side->edge], part = side->clamp ? CLAMPED : JOINED;
   const double load = p->beam.EI > 0 ? T * h * h / p->beam.EI : 0;
-  const double taut = hypot(1.0, CLAMPED * sqrt(fmax(0.0, load))) - 1;
+  const double taut = hypot(1.0, part * sqrt(fmax(0.0, load))) - 1;
   const double slack = LOADED * fmin(fabs(load), uneven) + SAGGING * uneven;
   out->more = HELD * slack * (1 + 0.5 * uneven) + TAUT * taut;
   out->less = uneven * fmax(HELD_LESS, -PUSHED * load);
@@ -134,16 +137,15 @@ static void on_round(sw_sharpness *out) {
 }
 
 sw_sharpness sw_scene_sharpness(const sw_scene *s, const sw_body *b, size_t node,
-                                const sw_clamp_hinge *h, double value) {
+                                const sw_bent_side *side, double value) {
   const sw_system *system = sw_scene_system(s);
-  const long i = (long)node;
+  const long i = (long)(side ? side->node : node);
   sw_sharpness out = {0};
   if (!(value > 0)) return out;
-  out.uneven = (h ? uneven_at_clamp(system, b, h) : uneven_at(system, b, i)) / value;
+  out.uneven = (side ? uneven_beside(system, b, side) : uneven_at(system, b, i)) / value;
   out.swings = swings_at(s, b, i) / value;
-  if (h) {
-    const double T = sw_system_elastic(system, b)[h->edge];
-    at_clamp(b->plan, T, b->plan->rest[h->edge], out.uneven, &out);
+  if (side) {
+    at_side(b->plan, sw_system_elastic(system, b)[side->edge], side, out.uneven, &out);
     return out;
   }
   double c[AROUND];

@@ -191,12 +191,14 @@ static void measure(const sw_join_hub *h, const double *x, arm *arms) {
   }
 }
 
-static double hub_energy(const sw_join_hub *h, const double *x) {
+/* Returns the energy of a hub's arms at nodes from .. to - 1. */
+static double hub_energy(const sw_join_hub *h, const double *x, size_t from, size_t to) {
   arm arms[SW_HUB_ARMS];
   double sum = 0;
   measure(h, x, arms);
   for (size_t a = 0; a < h->count; a++) /* |p - r|^2/2 = 1 - p.r, without cancellation */
-    sum += 0.5 * h->arms[a].k * sw_norm2(sw_sub(arms[a].p, arms[a].r));
+    if (h->arms[a].node >= from && h->arms[a].node < to)
+      sum += 0.5 * h->arms[a].k * sw_norm2(sw_sub(arms[a].p, arms[a].r));
   return sum;
 }
 
@@ -385,6 +387,13 @@ double sw_joins_energy(const sw_system *s) {
   for (size_t k = 0; all && k < all->spring_count; k++)
     if (all->springs[k].k > 0)
       sum += 0.5 * sw_norm2(sw_join_spring_force(&all->springs[k], s->x)) / all->springs[k].k;
-  for (size_t k = 0; all && k < all->hub_count; k++) sum += hub_energy(&all->hubs[k], s->x);
+  return sum + sw_joins_bend_energy(s, 0, SIZE_MAX);
+}
+
+double sw_joins_bend_energy(const sw_system *s, size_t from, size_t to) {
+  const struct sw_joins *all = s->joins;
+  double sum = 0;
+  for (size_t k = 0; all && k < all->hub_count; k++)
+    sum += hub_energy(&all->hubs[k], s->x, from, to);
   return sum;
 }

@@ -25,6 +25,7 @@ typedef struct sw_join_hub {
   size_t count;
   struct sw_join_arm {
     uint32_t from, to; /* nodes at the ends of the arm */
+    uint32_t node;     /* the node at the join: one of them, or the one between them */
     double k;          /* [N m] */
     sw_vec rest;       /* d [-] */
   } arms[SW_HUB_ARMS];
@@ -62,6 +63,8 @@ sw_vec sw_join_tie_expected(const sw_join_spring *tie, const double *x, const do
 
 /* Returns the moment of a hub on its arm at x, about any point [N m]. */
 sw_vec sw_join_hub_moment(const sw_join_hub *hub, size_t arm, const double *x);
+/* Returns the energy of the arms that are nodes from .. to - 1 of the system, at the state [J]. */
+double sw_joins_bend_energy(const sw_system *system, size_t from, size_t to);
 
 double sw_joins_energy(const sw_system *system); /* at the state [J] */
 

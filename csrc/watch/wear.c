@@ -18,24 +18,44 @@
 /* Number of places along a wire: nodes of a line, rings of a mesh. */
 static size_t along(const sw_plan *p) { return p->web ? p->web->rings : p->nodes; }
 
-/* Number of additional places at clamps of a line. */
-static size_t at_clamps(const sw_plan *p) { return p->web ? 0 : p->clamp_count; }
+/* Places at a state: those along a wire, then one for each side of a line that has a bend of its
+ * own. */
+typedef struct layout {
+  const sw_plan *plan;
+  sw_bent_side *sides;
+  size_t count; /* of all places */
+} layout;
 
-static double place_of(const sw_plan *p, size_t k) {
+/* SW_ENOMEM. */
+static sw_status lay_out(const sw_system *s, const sw_body *b, layout *out) {
+  sw_bent_side side;
+  size_t count = 0;
+  *out = (layout){.plan = b->plan, .count = along(b->plan)};
+  for (size_t next = 0; !b->plan->web && sw_scene_next_side(s, b, &next, &side);) count++;
+  if (!count) return SW_OK;
+  if (!(out->sides = sw_alloc(count, sizeof *out->sides))) return SW_ENOMEM;
+  for (size_t next = 0, k = 0; k < count && sw_scene_next_side(s, b, &next, &side);)
+    out->sides[k++] = side;
+  out->count += count;
+  return SW_OK;
+}
+
+static double place_of(const layout *l, size_t k) {
+  const sw_plan *p = l->plan;
   if (p->web) return p->web->s[p->web->first[k]];
-  return p->s[k < p->nodes ? k : p->clamps[k - p->nodes].node];
+  return p->s[k < p->nodes ? k : l->sides[k - p->nodes].node];
 }
 
-static int side_of(const sw_plan *p, size_t k) {
-  return k < along(p) ? 0 : p->clamps[k - p->nodes].side;
+static int side_of(const layout *l, size_t k) {
+  return k < along(l->plan) ? 0 : l->sides[k - l->plan->nodes].side;
 }
 
-/* 1 if the places are those of the plan. Nodes beside a feed may have moved a little along the
+/* 1 if the places are the present ones. Nodes beside a feed may have moved a little along the
  * wire. */
-static int is_same(const sw_wear *w, const sw_plan *p) {
-  const size_t n = along(p);
+static int is_same(const sw_wear *w, const layout *p) {
+  const size_t n = along(p->plan);
   const double slack = 0.25 * (place_of(p, n - 1) - place_of(p, 0)) / (double)n;
-  if (w->nodes != n || w->count != n + at_clamps(p)) return 0;
+  if (w->nodes != n || w->count != p->count) return 0;
   for (size_t k = 0; k < w->count; k++)
     if (w->places[k].side != side_of(p, k) || fabs(w->places[k].s - place_of(p, k)) > slack)
       return 0;
@@ -88,8 +108,8 @@ static void spread_friction(const sw_wear *old, sw_wear *new) {
   }
 }
 
-/* Carries the wear over to the places of the plan. */
-static void carry_over(const sw_wear *old, const sw_plan *p, sw_wear *new) {
+/* Carries the wear over to the present places. */
+static void carry_over(const sw_wear *old, const layout *p, sw_wear *new) {
   for (size_t k = 0; k < new->count; k++) {
     const double s = place_of(p, k);
     const int side = side_of(p, k);
@@ -105,7 +125,7 @@ static void carry_over(const sw_wear *old, const sw_plan *p, sw_wear *new) {
 }
 
 /* Handles unchanged places of which some have moved along the wire. */
-static sw_status move_places(sw_wear *w, const sw_plan *p) {
+static sw_status move_places(sw_wear *w, const layout *p) {
   int moved = 0;
   for (size_t k = 0; k < w->count; k++) moved |= w->places[k].s != place_of(p, k);
   if (!moved) return SW_OK;
@@ -119,9 +139,9 @@ static sw_status move_places(sw_wear *w, const sw_plan *p) {
   return SW_OK;
 }
 
-static sw_status fit(sw_wear *w, const sw_plan *p) {
+static sw_status fit(sw_wear *w, const layout *p) {
   if (w->count && is_same(w, p)) return move_places(w, p);
-  sw_wear new = {.count = along(p) + at_clamps(p), .nodes = along(p)};
+  sw_wear new = {.count = p->count, .nodes = along(p->plan)};
   if (SW_ALLOC_ALL(SW_ROOM(new.places, new.count), SW_ROOM(new.cycles, SW_WEAR_SIGNALS * new.count),
                    SW_ROOM(new.across, new.count)) != SW_OK) {
     sw_wear_free(&new);
@@ -146,11 +166,11 @@ static double pressure_at(const sw_wear *w, size_t i) {
   return i > 0 && x[-1].touches ? 0 : x->load;
 }
 
-/* A node beside a clamp gets the larger load of the two. */
-static void press_sides(const sw_plan *p, sw_wear *w) {
-  for (size_t c = 0; c < p->clamp_count; c++) {
-    sw_wear_place *node = &w->places[p->clamps[c].node];
-    node->load = fmax(node->load, w->places[p->nodes + c].load);
+/* A node beside a clamp or joint gets the larger load of the two. */
+static void press_sides(const layout *p, sw_wear *w) {
+  for (size_t k = w->nodes; k < w->count; k++) {
+    sw_wear_place *node = &w->places[p->sides[k - w->nodes].node];
+    node->load = fmax(node->load, w->places[k].load);
   }
 }
 
@@ -192,7 +212,7 @@ static void keep_mean(sw_wear *w, double window) {
 
 /* A single step of an impact does not tell how long it lasts. So means over the window count, as
  * for other peaks. */
-static sw_status press(sw_scene *s, const sw_plan *p, sw_wear *w) {
+static sw_status press(sw_scene *s, const layout *p, sw_wear *w) {
   sw_course *c = sw_scene_course(s);
   const int averaged = sw_scene_is_averaged(s);
   const double end = sw_scene_time(s);
@@ -228,16 +248,19 @@ sw_status sw_wear_note(sw_scene *s, size_t w, int rubs, sw_error *err) {
   const sw_body *b = &system->bodies[w];
   const sw_web *web = b->plan->web;
   if (web && !web->per_ring) return SW_OK; /* an object, not a wire */
-  sw_status status = fit(wear, b->plan);
+  layout l;
+  sw_status status = lay_out(system, b, &l);
+  if (status == SW_OK) status = fit(wear, &l);
   if (status == SW_OK) status = make_room(wear);
   if (status == SW_OK && web) sw_wear_count_mesh(system, b, wear);
   if (status == SW_OK && !web)
-    sw_wear_count_line(system, b, rubs ? sw_scene_step_tension(s, b) : sw_system_pull(system, b),
-                       wear);
+    sw_wear_count_line(system, b, l.sides,
+                       rubs ? sw_scene_step_tension(s, b) : sw_system_pull(system, b), wear);
   if (status == SW_OK && rubs) {
     sw_wear_rub(s, b, wear);
-    status = press(s, b->plan, wear);
+    status = press(s, &l, wear);
   }
+  sw_free(l.sides);
   if (status != SW_OK)
     return sw_fail(err, SW_ENOMEM, "out of memory for the wear of '%s'",
                    sw_scene_wire_in(s, w)->name);

@@ -12,6 +12,7 @@
 
 #include "base/tape.h"
 #include "base/vec.h"
+#include "body/side.h"
 #include "record/wear.h"
 #include "scene/scene.h"
 #include "system/system.h"
@@ -30,9 +31,10 @@ typedef struct sw_wear_load {
 /* Adds a load to the cycles of place k. anew = 1: across has changed its meaning since the last
  * step; the place keeps its own direction, as if it had not rolled in this step. */
 void sw_wear_count(sw_wear *wear, size_t k, const sw_wear_load *load, int anew);
-/* The same for all places of a line, with axial forces T of its edges [N], and of a mesh. */
-void sw_wear_count_line(const sw_system *system, const sw_body *body, const double *T,
-                        sw_wear *wear);
+/* The same for all places of a line, with the sides that are its last places and the axial forces T
+ * of its edges [N]; and of a mesh. */
+void sw_wear_count_line(const sw_system *system, const sw_body *body, const sw_bent_side *sides,
+                        const double *T, sw_wear *wear);
 void sw_wear_count_mesh(const sw_system *system, const sw_body *body, sw_wear *wear);
 /* Returns a vector of this size in the direction of the tangent's change, across the tangent t
  * [1/m]. */
