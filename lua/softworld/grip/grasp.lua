@@ -243,7 +243,7 @@ function Methods:grasp(wire, args)
   local p = approach ~= "imposed" and build.call(3, mixes and process.within or process.of, self.scene,
     "gripper:grasp", ("gripper '%s': a mixed grasp takes time; call it in a process"):format(self.name))
   if args.on_slip ~= nil then reactions.set_on_slip(self, args.on_slip, 3) end
-  self.bereft = nil
+  self.bereft, self.astray = nil, nil
   if approach == "imposed" then
     grasp_imposed(self, wires, args)
     self.way, self.frozen, self.held = approach, nil, false

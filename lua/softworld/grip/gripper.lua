@@ -265,7 +265,7 @@ local fields = {}
 for _, key in ipairs{ "gone", "wires", "hold", "at", "rotation", "tool", "wire", "way", "frozen", "on_slip",
   "opening", "order", "obstacles", "held", "unchecked", "s", "free_height", "margin", "segments",
   "mesh_model", "rod_model", "slip_event", "crash_time", "on_crash", "carrier", "facing",
-  "busy_until", "left", "bereft", "rating", "unlooked" } do
+  "busy_until", "left", "bereft", "astray", "rating", "unlooked" } do
   fields[key] = true
 end
 
@@ -318,7 +318,7 @@ rows.calls{
   { "gripper.wire", nil, "the wire that it holds, the first of several", "a wire, or nil" },
   { "gripper.wires", nil, "all that it holds", "a list" },
   { "gripper.events", nil, "what happened; may be set to {}",
-    "{ kind = 'slip', 'lost', 'crash', ..., time [s] }, ..." },
+    "{ kind = 'slip', 'lost', 'crash', ..., time [s], wire = the lost one of several }, ..." },
   { "gripper.slip_tolerance", nil, "see scene:gripper; may be set", "m" },
   { "gripper.rating", nil, "see scene:gripper; gripper:set replaces it", "a table, false or nil" },
   { "gripper.on_slip", nil, "see gripper:grasp; may be set" },

@@ -24,6 +24,7 @@ local function grip_of(self, wire, what)
   for _, grip in ipairs(self.grips) do
     if grip.wire == wire then return grip end
   end
+  if self.astray and core.type(wire) == "wire" and self.astray[wire.name] then return { astray = true } end
   error(("%s: gripper '%s' does not hold %s"):format(what, self.name,
     core.type(wire) == "wire" and ("wire '%s'"):format(wire.name) or "this: wire must be a wire"), 3)
 end
@@ -64,7 +65,8 @@ function Measures:force(args)
   local f, carrier = { 0, 0, 0 }, carrier_of(self)
   if args.wire ~= nil then
     local grip = grip_of(self, args.wire, "gripper:force")
-    f = grip.hold and grip.hold:force() or #self.grips == 1 and self.tool:force(args.finger)
+    f = grip.hold and grip.hold:force()
+      or #self.grips == 1 and not grip.astray and self.tool:force(args.finger)
       or pads_on(self, args.wire, nil, args.finger)
   elseif carrier then f = carrier:force(args.finger)
   elseif self.hold then f = self.hold:force() end
@@ -78,7 +80,7 @@ function Measures:moment(args)
   if args.wire ~= nil then
     local grip = grip_of(self, args.wire, "gripper:moment")
     if grip.hold then m = grip.hold:moment{ at = args.at or self:position() }
-    elseif #self.grips == 1 then m = self.tool:moment(args.at, args.finger)
+    elseif #self.grips == 1 and not grip.astray then m = self.tool:moment(args.at, args.finger)
     else m = select(2, pads_on(self, args.wire, args.at, args.finger)) end
   elseif carrier then m = carrier:moment(args.at, args.finger)
   elseif self.hold then m = self.hold:moment(args.at and { at = args.at } or nil) end

@@ -6,6 +6,7 @@ local checks = require "softworld.checks"
 local grasped = require "softworld.grip.grasped"
 local mixed = require "softworld.grip.mixed"
 local sealed = require "softworld.sealed"
+local stand = require "softworld.grip.stand"
 local unread = require "softworld.unread"
 local vec = require "softworld.vec"
 
@@ -60,6 +61,10 @@ local function crash_text(self, event)
 end
 
 local function lost_text(self, event)
+  if event.wire then
+    return ("gripper '%s': wire '%s' is lost from between the pads at t = %.4g s; they hold the others")
+      :format(self.name, event.wire, event.time)
+  end
   return ("gripper '%s': nothing is left between the pads at t = %.4g s"):format(self.name, event.time)
 end
 
@@ -108,6 +113,25 @@ local function look_at_hold(self)
     depth = crash.depth, s = self.s }, self.on_crash, crash_text)
 end
 
+-- Tells of each of several wires that is no longer between the pads; the gripper goes on with the others.
+local function look_at_list(self)
+  local why
+  for _, wire in ipairs(grasped.strays(self)) do
+    local left = {}
+    for _, grip in ipairs(self.grips) do
+      if grip.wire ~= wire then left[#left + 1] = grip end
+    end
+    self.grips, self.wire = left, left[1].wire
+    local astray = { [wire.name] = true } -- scripts may go on to ask for the force on it
+    for name in pairs(self.astray or {}) do astray[name] = true end
+    self.astray = astray
+    local s = stand.nearest_place(wire, (self.tool:pose()))
+    local event = { kind = "lost", time = self.scene.time, s = s, wire = wire.name }
+    why = react(self, event, self.on_slip, lost_text) or why
+  end
+  return why
+end
+
 -- Looks for events of one gripper with pads; returns why the run has to stop, or nil.
 local function look_at(self)
   local now, why = self.tool:state(), nil
@@ -135,6 +159,8 @@ local function look_at(self)
     self.held = false
     local event = { kind = "lost", time = now.lost_time or self.scene.time, s = now.place }
     why = react(self, event, self.on_slip, lost_text) or why
+  elseif self.held and #self.grips > 1 then
+    why = look_at_list(self) or why
   end
   if self.frozen and now.lost_time then mixed.lose(self, now) end
   return why
