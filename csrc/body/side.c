@@ -40,10 +40,18 @@ static int is_joined(const sw_system *s, const sw_body *b, size_t node) {
   return is_before(all, (uint32_t)(b->first_node + node), all->hub_count, 0);
 }
 
-/* Side number n of the joints: two for each arm of each hub. */
+/* Side number n of the joints: two for each of SW_HUB_ARMS of each hub. */
+enum { OF_HUB = 2 * SW_HUB_ARMS };
+
+static int touches(const sw_join_hub *h, const sw_body *b) {
+  for (size_t a = 0; a < h->count; a++)
+    if (is_mine(b, h->arms[a].node)) return 1;
+  return 0;
+}
+
 static int joint_side(const sw_system *s, const sw_body *b, size_t n, sw_bent_side *out) {
   const struct sw_joins *all = s->joins;
-  const size_t k = n / (2 * SW_HUB_ARMS), a = n / 2 % SW_HUB_ARMS;
+  const size_t k = n / OF_HUB, a = n / 2 % SW_HUB_ARMS;
   const int side = n % 2 ? 1 : -1;
   const sw_join_hub *h = &all->hubs[k];
   if (a >= h->count || !is_mine(b, h->arms[a].node)) return 0;
@@ -63,9 +71,13 @@ int sw_scene_next_side(const sw_system *s, const sw_body *b, size_t *next, sw_be
     *out = (sw_bent_side){c->node, c->edge, c->side, c, is_joined(s, b, c->node)};
     return 1;
   }
-  const size_t end = s->joins && !p->web ? clamps + 2 * SW_HUB_ARMS * s->joins->hub_count : clamps;
-  while (*next < end)
-    if (joint_side(s, b, (*next)++ - clamps, out)) return 1;
+  const size_t end = clamps + (s->joins && !p->web ? OF_HUB * s->joins->hub_count : 0);
+  while (*next < end) {
+    const size_t n = *next - clamps;
+    const int none = n % OF_HUB == 0 && !touches(&s->joins->hubs[n / OF_HUB], b);
+    *next += none ? OF_HUB : 1;
+    if (!none && joint_side(s, b, n, out)) return 1;
+  }
   return 0;
 }
 
