@@ -34,6 +34,7 @@ typedef struct roll {
   int before;   /* 1: the hold is before the joint */
   sw_vec aside; /* across the wire when the joint was made, towards the other one [-] */
   double sine;  /* of the angle between them [-] */
+  int shown;    /* 1: the body's field is that of the state */
 } roll;
 
 /* Returns the slot of the hold nearest to the joint that keeps the wire's direction, plus 1, and
@@ -68,7 +69,9 @@ static int find(const sw_scene *s, const sw_joint *j, size_t k, roll *out) {
   return out->node < out->body->plan->nodes;
 }
 
-static sw_vec edge_of(const sw_scene *s, const sw_body *b, size_t e) {
+static sw_vec edge_of(const sw_scene *s, const roll *r, size_t e) {
+  const sw_body *b = r->body;
+  if (r->shown) return sw_field_tangent(&b->field, e);
   const double *x = sw_scene_system(s)->x + 3 * (b->first_node + e);
   return sw_unit_or(sw_sub(sw_load(x + 3), sw_load(x)), sw_v(1, 0, 0));
 }
@@ -82,11 +85,11 @@ static sw_vec carried(const sw_scene *s, const roll *r, sw_vec t) {
   sw_vec at = sw_rotate(q, local), v = sw_rotate(q, sw_perpendicular(local));
   const size_t from = sw_plan_first(p, r->before ? h->s2 : h->s1);
   for (size_t e = from; r->before && e < r->node; e++) {
-    const sw_vec next = edge_of(s, r->body, e);
+    const sw_vec next = edge_of(s, r, e);
     v = sw_carry_unit(v, at, next), at = next;
   }
   for (size_t e = from; !r->before && e > r->node; e--) {
-    const sw_vec next = edge_of(s, r->body, e - 1);
+    const sw_vec next = edge_of(s, r, e - 1);
     v = sw_carry_unit(v, at, next), at = next;
   }
   return sw_carry_unit(v, at, t);
@@ -149,7 +152,9 @@ static void look(sw_scene *s, sw_joint *j, size_t k, int judges) {
   sw_joint_end *e = &j->ends[k];
   roll r;
   double angle;
-  if (!find(s, j, k, &r) || !angle_of(s, e, &r, &angle)) {
+  const int found = find(s, j, k, &r);
+  r.shown = judges;
+  if (!found || !angle_of(s, e, &r, &angle)) {
     e->kept_by = 0;
     return;
   }
