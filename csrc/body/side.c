@@ -40,44 +40,6 @@ static int is_joined(const sw_system *s, const sw_body *b, size_t node) {
   return is_before(all, (uint32_t)(b->first_node + node), all->hub_count, 0);
 }
 
-/* Side number n of the joints: two for each arm of each hub. */
-static int joint_side(const sw_system *s, const sw_body *b, size_t n, sw_bent_side *out) {
-  const struct sw_joins *all = s->joins;
-  const size_t k = n / (2 * SW_HUB_ARMS), a = n / 2 % SW_HUB_ARMS;
-  const int side = n % 2 ? 1 : -1;
-  const sw_join_hub *h = &all->hubs[k];
-  if (a >= h->count || !is_mine(b, h->arms[a].node)) return 0;
-  const size_t node = h->arms[a].node - b->first_node;
-  if (side > 0 ? node + 1 == b->plan->nodes : node == 0) return 0;
-  const size_t edge = side > 0 ? node : node - 1;
-  if (clamp_at(b->plan, node, edge) || is_before(all, h->arms[a].node, k, a)) return 0;
-  *out = (sw_bent_side){.node = node, .edge = edge, .side = side, .joined = 1};
-  return 1;
-}
-
-int sw_scene_next_side(const sw_system *s, const sw_body *b, size_t *next, sw_bent_side *out) {
-  const sw_plan *p = b->plan;
-  const size_t clamps = p->clamp_count;
-  if (*next < clamps) {
-    const sw_clamp_hinge *c = &p->clamps[(*next)++];
-    *out = (sw_bent_side){c->node, c->edge, c->side, c, is_joined(s, b, c->node)};
-    return 1;
-  }
-  const size_t end = s->joins && !p->web ? clamps + 2 * SW_HUB_ARMS * s->joins->hub_count : clamps;
-  while (*next < end)
-    if (joint_side(s, b, (*next)++ - clamps, out)) return 1;
-  return 0;
-}
-
-int sw_scene_side_at(const sw_system *s, const sw_body *b, size_t node, size_t edge,
-                     sw_bent_side *out) {
-  const sw_clamp_hinge *c = clamp_at(b->plan, node, edge);
-  *out = (sw_bent_side){node, edge, edge == node ? 1 : -1, c, is_joined(s, b, node)};
-  return c || out->joined;
-}
-
-/* --- bends ------------------------------------------------------------------------ */
-
 /* Returns the moment of all joints on the node, about any point [N m]. */
 static sw_vec moment_at(const sw_system *s, const sw_body *b, size_t node) {
   const struct sw_joins *all = s->joins;
@@ -89,6 +51,62 @@ static sw_vec moment_at(const sw_system *s, const sw_body *b, size_t node) {
   return sum;
 }
 
+/* Side number n of the joints: two for each of SW_HUB_ARMS of each hub. */
+enum { OF_HUB = 2 * SW_HUB_ARMS };
+
+static int touches(const sw_join_hub *h, const sw_body *b) {
+  for (size_t a = 0; a < h->count; a++)
+    if (is_mine(b, h->arms[a].node)) return 1;
+  return 0;
+}
+
+static int joint_side(const sw_system *s, const sw_body *b, size_t n, sw_bent_side *out) {
+  const struct sw_joins *all = s->joins;
+  const size_t k = n / OF_HUB, a = n / 2 % SW_HUB_ARMS;
+  const int side = n % 2 ? 1 : -1;
+  const sw_join_hub *h = &all->hubs[k];
+  if (a >= h->count || !is_mine(b, h->arms[a].node)) return 0;
+  const size_t node = h->arms[a].node - b->first_node;
+  if (side > 0 ? node + 1 == b->plan->nodes : node == 0) return 0;
+  const size_t edge = side > 0 ? node : node - 1;
+  if (clamp_at(b->plan, node, edge) || is_before(all, h->arms[a].node, k, a)) return 0;
+  /* the side before this one of the same node has the same moment */
+  const int known = side > 0 && out->joined && out->node == node && out->side < 0;
+  const sw_vec moment = known ? out->moment : moment_at(s, b, node);
+  *out = (sw_bent_side){node, edge, side, NULL, 1, moment};
+  return 1;
+}
+
+int sw_scene_next_side(const sw_system *s, const sw_body *b, size_t *next, sw_bent_side *out) {
+  const sw_plan *p = b->plan;
+  const size_t clamps = p->clamp_count;
+  if (!*next) *out = (sw_bent_side){0};
+  if (*next < clamps) {
+    const sw_clamp_hinge *c = &p->clamps[(*next)++];
+    *out = (sw_bent_side){c->node, c->edge, c->side, c, is_joined(s, b, c->node), sw_v(0, 0, 0)};
+    if (out->joined) out->moment = moment_at(s, b, c->node);
+    return 1;
+  }
+  const size_t end = clamps + (s->joins && !p->web ? OF_HUB * s->joins->hub_count : 0);
+  while (*next < end) {
+    const size_t n = *next - clamps;
+    const int none = n % OF_HUB == 0 && !touches(&s->joins->hubs[n / OF_HUB], b);
+    *next += none ? OF_HUB : 1;
+    if (!none && joint_side(s, b, n, out)) return 1;
+  }
+  return 0;
+}
+
+int sw_scene_side_at(const sw_system *s, const sw_body *b, size_t node, size_t edge,
+                     sw_bent_side *out) {
+  const sw_clamp_hinge *c = clamp_at(b->plan, node, edge);
+  *out = (sw_bent_side){node, edge, edge == node ? 1 : -1, c, is_joined(s, b, node), sw_v(0, 0, 0)};
+  if (out->joined) out->moment = moment_at(s, b, node);
+  return c || out->joined;
+}
+
+/* --- bends ------------------------------------------------------------------------ */
+
 static int is_inner(const sw_plan *p, size_t node) { return node > 0 && node + 1 < p->nodes; }
 
 /* Returns the share of a node's joint moment that adds to the bend of this side: all at an end. */
@@ -98,9 +116,9 @@ static double share_of(const sw_plan *p, const sw_bent_side *o) {
 }
 
 /* Returns EI times the bend from the joint, towards the centre [N m]. */
-static sw_vec of_joint(const sw_system *s, const sw_body *b, const sw_bent_side *o) {
+static sw_vec of_joint(const sw_body *b, const sw_bent_side *o) {
   const sw_vec t = sw_field_tangent(&b->field, o->edge);
-  return sw_scale(sw_cross(moment_at(s, b, o->node), t), -o->side * share_of(b->plan, o));
+  return sw_scale(sw_cross(o->moment, t), -o->side * share_of(b->plan, o));
 }
 
 static sw_vec across(sw_vec change, sw_vec t, double size) {
@@ -140,7 +158,7 @@ static void flexure(const sw_system *s, const sw_body *b, const sw_bent_side *o,
   const size_t number = o->clamp ? p->nodes + (size_t)(o->clamp - p->clamps) : o->node;
   out[0] = out[1] = 0;
   const double length = sw_scene_hinge_bend(s, b, number, out);
-  const sw_vec t = sw_field_tangent(f, o->edge), bend = of_joint(s, b, o);
+  const sw_vec t = sw_field_tangent(f, o->edge), bend = of_joint(b, o);
   const sw_vec one = sw_v(f->normals[0][o->edge], f->normals[1][o->edge], f->normals[2][o->edge]);
   const sw_vec axes[2] = {one, sw_cross(t, one)};
   for (size_t k = 0; k < 2; k++) {
@@ -160,7 +178,7 @@ double sw_scene_side_flexure(const sw_system *s, const sw_body *b, const sw_bent
 sw_vec sw_scene_side_bend(const sw_system *s, const sw_body *b, const sw_bent_side *o) {
   const sw_field *f = &b->field;
   if (!o->joined) return of_hinge(s, b, o);
-  if (!b->spin_block) return sw_madd(of_hinge(s, b, o), of_joint(s, b, o), 1.0 / b->plan->beam.EI);
+  if (!b->spin_block) return sw_madd(of_hinge(s, b, o), of_joint(b, o), 1.0 / b->plan->beam.EI);
   double bend[2], rest[2];
   flexure(s, b, o, bend);
   at_rest(b->plan, o, rest);

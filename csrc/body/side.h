@@ -13,10 +13,12 @@ typedef struct sw_bent_side {
   int side;                    /* 1: the edge leaves the node, -1: it arrives there */
   const sw_clamp_hinge *clamp; /* the node's clamp towards this edge, or NULL */
   int joined;                  /* 1: a rigid joint is at the node */
+  sw_vec moment;               /* of all rigid joints on the node [N m] */
 } sw_bent_side;
 
 /* Finds the body's next side from *next on, which is 0 at first: those of its clamps, in the plan's
- * order, then those of joints without a clamp. Returns 0 after the last. */
+ * order, then those of joints without a clamp. Returns 0 after the last. out: the side found
+ * before, or anything at first. */
 int sw_scene_next_side(const sw_system *system, const sw_body *body, size_t *next,
                        sw_bent_side *out);
 /* Finds the side of a node towards an edge; returns 0 if there is none. */

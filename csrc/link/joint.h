@@ -15,6 +15,11 @@ typedef struct sw_joint_end {
   double scale;  /* the mesh's scale at that time [-] */
   sw_vec offset; /* from the first end's node to its own [m] */
   sw_vec rest;   /* the wire's direction there when made, see link/join.c [-] */
+  /* The hold that keeps the wire from rolling there: its slot + 1, 0: none; its generation; the
+   * joint's angle about the wire when that hold took it (watch/joint_roll.c) [rad]. */
+  size_t kept_by;
+  uint32_t kept_of;
+  double roll;
 } sw_joint_end;
 
 typedef struct sw_joint {

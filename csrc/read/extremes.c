@@ -44,9 +44,10 @@ double sw_scene_hinge_chord(const sw_field *f, size_t i) {
   return sqrt(d2);
 }
 
-/* Finds the largest curvature, and how sharp it is if it is more than `above` [1/m]. */
+/* Finds the largest curvature, and how sharp it is if it is more than `above`; strained: the
+ * largest strain beside clamps and joints of a wire that is straight at rest [1/m]. */
 static void curvature_extreme(const sw_scene *s, const sw_body *b, double above, sw_extreme *out,
-                              sw_sharpness *sharp) {
+                              sw_sharpness *sharp, sw_extreme *strained) {
   const sw_plan *p = b->plan;
   const sw_field *f = &b->field;
   const double bound2 =
@@ -55,7 +56,8 @@ static void curvature_extreme(const sw_scene *s, const sw_body *b, double above,
   size_t node = 0, next = 0;
   int aside = 0;
   *out = (sw_extreme){.s = p->s[0]};
-  *sharp = (sw_sharpness){0};
+  *sharp = (sw_sharpness){0}, *strained = (sw_extreme){.value = -HUGE_VAL};
+  const double *T = sw_system_elastic(sw_scene_system(s), b);
   for (size_t i = 1; i + 1 < p->nodes; i++) {
     if (!(p->hinge[i] > 0)) continue;
     const double chord = sw_scene_hinge_chord(f, i);
@@ -66,6 +68,8 @@ static void curvature_extreme(const sw_scene *s, const sw_body *b, double above,
   }
   while (sw_scene_next_side(sw_scene_system(s), b, &next, &side)) {
     const double value = sw_scene_side_curvature(sw_scene_system(s), b, &side);
+    const double strain = T[side.edge] / p->beam.EA + p->beam.radius * value;
+    if (strain > strained->value) *strained = (sw_extreme){.value = strain, .s = p->s[side.node]};
     if (!(value > out->value)) continue;
     *out = (sw_extreme){.value = value, .s = p->s[side.node]};
     sharpest = side, aside = 1;
@@ -133,7 +137,9 @@ static void framed_strain(const sw_system *s, const sw_body *b, sw_extreme *out)
   }
 }
 
-static void strain_extreme(const sw_system *s, const sw_body *b, sw_extreme *out) {
+/* strained: see curvature_extreme. */
+static void strain_extreme(const sw_system *s, const sw_body *b, const sw_extreme *strained,
+                           sw_extreme *out) {
   if (b->plan->beam.curved) {
     framed_strain(s, b, out);
     return;
@@ -152,11 +158,7 @@ static void strain_extreme(const sw_system *s, const sw_body *b, sw_extreme *out
     *out = (sw_extreme){.value = mean + per_length * sw_angle_of_chord(chord), .s = p->s[i]};
     break;
   }
-  sw_bent_side side;
-  for (size_t next = 0; sw_scene_next_side(s, b, &next, &side);) {
-    const double bent = radius * sw_scene_side_curvature(s, b, &side);
-    keep_largest(out, &(sw_extreme){.value = T[side.edge] / EA + bent, .s = p->s[side.node]});
-  }
+  keep_largest(out, strained);
 }
 
 /* above: see curvature_extreme [1/m]. */
@@ -169,10 +171,11 @@ static void wire_now(sw_scene *s, size_t w, double *tension, double above, sw_wi
     now->torsion.time = sw_scene_time(s);
     return;
   }
-  curvature_extreme(s, &system->bodies[w], above, &now->curvature, &now->sharp);
+  sw_extreme strained;
+  curvature_extreme(s, &system->bodies[w], above, &now->curvature, &now->sharp, &strained);
   const sw_body *b = &system->bodies[w];
   largest_tension(b, sw_system_pull(system, b), &now->tension);
-  strain_extreme(system, &system->bodies[w], &now->strain);
+  strain_extreme(system, &system->bodies[w], &strained, &now->strain);
   now->ovalisation = now->folding = (sw_extreme){.value = -HUGE_VAL};
   sw_scene_torsion(system, b, &now->torsion);
   now->curvature.time = now->tension.time = now->strain.time = now->torsion.time = sw_scene_time(s);

@@ -200,7 +200,7 @@ void sw_tape_force(sw_tape *t, sw_scene_force *x) {
 
 void sw_tape_join(sw_tape *t, sw_joint *x) {
   int broken = x->fate[SW_TIE_BROKEN] > 0;
-  SW_TAPE_STRUCT(t, sw_joint, 1000);
+  SW_TAPE_STRUCT(t, sw_joint, 1192);
   UINT32(generation), INT(alive), INT(rigid), NAME(name), SIZE(count);
   DOUBLE(slack), DOUBLE(stiffness), DOUBLE(strength); /* its spring is set when it is built */
   if (sw_tape_reads(t)) x->cls = sw_joint_class(x->slack);
@@ -215,6 +215,9 @@ void sw_tape_join(sw_tape *t, sw_joint *x) {
     sw_tape_double(t, &e->s), sw_tape_double(t, &e->asked), sw_tape_double(t, &e->scale);
     sw_tape_vec(t, &e->offset), sw_tape_vec(t, &e->rest);
     sw_tape_vec(t, &x->bears[k]);
+    if (!t->home && sw_tape_reads(t)) e->kept_by = 0; /* noted anew when the run begins */
+    if (t->home) sw_tape_size(t, &e->kept_by), sw_tape_uint32(t, &e->kept_of);
+    if (t->home) sw_tape_double(t, &e->roll);
   }
 }
 

@@ -160,6 +160,7 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   sw_ledger_forget(s);
   sw_status status = /* energies need the accelerations */
       sw_system_place_holds(sw_scene_system(s), sw_scene_time(s), NULL, NULL, NULL, &why);
+  if (status == SW_OK) sw_scene_watch_rolls(s, 0);
   if (status == SW_OK) sw_system_begin_borne(sw_scene_system(s));
   if (status == SW_OK && isfinite(args->frame) && sw_scene_frames_of(s)->count == 0) {
     status = sw_scene_store_frame(s, &why);

@@ -9,6 +9,7 @@
 #include "step/rest.h"
 #include "step/run.h"
 #include "step/slip.h"
+#include "watch/observe.h"
 
 static const sw_param rows[] = {
     {"tolerance", SW_PARAM_NUMBER, "m", 1e-9, 0, 1, SW_PARAM_ABOVE_MIN, NULL,
@@ -104,6 +105,8 @@ sw_status sw_scene_settle(sw_scene *s, const sw_settle_args *args, int (*interru
   if (!sw_scene_wire_slots(s))
     return sw_fail(err, SW_EINVAL, "scene '%s': there is no wire", sw_scene_name(s));
   SW_TRY(sw_scene_build(s, err));
+  SW_TRY(sw_system_place_holds(sw_scene_system(s), sw_scene_time(s), NULL, NULL, NULL, err));
+  sw_scene_watch_rolls(s, 0);
   sw_status status = settle(s, args, interrupted, report, &why);
   sw_scene_reset_extremes(s);
   sw_scene_course(s)->span = 0;

@@ -63,6 +63,8 @@ sw_vec sw_join_tie_expected(const sw_join_spring *tie, const double *x, const do
 
 /* Returns the moment of a hub on its arm at x, about any point [N m]. */
 sw_vec sw_join_hub_moment(const sw_join_hub *hub, size_t arm, const double *x);
+/* Returns the rotation of a hub at x since it was made. */
+sw_quat sw_join_hub_turn(const sw_join_hub *hub, const double *x);
 /* Returns the energy of the arms that are nodes from .. to - 1 of the system, at the state [J]. */
 double sw_joins_bend_energy(const sw_system *system, size_t from, size_t to);
 

@@ -128,6 +128,7 @@ sw_status sw_scene_observe(sw_scene *s, sw_error *err) {
   sw_system_commit(system, sw_scene_time(s));
   tell_news(s);
   for (size_t w = 0; w < sw_scene_wire_slots(s); w++) SW_TRY(observe_wire(s, w, err));
+  sw_scene_watch_rolls(s, 1);
   SW_TRY(sw_watch_forces(s, err));
   SW_TRY(sw_watch_ties(s, err));
   SW_TRY(log_holds(s, err));

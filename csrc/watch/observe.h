@@ -39,6 +39,9 @@ void sw_scene_end_bends(sw_scene *scene);
 void sw_scene_end_inside(sw_scene *scene);
 /* Reports joints that pass no twist where this may count. Call at the end of a run. */
 void sw_scene_end_joints(sw_scene *scene);
+/* Reports joints that have rolled about a wire that a hold keeps from rolling. judges = 0: only
+ * notes the angles at the start. */
+void sw_scene_watch_rolls(sw_scene *scene, int judges);
 
 /* 1 if there is an unbroken tie with a strength. */
 int sw_scene_may_break(const sw_scene *scene);
