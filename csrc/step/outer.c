@@ -140,6 +140,13 @@ static sw_status look_at_term(sw_scene *s, const view *v, sw_outer_look *out, sw
 
 static int is_function(const sw_term *term) { return (term->cls->flags & SW_FORCE_EXPLICIT) != 0; }
 
+static int any_function(const sw_system *system) {
+  SW_ITEMS(const sw_body, b, system->bodies, system->body_count)
+    for (size_t k = 0; k < b->term_count; k++)
+      if (is_function(&b->terms[k])) return 1;
+  return 0;
+}
+
 static sw_status look_at_body(sw_scene *s, sw_body *b, double h, const samples *q,
                               sw_outer_look *out, sw_error *err) {
   view v = {.body = b, .q = q, .h = h};
@@ -162,7 +169,7 @@ sw_status sw_outer_look_at(sw_scene *s, double h, sw_outer_look *out, sw_error *
   sw_glance glance;
   *out = (sw_outer_look){.speed = 0};
   /* the steps of explicit methods are far shorter than the forces of scripts */
-  if (!sw_scene_books(s)->has_powers || !stepper->used) return SW_OK;
+  if (!stepper->used || !any_function(system)) return SW_OK;
   const samples q = samples_of(stepper->used);
   sw_system_look_at(system, &glance, stepper->trial_x, stepper->trial_v, stepper->strain_rate);
   for (size_t k = 0; status == SW_OK && k < system->body_count; k++)
