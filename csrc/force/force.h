@@ -131,6 +131,10 @@ typedef struct sw_force_class {
   double (*oversteps)(const void *args, const sw_field *field, const double *history,
                       const double *x);
 
+  /* Returns the period with which the force changes by itself; HUGE_VAL: it is steady [s]. NULL =
+   * it always is, or nobody knows. */
+  double (*period)(const void *args);
+
   /* Read-outs besides the force, for one wire at the accepted state: names (NULL-terminated) and
    * their values, with units stated in the force's file. NULL = none. */
   const char *const *outputs;

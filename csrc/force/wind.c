@@ -111,10 +111,16 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   return SW_OK;
 }
 
+static double period(const void *args) {
+  const wind_args *a = args;
+  return sw_norm2(a->gust) > 0 && a->frequency > 0 ? 1.0 / a->frequency : HUGE_VAL;
+}
+
 const sw_force_class sw_force_wind = {
     .name = "wind",
     .summary = "drag of flowing air or liquid, across and along the wire, with gusts",
     .flags = SW_FORCE_DRIVEN | SW_FORCE_ANY_BODY | SW_FORCE_OF_AXIS | SW_FORCE_FROZEN,
     .params = SW_PARAMS("force wind", rows),
     .eval = eval,
+    .period = period,
 };

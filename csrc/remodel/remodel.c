@@ -98,7 +98,14 @@ static sw_status check(const sw_scene *s, size_t wire, const sw_wire_class *cls,
   if (w->drawing.rest == SW_REST_PATH)
     return sw_fail(err, SW_EINVAL, "remodel: wire '%s' is curved at rest", w->name);
   if (w->mesh.s[0] != 0) return sw_fail(err, SW_EINVAL, "remodel: wire '%s' has been fed", w->name);
-  if (cls->mesh && sw_scene_joined(s, wire)) return sw_scene_check_line(&as, "scene:join", err);
+  const sw_joint *join = cls->mesh ? sw_scene_joined(s, wire) : NULL;
+  if (join)
+    return sw_fail(
+        err, SW_EINVAL,
+        "remodel: wire '%s' is joined by '%s': a joined wire cannot become a mesh (model "
+        "'%s'), as a mixed grasp would also make it; release the join first, keep model "
+        "'rod', or grasp it by 'plates' or 'imposed'",
+        w->name, join->name, cls->name);
   SW_EACH(hold, h, s)
     if (h->alive && h->wire == wire && sw_hold_passes(h))
       return sw_fail(err, SW_EINVAL, "remodel: wire '%s' is fed by '%s'", w->name, h->name);

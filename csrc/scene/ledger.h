@@ -33,6 +33,13 @@ typedef struct sw_step_energy {
   int changed;    /* 1: the scene was changed just before */
 } sw_step_energy;
 
+/* What steps missed of a force from outside that changes within them. */
+typedef struct sw_outer_sum {
+  double missed, all;       /* impulse missed or counted twice; size of its whole impulse [N s] */
+  double worst, step, time; /* largest missed impulse of a step; its size and start [N s], [s] */
+} sw_outer_sum;
+enum { SW_OUTER_SUMS = 8 }; /* forces from this number on share the last sum */
+
 typedef struct sw_books {
   sw_ledger sums;
   sw_energies now;                     /* of the state at which the next step starts */
@@ -43,19 +50,20 @@ typedef struct sw_books {
   double most_kinetic, work, released; /* largest kinetic energy, sum of work, largest fall from
                                           `highest` [J] */
   double made;                         /* energy gained by steps in which something touched [J] */
-  double rise, lowest;          /* net energy that the method made by itself; its least value [J] */
-  double highest_rise;          /* largest rise above the least value [J] */
-  double rubbed_off;            /* friction's part of dissipated [J] */
-  double mass;                  /* of the wires [kg] */
-  double longest;               /* length of the longest wire [m] */
-  double weight;                /* sum of the wires' weights times their radii [J] */
-  double bending;               /* sum of the wires' EI / L [J] */
-  int put;                      /* 1: a hold was put elsewhere since the last step */
-  int has_powers;               /* 1: there are forces without a potential */
-  int known;                    /* 1: all of the above belongs to the present state */
-  int begun;                    /* 1: at_start is known */
-  sw_step_energy step;          /* the step judged last */
-  sw_worker *holds, *obstacles; /* (system.hold_count), (obstacle slots) */
+  double rise, lowest; /* net energy that the method made by itself; its least value [J] */
+  double highest_rise; /* largest rise above the least value [J] */
+  double rubbed_off;   /* friction's part of dissipated [J] */
+  double mass;         /* of the wires [kg] */
+  double longest;      /* length of the longest wire [m] */
+  double weight;       /* sum of the wires' weights times their radii [J] */
+  double bending;      /* sum of the wires' EI / L [J] */
+  sw_outer_sum outer[SW_OUTER_SUMS]; /* of this run, anew after it was resumed */
+  int put;                           /* 1: a hold was put elsewhere since the last step */
+  int has_powers;                    /* 1: there are forces without a potential */
+  int known;                         /* 1: all of the above belongs to the present state */
+  int begun;                         /* 1: at_start is known */
+  sw_step_energy step;               /* the step judged last */
+  sw_worker *holds, *obstacles;      /* (system.hold_count), (obstacle slots) */
   size_t hold_room, obstacle_room;
   sw_log log; /* rows of SW_LOG_ENERGY_SIZE */
 } sw_books;

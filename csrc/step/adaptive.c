@@ -8,6 +8,7 @@
 #include "step/blow.h"
 #include "step/buckle.h"
 #include "step/coarse.h"
+#include "step/outer.h"
 #include "step/restart.h"
 #include "system/system.h"
 
@@ -30,6 +31,17 @@ static double over_of(const sw_ladder *p, double h) {
     over = sw_stepper_error(stepper, system, 0, system->nodes) / p->args->tolerance;
   const int judged = p->args->parts && h >= 2.0 * sw_coarse_shortest(p->args->dt);
   return judged && sw_coarse_applies(s) ? fmax(over, sw_coarse_of(s, p->args->tolerance)) : over;
+}
+
+/* A velocity that a step misses lasts: its way in so many of the longest steps counts [-]. */
+static const double LASTS = 4.0;
+
+/* Returns the error by what the trial misses of force functions, over the tolerance [-]. A jump has
+ * this error in steps of any size, in proportion; parts shorter than those of coarse motion are not
+ * asked for. */
+static double over_of_outer(const sw_ladder *p, double h, const sw_outer_look *look) {
+  if (h < 2.0 * sw_coarse_shortest(p->args->dt)) return 0;
+  return LASTS * look->speed * p->args->dt / p->args->tolerance;
 }
 
 /* Returns the size of the step after one of h [s]. After an accurate step by implicit Euler the
@@ -56,7 +68,7 @@ sw_status sw_step_adaptive(sw_ladder *p, double left, double t1, sw_error *err) 
   const double most = fmin(p->args->dt, left);
   double h = course->next_dt > 0 ? fmin(course->next_dt, most) : 0.1 * most;
   if (p->args->parts) SW_TRY(sw_restart_after_stop(s, most, err));
-  h = fmin(sw_blow_part(s, h), sw_restart_part(s));
+  h = fmin(fmin(sw_blow_part(s, h), sw_restart_part(s)), sw_outer_longest(s));
   if (p->args->parts) SW_TRY(sw_restart_before_stop(p, &h, err));
   SW_TRY(sw_restart_until_break(s, &h, err));
   SW_TRY(sw_ladder_make_room(p, &h, err));
@@ -68,7 +80,9 @@ sw_status sw_step_adaptive(sw_ladder *p, double left, double t1, sw_error *err) 
     const sw_status status =
         sw_ladder_try(p, h, 0.25 * h < SW_SMALLEST_SHARE * SW_SMALLEST_SHARE * p->args->dt, err);
     if (sw_ladder_hopeless(status)) return status;
-    const double over = status == SW_OK ? over_of(p, h) : 0.0;
+    sw_outer_look outer = {.speed = 0};
+    if (status == SW_OK) SW_TRY(sw_outer_look_at(s, h, &outer, err));
+    const double over = status == SW_OK ? fmax(over_of(p, h), over_of_outer(p, h, &outer)) : 0.0;
     const int fine = status == SW_OK && (over <= 1 || is_short_enough(p, h));
     double next = status == SW_OK ? next_of(p, h, over) : 0.25 * h;
     if (fine && sw_blow_begins(s, h)) {
@@ -97,6 +111,7 @@ sw_status sw_step_adaptive(sw_ladder *p, double left, double t1, sw_error *err) 
     }
     if (fine) {
       const double before = sw_scene_time(s);
+      sw_outer_taken(s, h, &outer);
       sw_ladder_accept(p, h, last ? t1 : before + h);
       sw_buckle_taken(s, h);
       if (!(sw_scene_time(s) > before))

@@ -11,6 +11,7 @@
 #include "scene/parts.h"
 #include "scene/wire.h"
 #include "step/energy.h"
+#include "step/outer.h"
 #include "step/step.h"
 #include "system/system.h"
 #include "system/wait.h"
@@ -240,7 +241,8 @@ sw_status sw_ledger_close(sw_scene *s) {
   return log_row(s);
 }
 
-sw_status sw_ledger_pose(sw_scene *s, double t0, int jumped, double rubbed, sw_error *err) {
+sw_status sw_ledger_pose(sw_scene *s, double t0, int jumped, double rubbed, double outer,
+                         sw_error *err) {
   sw_books *b = sw_scene_books(s);
   sw_step_energy *step = &b->step;
   *step = (sw_step_energy){.steady = 1};
@@ -250,7 +252,7 @@ sw_status sw_ledger_pose(sw_scene *s, double t0, int jumped, double rubbed, sw_e
   step->friction += rubbed + sw_scene_rubbed(s);
   if (sw_scene_contact(s)) SW_TRY(sw_contact_began(sw_scene_contact(s), t0, err));
   sw_ledger_work(s, sw_scene_time(s), 0);
-  step->forces = b->now.loads - step->to.loads;
+  step->forces = b->now.loads - step->to.loads + outer;
   step->work = sw_ledger_effort(step);
   const double before = b->sums.integrator;
   step->gain = 0; /* poses have no referee */
@@ -294,6 +296,7 @@ sw_status sw_scene_end_run(sw_scene *s, sw_error *why) {
   const sw_ledger *l = &sw_scene_books(s)->sums;
   const double share = l->play > 0 ? l->gained / l->play : 0.0;
   sw_scene_end_breaking(s);
+  sw_outer_end_run(s);
   sw_scene_end_corners(s);
   sw_scene_end_bends(s);
   sw_scene_end_inside(s);

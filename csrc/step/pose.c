@@ -14,6 +14,7 @@
 #include "scene/wire.h"
 #include "step/energy.h"
 #include "step/jaw.h"
+#include "step/outer.h"
 #include "step/passing.h"
 #include "step/rest.h"
 #include "watch/observe.h"
@@ -30,12 +31,14 @@ typedef struct kept {
   sw_jaw *jaws; /* (tools) */
   double *x;    /* (freedoms) places of nodes */
   int next;     /* see sw_course */
+  sw_outer_start outer;
 } kept;
 
 static void drop(kept *k) {
   sw_tape_free(&k->live);
   sw_free(k->jaws);
   sw_free(k->x);
+  sw_outer_drop(&k->outer);
   *k = (kept){0};
 }
 
@@ -98,8 +101,10 @@ static sw_status again(sw_scene *s, double t0, double t, int halvings, const sw_
 }
 
 static sw_status book(sw_scene *s, double t0, double t1, int jumped, double rubbed,
-                      sw_run_report *report, sw_error *err) {
-  SW_TRY(sw_ledger_pose(s, t0, jumped, rubbed, err));
+                      const sw_outer_start *outer, sw_run_report *report, sw_error *err) {
+  double work;
+  SW_TRY(sw_outer_work(s, outer, &work, err));
+  SW_TRY(sw_ledger_pose(s, t0, jumped, rubbed, work, err));
   if (!jumped) return SW_OK;
   report->jumps++;
   report->last_jump = t1;
@@ -162,17 +167,19 @@ static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_ar
   if (passed && !shortest)
     return again(s, t0, t0 + fmax(part, how->passing), halvings, how, report, start, err);
   report->smallest_dt = fmin(report->smallest_dt, t1 - t0);
-  return book(s, t0, t1, rest.jumped || passed, rest.rubbed, report, err);
+  return book(s, t0, t1, rest.jumped || passed, rest.rubbed, &start->outer, report, err);
 }
 
 static sw_status pose(sw_scene *s, double t1, int halvings, const sw_pose_args *how,
                       sw_run_report *report, sw_error *err) {
   kept start = {0};
+  sw_status status = sw_outer_begin_pose(s, &start.outer, err);
+  if (status != SW_OK) return drop(&start), status;
   if (sw_scene_may_break(s) || sw_passing_any(s) || sw_jaw_presses_sections(s))
     SW_TRY(keep(s, &start, err));
   else if (sw_grips_frozen(s))
     SW_TRY(keep_loosely(s, &start, err));
-  const sw_status status = one_pose(s, t1, halvings, how, report, &start, err);
+  status = one_pose(s, t1, halvings, how, report, &start, err);
   drop(&start);
   return status;
 }

@@ -37,6 +37,28 @@ describe("joins in a scene", function()
     assert.is_true(c:position(c.length)[3] < 0.01) -- lies on the table
   end)
 
+  it("are named where a joined wire would become a mesh, and nothing is changed", function()
+    local s = sw.scene{}
+    local t, b = harness(s)
+    local hand = s:gripper{ name = "hand", pads = { width = 0.01, opening = 0.02 } }
+    local told = {}
+    s:process(function(p)
+      told[1] = select(2, pcall(t.remodel, t, { model = "tube" }))
+      told[2] = select(2, pcall(hand.grasp, hand, b, { s = 0.1, approach = "mixed", force = 5 }))
+      p:wait(0.01)
+    end)
+    assert.is_true(s:run{ dt = 0.005 }.ok)
+    for i, name in ipairs{ "trunk", "b" } do
+      local text = tostring(told[i])
+      assert.truthy(text:find("wire '" .. name .. "' is joined by 'Y': a joined wire cannot become a mesh", 1,
+        true), text)
+      assert.truthy(text:find("release the join first", 1, true), text)
+    end
+    assert.equal("rod", t.model)
+    assert.equal("rod", b.model)
+    assert.equal(0, #hand.wires)
+  end)
+
   it("come apart when released", function()
     local s = sw.scene{}
     local t, b, _, join = harness(s)
