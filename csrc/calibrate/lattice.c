@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "base/vec.h"
 
 const char *const sw_group_names[SW_GROUPS] = {"longitudinal",  "inner",
@@ -103,8 +104,7 @@ void sw_lattice_keep(sw_lattice *l, unsigned groups) {
 void sw_lattice_share(sw_lattice *l) {
   double whole = 0;
   memset(l->share, 0, l->particles * sizeof *l->share);
-  for (size_t m = 0; m < l->solids; m++) {
-    const sw_cell_solid *s = l->solid + m;
+  SW_ITEMS(const sw_cell_solid, s, l->solid, l->solids) {
     const int corners = s->nodes / 2;
     double area = 0;
     for (int a = 0; a < corners; a++) {
@@ -271,8 +271,7 @@ static sw_status radial_solid(const radial *r, size_t layer, size_t sector, sw_e
 static void unit_weights(sw_lattice *l) {
   double most[SW_GROUPS] = {0};
   for (int pass = 0; pass < 2; pass++)
-    for (size_t m = 0; m < l->links; m++) {
-      sw_cell_link *link = l->link + m;
+    SW_ITEMS(sw_cell_link, link, l->link, l->links) {
       if (pass == 0)
         most[link->group] = fmax(most[link->group], link->weight);
       else

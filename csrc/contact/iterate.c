@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "contact/depth.h"
 #include "contact/rolling.h"
 #include "contact/surface.h"
@@ -85,8 +86,7 @@ sw_status sw_contact_keeps(void *contact, sw_system *s, const double *y, int *ou
   if (c->unmarked || c->regime == SW_CONTACT_EXPLICIT) return SW_OK;
   SW_TRY(look(c, s, y, 0, err));
   c->looked = 1;
-  for (size_t i = 0; i < c->touch_count; i++) {
-    const sw_touch *t = &c->touches[i];
+  SW_ITEMS(const sw_touch, t, c->touches, c->touch_count) {
     if (!t->press.active) continue;
     if (active >= c->mark_count || !is_marked(t, &c->marks[active++])) return SW_OK;
   }
@@ -243,8 +243,7 @@ static int stands(const sw_contact *c) {
 static int rubs_on_flat(const sw_contact *c, const sw_system *s) {
   int rubs = 0;
   if (s->rolls) return 0;
-  for (size_t i = 0; i < c->touch_count; i++) {
-    const sw_touch *t = &c->touches[i];
+  SW_ITEMS(const sw_touch, t, c->touches, c->touch_count) {
     if (!t->press.active) continue;
     if (!c->flat[t->obstacle]) return 0;
     rubs |= t->friction > 0;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "base/interrupt.h"
 #include "base/simd.h"
 #include "mutual/cells.h"
@@ -281,8 +282,7 @@ static sw_status add_pair(sw_pairs *p, sw_system *s, const sw_near *n, double su
 
 /* Finds the pairs that cross with curves, then the pattern of the matrix. */
 static sw_status look_at_curves(sw_pairs *p, sw_system *s) {
-  for (size_t i = 0; i < p->m.pair_count; i++) {
-    sw_pair *k = &p->pairs[i];
+  SW_ITEMS(sw_pair, k, p->pairs, p->m.pair_count) {
     sw_pair_find_curves(p, s, k);
     if (k->bridged) SW_TRY(plan_bridges(s, k));
   }
@@ -340,8 +340,7 @@ sw_status sw_pairs_choose(sw_mutual *m, sw_system *s) {
   SW_TRY(list_near(p, s, &fast));
   p->least_left = -HUGE_VAL;
   SW_TRY(sw_system_begin_plan(s));
-  for (size_t k = 0; k < p->near_count; k++) {
-    sw_near *n = &p->near[k];
+  SW_ITEMS(sw_near, n, p->near, p->near_count) {
     if (sw_interrupted()) return SW_EINTR;
     if (s->waiting && both_wait(s, n)) continue;
     if (may_touch(p, s, n, fast))

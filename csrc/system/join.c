@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "solve/band3.h"
 #include "solve/rotation.h"
 #include "state/tie.h"
@@ -332,12 +333,10 @@ static int wake(sw_system *s, uint32_t node, uint32_t other) {
 static int wake_once(sw_system *s) {
   const struct sw_joins *all = s->joins;
   int any = 0;
-  for (size_t k = 0; k < all->spring_count; k++) {
-    const sw_join_spring *p = &all->springs[k];
+  SW_ITEMS(const sw_join_spring, p, all->springs, all->spring_count) {
     any |= wake(s, p->i, p->j) | wake(s, p->j, p->i);
   }
-  for (size_t k = 0; k < all->hub_count; k++) {
-    const sw_join_hub *h = &all->hubs[k];
+  SW_ITEMS(const sw_join_hub, h, all->hubs, all->hub_count) {
     for (size_t a = 0; a < h->count * h->count; a++)
       any |= wake(s, h->arms[a / h->count].from, h->arms[a % h->count].from);
   }
