@@ -9,11 +9,9 @@ static const char *const channels[SW_FRAME_FORCE + 1] = {"tension",      "curvat
 
 static void push_floats(lua_State *L, const float *x, size_t count, size_t stride) {
   lua_createtable(L, (int)count, 0);
-  for (size_t i = 0; i < count; i++) {
+  for (size_t i = 0; i < count; i++)
     /* NOLINTNEXTLINE(clang-analyzer-core.NullDereference): NULL comes with count = 0 */
-    lua_pushnumber(L, (double)x[stride * i]);
-    lua_rawseti(L, -2, (lua_Integer)i + 1);
-  }
+    lsw_put_number(L, i, (double)x[stride * i]);
 }
 
 static void push_pose(lua_State *L, const float *p) {
@@ -61,8 +59,7 @@ static void push_frame_surfaces(lua_State *L, const sw_scene *scene, size_t fram
           lua_pushnumber(L, (double)p[k]);
           lua_rawseti(L, -3, 3 * (lua_Integer)i + (lua_Integer)k + 1);
         }
-        lua_pushnumber(L, (double)p[3]);
-        lua_rawseti(L, -2, (lua_Integer)i + 1);
+        lsw_put_number(L, i, (double)p[3]);
       }
       lua_setfield(L, -3, "force");
       lua_setfield(L, -2, "points");
@@ -208,10 +205,7 @@ static int mod_frame_times(lua_State *L) {
   lsw_quiet(L);
   const size_t count = sw_scene_frames(scene);
   lua_createtable(L, (int)count, 0);
-  for (size_t f = 0; f < count; f++) {
-    lua_pushnumber(L, sw_scene_frame_time(scene, f));
-    lua_rawseti(L, -2, (lua_Integer)f + 1);
-  }
+  for (size_t f = 0; f < count; f++) lsw_put_number(L, f, sw_scene_frame_time(scene, f));
   return 1;
 }
 
@@ -257,10 +251,8 @@ static int mod_frames_sweep(lua_State *L) {
   sw_scene_frames_sweep(scene, start, w, &swept);
   lua_createtable(L, 6, 1);
   for (int k = 0; k < 3; k++) {
-    lua_pushnumber(L, swept.low[k]);
-    lua_rawseti(L, -2, k + 1);
-    lua_pushnumber(L, swept.high[k]);
-    lua_rawseti(L, -2, k + 4);
+    lsw_put_number(L, k, swept.low[k]);
+    lsw_put_number(L, k + 3, swept.high[k]);
   }
   lsw_set_number(L, "step", swept.step);
   lua_pushnumber(L, swept.turning);
@@ -353,17 +345,14 @@ static int mod_frames_press(lua_State *L) {
   luaL_checktype(L, 5, LUA_TTABLE);
   const sw_press_request request = check_press(L);
   lsw_quiet(L);
-  lua_Integer at = 0;
+  size_t at = 0;
   lua_newtable(L);
   for (size_t f = 0; f < sw_scene_frames(scene); f++) {
     sw_press p;
     if (sw_scene_frame_time(scene, f) < start) continue;
     if (!sw_scene_frame_press(scene, f, w, &request, &p)) continue;
     const double row[] = {p.load, p.squeeze, (double)p.first, (double)p.last, (double)p.count};
-    for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
-      lua_pushnumber(L, row[k]);
-      lua_rawseti(L, -2, ++at);
-    }
+    for (size_t k = 0; k < sizeof row / sizeof *row; k++) lsw_put_number(L, at++, row[k]);
   }
   return 1;
 }
