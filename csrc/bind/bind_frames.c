@@ -23,7 +23,7 @@ static void push_pose(lua_State *L, const float *p) {
 }
 
 /* Pushes flat positions [m] of the wires (loose = 0), or of the objects of particles (1). */
-static void push_frame_bodies(lua_State *L, const sw_scene *scene, size_t frame, int loose) {
+static void push_wires(lua_State *L, const sw_scene *scene, size_t frame, int loose) {
   size_t count;
   const float *x;
   lua_Integer number = 0;
@@ -35,17 +35,10 @@ static void push_frame_bodies(lua_State *L, const sw_scene *scene, size_t frame,
   }
 }
 
-static void push_frame_wires(lua_State *L, const sw_scene *scene, size_t frame) {
-  push_frame_bodies(L, scene, frame, 0);
-}
-
-static void push_frame_particles(lua_State *L, const sw_scene *scene, size_t frame) {
-  push_frame_bodies(L, scene, frame, 1);
-}
-
 /* Pushes for each wire its surface { around =, points = flat [m], force = flat [N] }, or false. */
-static void push_frame_surfaces(lua_State *L, const sw_scene *scene, size_t frame) {
+static void push_surfaces(lua_State *L, const sw_scene *scene, size_t frame, int unused) {
   size_t count, around;
+  (void)unused;
   lua_newtable(L);
   for (size_t w = 0; sw_scene_frame_wire(scene, frame, w, &count) != NULL; w++) {
     const float *p = sw_scene_frame_surface(scene, frame, w, &count, &around);
@@ -72,9 +65,10 @@ static void push_frame_surfaces(lua_State *L, const sw_scene *scene, size_t fram
 
 /* Pushes for each wire { tension =, curvature =, contact =, twist_moment =, stress = }: flat lists
  * of a number for each node [N], [1/m], [N], [N m], [Pa]. */
-static void push_frame_values(lua_State *L, const sw_scene *scene, size_t frame) {
+static void push_values(lua_State *L, const sw_scene *scene, size_t frame, int unused) {
   size_t count;
   lua_Integer number = 0;
+  (void)unused;
   lua_newtable(L);
   for (size_t w = 0; sw_scene_frame_wire(scene, frame, w, &count) != NULL; w++) {
     const float *p = sw_scene_frame_values(scene, frame, w, &count);
@@ -88,41 +82,25 @@ static void push_frame_values(lua_State *L, const sw_scene *scene, size_t frame)
   }
 }
 
-static void push_frame_obstacles(lua_State *L, const sw_scene *scene, size_t frame) {
+/* Pushes for each its pose, for a hold also whether it holds; false for a removed obstacle. */
+static void push_bodies(lua_State *L, const sw_scene *scene, size_t frame, int kind) {
   const float *p;
   int there;
   lua_newtable(L);
-  for (size_t o = 0; (p = sw_scene_frame_obstacle(scene, frame, o, &there)) != NULL; o++) {
-    if (there)
+  for (size_t k = 0;
+       (p = sw_scene_frame_body(scene, frame, (sw_frame_kind)kind, k, &there)) != NULL; k++) {
+    if (there || kind == SW_FRAME_HOLDS)
       push_pose(L, p);
     else
       lua_pushboolean(L, 0);
-    lua_rawseti(L, -2, (lua_Integer)o + 1);
-  }
-}
-
-static void push_frame_holds(lua_State *L, const sw_scene *scene, size_t frame) {
-  const float *p;
-  int held;
-  lua_newtable(L);
-  for (size_t h = 0; (p = sw_scene_frame_hold(scene, frame, h, &held)) != NULL; h++) {
-    push_pose(L, p);
-    lsw_set_flag(L, "held", held);
-    lua_rawseti(L, -2, (lua_Integer)h + 1);
-  }
-}
-
-static void push_frame_tools(lua_State *L, const sw_scene *scene, size_t frame) {
-  const float *p;
-  lua_newtable(L);
-  for (size_t k = 0; (p = sw_scene_frame_tool(scene, frame, k)) != NULL; k++) {
-    push_pose(L, p);
+    if (kind == SW_FRAME_HOLDS) lsw_set_flag(L, "held", there);
     lua_rawseti(L, -2, (lua_Integer)k + 1);
   }
 }
 
-static void push_frame_energy(lua_State *L, const sw_scene *scene, size_t frame) {
+static void push_energy(lua_State *L, const sw_scene *scene, size_t frame, int unused) {
   const double *e = sw_scene_frame_energy(scene, frame);
+  (void)unused;
   lua_createtable(L, 0, SW_FRAME_ENERGIES);
   lsw_set_number(L, "kinetic", e[0]);
   lsw_set_number(L, "elastic", e[1]);
@@ -131,11 +109,16 @@ static void push_frame_energy(lua_State *L, const sw_scene *scene, size_t frame)
 
 static const struct {
   const char *name;
-  void (*push)(lua_State *L, const sw_scene *scene, size_t frame);
-} parts[] = {{"wires", push_frame_wires},         {"values", push_frame_values},
-             {"surfaces", push_frame_surfaces},   {"particles", push_frame_particles},
-             {"obstacles", push_frame_obstacles}, {"holds", push_frame_holds},
-             {"tools", push_frame_tools},         {"energy", push_frame_energy}};
+  void (*push)(lua_State *L, const sw_scene *scene, size_t frame, int of);
+  int of; /* which of the things that the function pushes */
+} parts[] = {{"wires", push_wires, 0},
+             {"values", push_values, 0},
+             {"surfaces", push_surfaces, 0},
+             {"particles", push_wires, 1},
+             {"obstacles", push_bodies, SW_FRAME_OBSTACLES},
+             {"holds", push_bodies, SW_FRAME_HOLDS},
+             {"tools", push_bodies, SW_FRAME_TOOLS},
+             {"energy", push_energy, 0}};
 
 enum { PARTS = sizeof parts / sizeof parts[0] };
 
@@ -150,7 +133,7 @@ int lsw_scene_frame(lua_State *L) {
   lua_createtable(L, 0, 1 + PARTS);
   lsw_set_number(L, "t", sw_scene_frame_time(scene, frame));
   for (int k = 0; k < PARTS; k++) {
-    parts[k].push(L, scene, frame);
+    parts[k].push(L, scene, frame, parts[k].of);
     lua_setfield(L, -2, parts[k].name);
   }
   return 1;
