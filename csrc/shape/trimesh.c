@@ -7,6 +7,7 @@
 
 #include "base/alloc.h"
 #include "base/interrupt.h"
+#include "shape/meshed.h"
 
 /* Vertices nearer than this share of the largest extent are joined. Files with floats round
  * coordinates to 6e-8 of their size [-]. */
@@ -173,14 +174,17 @@ void sw_trimesh_free(sw_trimesh *mesh) {
   memset(mesh, 0, sizeof *mesh);
 }
 
-sw_status sw_trimesh_triangles(const sw_trimesh *mesh, sw_triangles *out) {
+sw_status sw_meshed_triangles(const sw_shape *shape, int around, sw_triangles *out) {
+  const sw_trimesh *mesh = sw_trimesh_of(shape);
+  (void)around;
   SW_TRY(sw_triangles_new(mesh->vertex_count, mesh->triangle_count, out));
   memcpy(out->vertices, mesh->vertices, 3 * mesh->vertex_count * sizeof *out->vertices);
   memcpy(out->indices, mesh->indices, 3 * mesh->triangle_count * sizeof *out->indices);
   return SW_OK;
 }
 
-void sw_trimesh_bones(const sw_trimesh *mesh, sw_bone_visit visit, void *user) {
+void sw_meshed_bones(const sw_shape *shape, sw_bone_visit visit, void *user) {
+  const sw_trimesh *mesh = sw_trimesh_of(shape);
   for (size_t v = 0; v < mesh->vertex_count; v++) {
     const sw_vec corner = sw_trimesh_vertex(mesh, (int)v);
     visit(user, corner, corner, 0);
