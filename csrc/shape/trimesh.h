@@ -55,8 +55,7 @@ sw_status sw_trimesh_build(sw_trimesh *mesh, const char *object, const double *v
                            sw_error *err);
 void sw_trimesh_free(sw_trimesh *mesh);
 
-/* Parts of the build, one per file. */
-sw_status sw_trimesh_tree(sw_trimesh *mesh);
+/* A part of the build. */
 sw_status sw_trimesh_topology(sw_trimesh *mesh, const char *object, sw_error *err);
 
 /* Calls visit for every triangle in leaves whose box, widened by reach on all sides, meets the
