@@ -205,7 +205,7 @@ static void add_piece(sw_drawing *d, const double *points, size_t i, double radi
   for (size_t k = 0; k < 2; k++) sw_vec_to(q->p[k], sw_vec_at(points, i + k));
   for (size_t c = 0; c < 3; c++)
     q->colour[c] = 0.5f * (colour_at(paint, i)[c] + colour_at(paint, i + 1)[c]);
-  q->radius = (float)radius, q->object = (uint32_t)d->object_count;
+  q->radius = (float)radius;
 }
 
 static void add_tube(sw_drawing *d, const double *points, size_t count, double radius,
@@ -257,7 +257,7 @@ sw_status sw_drawing_balls(sw_drawing *d, const double *points, size_t count, do
     sw_ball *b = &d->balls[d->ball_count++];
     sw_vec_to(b->p, sw_vec_at(points, i));
     memcpy(b->colour, colour_at(paint, i), sizeof b->colour);
-    b->radius = (float)radius, b->gloss = paint->gloss, b->object = (uint32_t)d->object_count;
+    b->radius = (float)radius, b->gloss = paint->gloss;
   }
   d->object_count++;
   return SW_OK;

@@ -172,7 +172,7 @@ sw_status sw_sparse_new(size_t nodes, size_t block, const sw_couple *pairs, size
                         sw_sparse *old, sw_sparse **out) {
   sw_sparse *s = sw_alloc(1, sizeof *s);
   if (!s) return SW_ENOMEM;
-  s->n = nodes, s->block = block, s->pairs = count;
+  s->n = nodes, s->block = block;
   s->along = old && old->along && block == old->block;
   s->slot = sw_alloc(count, sizeof *s->slot);
   sw_status status = s->slot && nodes < INT32_MAX / 4 && count < INT32_MAX / 4 ? SW_OK : SW_ENOMEM;
