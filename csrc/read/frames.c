@@ -31,7 +31,7 @@ static void free_data(sw_frames *f) {
   f->count = 0;
 }
 
-void sw_scene_drop_frames(sw_scene *s) {
+static void drop_all(sw_scene *s) {
   sw_frames *all = sw_scene_frames_of(s);
   free_data(all);
   all->stride = 1;
@@ -63,7 +63,7 @@ sw_status sw_frames_copy(const sw_frames *from, sw_frames *to) {
 
 sw_status sw_scene_clear_frames(sw_scene *s, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  sw_scene_drop_frames(s);
+  drop_all(s);
   return SW_OK;
 }
 
