@@ -69,21 +69,17 @@ void sw_lattice_free(sw_lattice *l) {
 }
 
 sw_status sw_lattice_link(sw_lattice *l, sw_cell_link link, sw_error *err) {
-  void *p = l->link;
-  if (sw_grow(&p, &l->capacity, l->links + 1, sizeof link) != SW_OK)
+  if (SW_GROW(l->link, l->capacity, l->links + 1) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "calibrate: out of memory");
-  l->link = p;
   l->link[l->links++] = link;
   return SW_OK;
 }
 
 sw_status sw_lattice_solid(sw_lattice *l, int corners, const uint32_t *corner, sw_error *err) {
-  void *p = l->solid;
   sw_cell_solid solid = {.nodes = 2 * corners, .group = SW_GROUP_SOLID};
   for (int i = 0; i < corners; i++) solid.particle[i] = solid.particle[i + corners] = corner[i];
-  if (sw_grow(&p, &l->solid_capacity, l->solids + 1, sizeof solid) != SW_OK)
+  if (SW_GROW(l->solid, l->solid_capacity, l->solids + 1) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "calibrate: out of memory");
-  l->solid = p;
   l->solid[l->solids++] = solid;
   return SW_OK;
 }

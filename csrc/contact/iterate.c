@@ -37,8 +37,7 @@ static void begin_marks(sw_contact *c) {
 
 static void mark(sw_contact *c, const sw_touch *t) {
   if (c->unmarked || !t->press.active) return;
-  c->unmarked = slides(t) || sw_grow((void **)&c->marks, &c->mark_capacity, c->mark_count + 1,
-                                     sizeof *c->marks) != SW_OK;
+  c->unmarked = slides(t) || SW_GROW(c->marks, c->mark_capacity, c->mark_count + 1) != SW_OK;
   if (!c->unmarked)
     c->marks[c->mark_count++] = (sw_mark){t->candidate, t->at, t->press.k, t->press.normal};
 }
@@ -102,8 +101,7 @@ static const double NEXT_TO = 1e-6;
 static void note_pressed(sw_contact *c, const sw_touch *t) {
   const double open = c->obstacles[t->obstacle].restitution > 0 ? NEXT_TO : 0.0;
   if (t->held || !(t->press.normal_force > 0 || t->press.gap_after < open)) return;
-  if (sw_grow((void **)&c->pressed, &c->pressed_capacity, c->pressed_count + 1,
-              sizeof *c->pressed) == SW_OK)
+  if (SW_GROW(c->pressed, c->pressed_capacity, c->pressed_count + 1) == SW_OK)
     c->pressed[c->pressed_count++] = sw_contact_pressed(t);
 }
 

@@ -82,7 +82,7 @@ static items look(const sw_scene *s, const track *t, size_t frame) {
 /* --- the tracks ---------------------------------------------------------------- */
 
 static sw_status add_track(maker *m, track t) {
-  SW_TRY(sw_grow((void **)&m->tracks, &m->track_capacity, m->track_count + 1, sizeof t));
+  SW_TRY(SW_GROW(m->tracks, m->track_capacity, m->track_count + 1));
   m->tracks[m->track_count++] = t;
   return SW_OK;
 }
@@ -222,7 +222,7 @@ static sw_status put_track(maker *m, const track *t) {
   for (size_t f = 0; f < m->frames; f++) {
     const items it = look(m->s, t, m->frame[f]);
     if (m->interrupted && m->interrupted()) return SW_EINTR;
-    SW_TRY(sw_grow((void **)&m->codes[0], &m->room[0], t->width * it.count, sizeof **m->codes));
+    SW_TRY(SW_GROW(m->codes[0], m->room[0], t->width * it.count));
     put_items(m, t, &it, f && last == it.count ? m->codes[1] : NULL);
     uint32_t *const swap = m->codes[0];
     const size_t room = m->room[0];

@@ -54,7 +54,7 @@ static void squeeze(sw_pack *p, int flush) {
   p->z.next_in = p->in, p->z.avail_in = (unsigned)p->waiting;
   p->waiting = 0;
   do {
-    if (p->status == SW_OK) p->status = sw_grow((void **)&p->out, &p->capacity, p->size + ROOM, 1);
+    if (p->status == SW_OK) p->status = SW_GROW(p->out, p->capacity, p->size + ROOM);
     if (p->status != SW_OK) return;
     p->z.next_out = p->out + p->size, p->z.avail_out = ROOM;
     (void)deflate(&p->z, flush); /* Z_BUF_ERROR only means that nothing was left to do */

@@ -109,7 +109,7 @@ static sw_status look_at(void *user, const sw_thing *t, const sw_thing *u) {
   if (a == b || !(apart < reach_of(g, speed, all->h)) || sw_joined_are(&g->joined, a, b))
     return SW_OK;
   if (g->count == MOST_NEAR) return SW_ELIMIT;
-  SW_TRY(sw_grow((void **)&g->near, &g->capacity, g->count + 1, sizeof *g->near));
+  SW_TRY(SW_GROW(g->near, g->capacity, g->count + 1));
   g->near[g->count++] = (sw_couple){a, b};
   return SW_OK;
 }

@@ -173,9 +173,7 @@ static void begin_friction(const sw_mutual *m, const sw_system *s, const double 
 }
 
 sw_meet *sw_meet_new(sw_mutual *m) {
-  if (sw_grow((void **)&m->touches, &m->touch_capacity, m->touch_count + 1, sizeof *m->touches) !=
-      SW_OK)
-    return NULL;
+  if (SW_GROW(m->touches, m->touch_capacity, m->touch_count + 1) != SW_OK) return NULL;
   return memset(&m->touches[m->touch_count], 0, sizeof *m->touches);
 }
 
@@ -382,7 +380,7 @@ int sw_mutual_settled(sw_mutual *m, sw_system *s, const double *delta) {
   for (size_t i = 0; fine && i < m->touch_count; i++) {
     const sw_meet *t = &m->touches[i];
     if (!(t->press.normal_force > 0 || t->press.gap_after < 0)) continue;
-    if (sw_grow((void **)&m->hits, &m->hit_capacity, m->hit_count + 1, sizeof *m->hits) != SW_OK)
+    if (SW_GROW(m->hits, m->hit_capacity, m->hit_count + 1) != SW_OK)
       break; /* out of memory: the impact is treated in the next step */
     m->hits[m->hit_count++] =
         (sw_hit){.bow = {t->bow[0], t->bow[1]}, .normal = t->press.normal, .reach = t->reach};

@@ -18,9 +18,7 @@ static int is_barred(const sw_pairs *p, const sw_pair *k, const double at[2]) {
 }
 
 static int raise_barrier(sw_pairs *p, const sw_pair *k, const double at[2], sw_vec normal) {
-  if (sw_grow((void **)&p->barriers, &p->barrier_capacity, p->m.barrier_count + 1,
-              sizeof *p->barriers) != SW_OK)
-    return 0;
+  if (SW_GROW(p->barriers, p->barrier_capacity, p->m.barrier_count + 1) != SW_OK) return 0;
   p->barriers[p->m.barrier_count++] = (sw_pair_barrier){k->one, k->two, {at[0], at[1]}, normal};
   return 1;
 }

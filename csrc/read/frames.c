@@ -234,7 +234,7 @@ static sw_status add_frame(sw_scene *s, sw_error *err) {
                 .tools = sw_scene_tool_slots(s)};
   for (size_t w = 0; w < sw_scene_wire_slots(s); w++)
     f.size += size_of(sw_scene_system(s)->bodies[w].plan);
-  if (sw_grow((void **)&all->list, &all->capacity, all->count + 1, sizeof *all->list) != SW_OK)
+  if (SW_GROW(all->list, all->capacity, all->count + 1) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "out of memory for frames");
   f.data = sw_alloc(f.size, sizeof *f.data);
   if (!f.data) return sw_fail(err, SW_ENOMEM, "out of memory for frames");

@@ -47,7 +47,7 @@ static sw_status find_column(sw_sparse *s, analysis *a, uint32_t k) {
   size_t most = (size_t)(a->first[node + 1] - a->first[node]);
   for (uint32_t c = a->child[k]; c != none; c = a->sibling[c])
     most += s->start[c + 1] - s->start[c];
-  SW_TRY(sw_grow((void **)&s->row, &a->row_capacity, s->fill + most + 1, sizeof *s->row));
+  SW_TRY(SW_GROW(s->row, a->row_capacity, s->fill + most + 1));
   uint32_t *rows = s->row + s->fill;
   size_t count = 0;
   a->seen[k] = k;

@@ -61,8 +61,7 @@ sw_status sw_joins_plan(sw_system *s) {
 sw_status sw_system_add_spring(sw_system *s, const sw_join_spring *spring) {
   struct sw_joins *all = joins_of(s);
   if (!all) return SW_ENOMEM;
-  SW_TRY(sw_grow((void **)&all->springs, &all->spring_capacity, all->spring_count + 1,
-                 sizeof *all->springs));
+  SW_TRY(SW_GROW(all->springs, all->spring_capacity, all->spring_count + 1));
   all->springs[all->spring_count++] = *spring;
   return plan(s, spring->i, spring->j);
 }
@@ -70,7 +69,7 @@ sw_status sw_system_add_spring(sw_system *s, const sw_join_spring *spring) {
 sw_status sw_system_add_hub(sw_system *s, const sw_join_hub *hub) {
   struct sw_joins *all = joins_of(s);
   if (!all) return SW_ENOMEM;
-  SW_TRY(sw_grow((void **)&all->hubs, &all->hub_capacity, all->hub_count + 1, sizeof *all->hubs));
+  SW_TRY(SW_GROW(all->hubs, all->hub_capacity, all->hub_count + 1));
   all->hubs[all->hub_count++] = *hub;
   return plan_hub(s, hub);
 }

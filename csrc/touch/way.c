@@ -49,7 +49,7 @@ static double assumed(sw_press *p, double friction, sw_vec s, sw_vec along) {
 
 void sw_ways_add(sw_ways *w, sw_press *press, double friction, sw_vec shift) {
   if (!press->active && !sw_press_closes(press, shift)) return;
-  if (sw_grow((void **)&w->list, &w->capacity, w->count + 1, sizeof *w->list) != SW_OK) return;
+  if (SW_GROW(w->list, w->capacity, w->count + 1) != SW_OK) return;
   const double begins = assumed(press, friction, sw_v(0, 0, 0), shift);
   w->list[w->count++] =
       (sw_way){press, friction, shift, begins, assumed(press, friction, shift, shift)};
