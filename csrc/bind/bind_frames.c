@@ -36,9 +36,8 @@ static void push_wires(lua_State *L, const sw_scene *scene, size_t frame, int lo
 }
 
 /* Pushes for each wire its surface { around =, points = flat [m], force = flat [N] }, or false. */
-static void push_surfaces(lua_State *L, const sw_scene *scene, size_t frame, int unused) {
+static void push_surfaces(lua_State *L, const sw_scene *scene, size_t frame, int unused SW_UNUSED) {
   size_t count, around;
-  (void)unused;
   lua_newtable(L);
   for (size_t w = 0; sw_scene_frame_wire(scene, frame, w, &count) != NULL; w++) {
     const float *p = sw_scene_frame_surface(scene, frame, w, &count, &around);
@@ -65,10 +64,9 @@ static void push_surfaces(lua_State *L, const sw_scene *scene, size_t frame, int
 
 /* Pushes for each wire { tension =, curvature =, contact =, twist_moment =, stress = }: flat lists
  * of a number for each node [N], [1/m], [N], [N m], [Pa]. */
-static void push_values(lua_State *L, const sw_scene *scene, size_t frame, int unused) {
+static void push_values(lua_State *L, const sw_scene *scene, size_t frame, int unused SW_UNUSED) {
   size_t count;
   lua_Integer number = 0;
-  (void)unused;
   lua_newtable(L);
   for (size_t w = 0; sw_scene_frame_wire(scene, frame, w, &count) != NULL; w++) {
     const float *p = sw_scene_frame_values(scene, frame, w, &count);
@@ -98,9 +96,8 @@ static void push_bodies(lua_State *L, const sw_scene *scene, size_t frame, int k
   }
 }
 
-static void push_energy(lua_State *L, const sw_scene *scene, size_t frame, int unused) {
+static void push_energy(lua_State *L, const sw_scene *scene, size_t frame, int unused SW_UNUSED) {
   const double *e = sw_scene_frame_energy(scene, frame);
-  (void)unused;
   lua_createtable(L, 0, SW_FRAME_ENERGIES);
   lsw_set_number(L, "kinetic", e[0]);
   lsw_set_number(L, "elastic", e[1]);

@@ -105,10 +105,9 @@ static void note_pressed(sw_contact *c, const sw_touch *t) {
     c->pressed[c->pressed_count++] = sw_contact_pressed(t);
 }
 
-sw_status sw_contact_eval(void *contact, sw_system *s, double time, double hbar, const double *y,
-                          unsigned want, sw_error *err) {
+sw_status sw_contact_eval(void *contact, sw_system *s, double time, double hbar SW_UNUSED,
+                          const double *y, unsigned want, sw_error *err) {
   sw_contact *c = contact;
-  (void)hbar;
   sw_status status = SW_OK;
   if (c->regime == SW_CONTACT_EXPLICIT) status = sw_contact_begin_stage(c, time, 0, err);
   if (status != SW_OK) return status;

@@ -18,15 +18,11 @@ struct sw_pack {
   sw_status status;
 };
 
-static void *take(void *unused, unsigned count, unsigned size) {
-  (void)unused;
+static void *take(void *unused SW_UNUSED, unsigned count, unsigned size) {
   return sw_alloc(count, size);
 }
 
-static void give(void *unused, void *p) {
-  (void)unused;
-  sw_free(p);
-}
+static void give(void *unused SW_UNUSED, void *p) { sw_free(p); }
 
 static sw_status pack_new(sw_pack **out, int level) {
   sw_pack *p = sw_alloc(1, sizeof *p);

@@ -83,9 +83,8 @@ static double missed_gap(const sw_pairs *p, const sw_system *s, const double *x1
   return gap;
 }
 
-int sw_pairs_widen(sw_mutual *m, sw_system *s, const double *x1, double h) {
+int sw_pairs_widen(sw_mutual *m, sw_system *s, const double *x1, double h SW_UNUSED) {
   sw_pairs *p = sw_pairs_of(m);
-  (void)h;
   if (2.0 * sw_pairs_largest_move(p->listed_at, x1, s->nodes) > p->listed_reach &&
       sw_pairs_list(p, s, 2.0 * sw_pairs_largest_move(s->x, x1, s->nodes)) != SW_OK)
     return -1;

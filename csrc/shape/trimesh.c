@@ -216,9 +216,8 @@ void sw_trimesh_free(sw_trimesh *mesh) {
   memset(mesh, 0, sizeof *mesh);
 }
 
-sw_status sw_meshed_triangles(const sw_shape *shape, int around, sw_triangles *out) {
+sw_status sw_meshed_triangles(const sw_shape *shape, int around SW_UNUSED, sw_triangles *out) {
   const sw_trimesh *mesh = sw_trimesh_of(shape);
-  (void)around;
   SW_TRY(sw_triangles_new(mesh->vertex_count, mesh->triangle_count, out));
   memcpy(out->vertices, mesh->vertices, 3 * mesh->vertex_count * sizeof *out->vertices);
   memcpy(out->indices, mesh->indices, 3 * mesh->triangle_count * sizeof *out->indices);

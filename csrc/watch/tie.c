@@ -121,8 +121,7 @@ static void each_tie(const sw_scene *s, void (*visit)(const sw_scene *, const ti
   }
 }
 
-static void note_strength(const sw_scene *s, const tie *t, void *any) {
-  (void)s;
+static void note_strength(const sw_scene *s SW_UNUSED, const tie *t, void *any) {
   if (isfinite(t->bears)) *(int *)any = 1;
 }
 
