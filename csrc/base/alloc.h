@@ -50,12 +50,18 @@ size_t sw_alloc_size(const void *p);
 /* Grows *p (*capacity items of this size) to at least need items, by doubling the
  * capacity. The old content stays, new content is zero. SW_ENOMEM changes nothing. */
 sw_status sw_grow(void **p, size_t *capacity, size_t need, size_t size);
+/* SW_GROW, SW_GROW_EMPTY and SW_FILL take a list and its capacity themselves, not their places. */
+#define SW_GROW(p, capacity, need) sw_grow((void **)&(p), &(capacity), need, sizeof *(p))
 /* The same for an array whose content is not needed: nothing is copied. After SW_ENOMEM the
  * capacity is 0. */
 sw_status sw_grow_empty(void **p, size_t *capacity, size_t need, size_t size);
+#define SW_GROW_EMPTY(p, capacity, need) \
+  sw_grow_empty((void **)&(p), &(capacity), need, sizeof *(p))
 
 /* The same, and fills it with `count` items from elsewhere. */
 sw_status sw_fill(void **p, size_t *capacity, const void *from, size_t count, size_t size);
+#define SW_FILL(p, capacity, from, count) \
+  sw_fill((void **)&(p), &(capacity), from, count, sizeof *(p))
 
 /* Exchanges two values of one type. */
 #define SW_SWAP(a, b)                \

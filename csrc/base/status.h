@@ -20,6 +20,9 @@ typedef enum sw_status {
   SW_EEMPTY     /* a feed has no wire left to draw in */
 } sw_status;
 
+/* Marks a parameter that others of the same kind of function use. */
+#define SW_UNUSED __attribute__((unused))
+
 enum { SW_ERROR_TEXT = 512 };
 
 /* The text always ends with a zero. A function that returns SW_OK does not change it. */

@@ -74,7 +74,7 @@ void sw_tape_raw_slow(sw_tape *t, void *p, size_t bytes) {
     if (bytes) memcpy(p, (const unsigned char *)t->from + t->at, bytes);
     t->at += bytes;
   } else if (sw_tape_good(t)) {
-    if (sw_grow((void **)&t->bytes, &t->capacity, t->size + bytes, 1) != SW_OK) {
+    if (SW_GROW(t->bytes, t->capacity, t->size + bytes) != SW_OK) {
       sw_tape_fail(t, SW_ENOMEM);
       return;
     }
@@ -87,8 +87,7 @@ int sw_tape_share(sw_tape *t, void *p_pointer, const sw_sharing *how) {
   void **p = p_pointer, *what = *p;
   if (!t->home) return 0;
   if (!sw_tape_reads(t) && what) {
-    if (sw_grow((void **)&t->shared, &t->shared_capacity, t->shared_count + 1, sizeof *t->shared) !=
-        SW_OK) {
+    if (SW_GROW(t->shared, t->shared_capacity, t->shared_count + 1) != SW_OK) {
       sw_tape_fail(t, SW_ENOMEM);
       return 1;
     }

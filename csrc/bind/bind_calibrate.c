@@ -14,19 +14,10 @@ static int push_protected(lua_State *L, lua_CFunction push, void *p) {
   return lua_pcall(L, 1, 1, 0);
 }
 
-/* Sets the field matrix: S as a list of rows. */
-static void set_matrix(lua_State *L, const double S[SW_CELL_SIZE]) {
-  lua_createtable(L, SW_CELL_STRAINS, 0);
-  for (int i = 0; i < SW_CELL_STRAINS; i++) {
-    lsw_push_flat(L, S + i * SW_CELL_STRAINS, SW_CELL_STRAINS);
-    lua_rawseti(L, -2, i + 1);
-  }
-  lua_setfield(L, -2, "matrix");
-}
-
 static void set_beam(lua_State *L, const sw_cell_result *r) {
   for (int t = 0; t < SW_TARGETS; t++) lsw_set_number(L, sw_target_names[t], sw_reached(r, t));
-  set_matrix(L, r->S);
+  lsw_push_rows(L, r->S, SW_CELL_STRAINS, SW_CELL_STRAINS);
+  lua_setfield(L, -2, "matrix");
 }
 
 static void set_links(lua_State *L, const sw_lattice *l) {
@@ -56,16 +47,11 @@ static void set_elements(lua_State *L, const sw_calibration *c) {
     lsw_set_number(L, "modulus", c->k[solid->group]);
     lsw_set_number(L, "nu", solid->nu);
     lua_createtable(L, solid->nodes, 0);
-    for (int a = 0; a < solid->nodes; a++) {
-      lua_pushinteger(L, (lua_Integer)solid->particle[a] + 1);
-      lua_rawseti(L, -2, a + 1);
-    }
+    for (int a = 0; a < solid->nodes; a++)
+      lsw_put_integer(L, a, (lua_Integer)solid->particle[a] + 1);
     lua_setfield(L, -2, "particles");
     lua_createtable(L, solid->nodes, 0);
-    for (int a = 0; a < solid->nodes; a++) {
-      lua_pushinteger(L, 2 * a >= solid->nodes);
-      lua_rawseti(L, -2, a + 1);
-    }
+    for (int a = 0; a < solid->nodes; a++) lsw_put_integer(L, a, 2 * a >= solid->nodes);
     lua_setfield(L, -2, "slices");
     lua_rawseti(L, -2, (lua_Integer)m + 1);
   }
@@ -115,10 +101,8 @@ static void set_composite(lua_State *L, const sw_calibration *c) {
   lsw_set_number(L, "ring_radius", place->ring_radius);
   lsw_set_points(L, "centres", &place->centre->x, place->cores);
   lua_createtable(L, (int)c->lattice.particles, 0);
-  for (size_t i = 0; i < c->lattice.particles; i++) {
-    lua_pushinteger(L, (lua_Integer)sw_composite_part(place, i));
-    lua_rawseti(L, -2, (lua_Integer)i + 1);
-  }
+  for (size_t i = 0; i < c->lattice.particles; i++)
+    lsw_put_integer(L, i, (lua_Integer)sw_composite_part(place, i));
   lua_setfield(L, -2, "part");
 }
 
@@ -133,10 +117,8 @@ static void set_particles(lua_State *L, const sw_calibration *c) {
   lsw_set_flat(L, "shares", c->lattice.share, c->lattice.particles);
   if (isnan(mass)) return;
   lua_createtable(L, (int)c->lattice.particles, 0);
-  for (size_t i = 0; i < c->lattice.particles; i++) {
-    lua_pushnumber(L, mass * c->lattice.share[i]);
-    lua_rawseti(L, -2, (lua_Integer)i + 1);
-  }
+  for (size_t i = 0; i < c->lattice.particles; i++)
+    lsw_put_number(L, i, mass * c->lattice.share[i]);
   lua_setfield(L, -2, "mass");
 }
 

@@ -69,10 +69,7 @@ static void push_skin(lua_State *L, const sw_skin *skin, size_t frames) {
   lsw_set_integer(L, "count", skin->triangles);
   lsw_set_flag(L, "normals", skin->normals);
   lua_createtable(L, 6 * (int)frames, 0);
-  for (size_t i = 0; i < 6 * frames; i++) {
-    lua_pushnumber(L, (double)skin->bounds[i]);
-    lua_rawseti(L, -2, (lua_Integer)i + 1);
-  }
+  for (size_t i = 0; i < 6 * frames; i++) lsw_put_number(L, i, (double)skin->bounds[i]);
   lua_setfield(L, -2, "bounds");
 }
 

@@ -25,10 +25,7 @@ void lsw_end_forces(lua_State *outer) { running = outer; }
 /* Pushes the array under key and fills it with exactly n values (zeros for NULL). */
 static void push_flat(lua_State *L, int table, const char *key, const double *values, size_t n) {
   lua_getfield(L, table, key);
-  for (size_t i = 0; i < n; i++) {
-    lua_pushnumber(L, values ? values[i] : 0.0);
-    lua_rawseti(L, -2, (lua_Integer)i + 1);
-  }
+  for (size_t i = 0; i < n; i++) lsw_put_number(L, i, values ? values[i] : 0.0);
   /* all wires of the force share this table; their node counts may differ */
   for (size_t i = lua_rawlen(L, -1); i > n; i--) {
     lua_pushnil(L);

@@ -9,11 +9,9 @@ static const char *const channels[SW_FRAME_FORCE + 1] = {"tension",      "curvat
 
 static void push_floats(lua_State *L, const float *x, size_t count, size_t stride) {
   lua_createtable(L, (int)count, 0);
-  for (size_t i = 0; i < count; i++) {
+  for (size_t i = 0; i < count; i++)
     /* NOLINTNEXTLINE(clang-analyzer-core.NullDereference): NULL comes with count = 0 */
-    lua_pushnumber(L, (double)x[stride * i]);
-    lua_rawseti(L, -2, (lua_Integer)i + 1);
-  }
+    lsw_put_number(L, i, (double)x[stride * i]);
 }
 
 static void push_pose(lua_State *L, const float *p) {
@@ -25,7 +23,7 @@ static void push_pose(lua_State *L, const float *p) {
 }
 
 /* Pushes flat positions [m] of the wires (loose = 0), or of the objects of particles (1). */
-static void push_frame_bodies(lua_State *L, const sw_scene *scene, size_t frame, int loose) {
+static void push_wires(lua_State *L, const sw_scene *scene, size_t frame, int loose) {
   size_t count;
   const float *x;
   lua_Integer number = 0;
@@ -37,16 +35,8 @@ static void push_frame_bodies(lua_State *L, const sw_scene *scene, size_t frame,
   }
 }
 
-static void push_frame_wires(lua_State *L, const sw_scene *scene, size_t frame) {
-  push_frame_bodies(L, scene, frame, 0);
-}
-
-static void push_frame_particles(lua_State *L, const sw_scene *scene, size_t frame) {
-  push_frame_bodies(L, scene, frame, 1);
-}
-
 /* Pushes for each wire its surface { around =, points = flat [m], force = flat [N] }, or false. */
-static void push_frame_surfaces(lua_State *L, const sw_scene *scene, size_t frame) {
+static void push_surfaces(lua_State *L, const sw_scene *scene, size_t frame, int unused SW_UNUSED) {
   size_t count, around;
   lua_newtable(L);
   for (size_t w = 0; sw_scene_frame_wire(scene, frame, w, &count) != NULL; w++) {
@@ -61,8 +51,7 @@ static void push_frame_surfaces(lua_State *L, const sw_scene *scene, size_t fram
           lua_pushnumber(L, (double)p[k]);
           lua_rawseti(L, -3, 3 * (lua_Integer)i + (lua_Integer)k + 1);
         }
-        lua_pushnumber(L, (double)p[3]);
-        lua_rawseti(L, -2, (lua_Integer)i + 1);
+        lsw_put_number(L, i, (double)p[3]);
       }
       lua_setfield(L, -3, "force");
       lua_setfield(L, -2, "points");
@@ -75,7 +64,7 @@ static void push_frame_surfaces(lua_State *L, const sw_scene *scene, size_t fram
 
 /* Pushes for each wire { tension =, curvature =, contact =, twist_moment =, stress = }: flat lists
  * of a number for each node [N], [1/m], [N], [N m], [Pa]. */
-static void push_frame_values(lua_State *L, const sw_scene *scene, size_t frame) {
+static void push_values(lua_State *L, const sw_scene *scene, size_t frame, int unused SW_UNUSED) {
   size_t count;
   lua_Integer number = 0;
   lua_newtable(L);
@@ -91,40 +80,23 @@ static void push_frame_values(lua_State *L, const sw_scene *scene, size_t frame)
   }
 }
 
-static void push_frame_obstacles(lua_State *L, const sw_scene *scene, size_t frame) {
+/* Pushes for each its pose, for a hold also whether it holds; false for a removed obstacle. */
+static void push_bodies(lua_State *L, const sw_scene *scene, size_t frame, int kind) {
   const float *p;
   int there;
   lua_newtable(L);
-  for (size_t o = 0; (p = sw_scene_frame_obstacle(scene, frame, o, &there)) != NULL; o++) {
-    if (there)
+  for (size_t k = 0;
+       (p = sw_scene_frame_body(scene, frame, (sw_frame_kind)kind, k, &there)) != NULL; k++) {
+    if (there || kind == SW_FRAME_HOLDS)
       push_pose(L, p);
     else
       lua_pushboolean(L, 0);
-    lua_rawseti(L, -2, (lua_Integer)o + 1);
-  }
-}
-
-static void push_frame_holds(lua_State *L, const sw_scene *scene, size_t frame) {
-  const float *p;
-  int held;
-  lua_newtable(L);
-  for (size_t h = 0; (p = sw_scene_frame_hold(scene, frame, h, &held)) != NULL; h++) {
-    push_pose(L, p);
-    lsw_set_flag(L, "held", held);
-    lua_rawseti(L, -2, (lua_Integer)h + 1);
-  }
-}
-
-static void push_frame_tools(lua_State *L, const sw_scene *scene, size_t frame) {
-  const float *p;
-  lua_newtable(L);
-  for (size_t k = 0; (p = sw_scene_frame_tool(scene, frame, k)) != NULL; k++) {
-    push_pose(L, p);
+    if (kind == SW_FRAME_HOLDS) lsw_set_flag(L, "held", there);
     lua_rawseti(L, -2, (lua_Integer)k + 1);
   }
 }
 
-static void push_frame_energy(lua_State *L, const sw_scene *scene, size_t frame) {
+static void push_energy(lua_State *L, const sw_scene *scene, size_t frame, int unused SW_UNUSED) {
   const double *e = sw_scene_frame_energy(scene, frame);
   lua_createtable(L, 0, SW_FRAME_ENERGIES);
   lsw_set_number(L, "kinetic", e[0]);
@@ -134,11 +106,16 @@ static void push_frame_energy(lua_State *L, const sw_scene *scene, size_t frame)
 
 static const struct {
   const char *name;
-  void (*push)(lua_State *L, const sw_scene *scene, size_t frame);
-} parts[] = {{"wires", push_frame_wires},         {"values", push_frame_values},
-             {"surfaces", push_frame_surfaces},   {"particles", push_frame_particles},
-             {"obstacles", push_frame_obstacles}, {"holds", push_frame_holds},
-             {"tools", push_frame_tools},         {"energy", push_frame_energy}};
+  void (*push)(lua_State *L, const sw_scene *scene, size_t frame, int of);
+  int of; /* which of the things that the function pushes */
+} parts[] = {{"wires", push_wires, 0},
+             {"values", push_values, 0},
+             {"surfaces", push_surfaces, 0},
+             {"particles", push_wires, 1},
+             {"obstacles", push_bodies, SW_FRAME_OBSTACLES},
+             {"holds", push_bodies, SW_FRAME_HOLDS},
+             {"tools", push_bodies, SW_FRAME_TOOLS},
+             {"energy", push_energy, 0}};
 
 enum { PARTS = sizeof parts / sizeof parts[0] };
 
@@ -153,7 +130,7 @@ int lsw_scene_frame(lua_State *L) {
   lua_createtable(L, 0, 1 + PARTS);
   lsw_set_number(L, "t", sw_scene_frame_time(scene, frame));
   for (int k = 0; k < PARTS; k++) {
-    parts[k].push(L, scene, frame);
+    parts[k].push(L, scene, frame, parts[k].of);
     lua_setfield(L, -2, parts[k].name);
   }
   return 1;
@@ -208,10 +185,7 @@ static int mod_frame_times(lua_State *L) {
   lsw_quiet(L);
   const size_t count = sw_scene_frames(scene);
   lua_createtable(L, (int)count, 0);
-  for (size_t f = 0; f < count; f++) {
-    lua_pushnumber(L, sw_scene_frame_time(scene, f));
-    lua_rawseti(L, -2, (lua_Integer)f + 1);
-  }
+  for (size_t f = 0; f < count; f++) lsw_put_number(L, f, sw_scene_frame_time(scene, f));
   return 1;
 }
 
@@ -257,10 +231,8 @@ static int mod_frames_sweep(lua_State *L) {
   sw_scene_frames_sweep(scene, start, w, &swept);
   lua_createtable(L, 6, 1);
   for (int k = 0; k < 3; k++) {
-    lua_pushnumber(L, swept.low[k]);
-    lua_rawseti(L, -2, k + 1);
-    lua_pushnumber(L, swept.high[k]);
-    lua_rawseti(L, -2, k + 4);
+    lsw_put_number(L, k, swept.low[k]);
+    lsw_put_number(L, k + 3, swept.high[k]);
   }
   lsw_set_number(L, "step", swept.step);
   lua_pushnumber(L, swept.turning);
@@ -353,17 +325,14 @@ static int mod_frames_press(lua_State *L) {
   luaL_checktype(L, 5, LUA_TTABLE);
   const sw_press_request request = check_press(L);
   lsw_quiet(L);
-  lua_Integer at = 0;
+  size_t at = 0;
   lua_newtable(L);
   for (size_t f = 0; f < sw_scene_frames(scene); f++) {
     sw_press p;
     if (sw_scene_frame_time(scene, f) < start) continue;
     if (!sw_scene_frame_press(scene, f, w, &request, &p)) continue;
     const double row[] = {p.load, p.squeeze, (double)p.first, (double)p.last, (double)p.count};
-    for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
-      lua_pushnumber(L, row[k]);
-      lua_rawseti(L, -2, ++at);
-    }
+    for (size_t k = 0; k < sizeof row / sizeof *row; k++) lsw_put_number(L, at++, row[k]);
   }
   return 1;
 }

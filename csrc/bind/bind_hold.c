@@ -90,10 +90,8 @@ static int meth_crash(lua_State *L) {
 static void push_columns(lua_State *L, const double *rows, size_t count, size_t from,
                          size_t width) {
   lua_createtable(L, count * width < INT_MAX ? (int)(count * width) : 0, 0);
-  for (size_t i = 0; i < count * width; i++) {
-    lua_pushnumber(L, rows[i / width * SW_LOG_SIZE + from + i % width]);
-    lua_rawseti(L, -2, (lua_Integer)i + 1);
-  }
+  for (size_t i = 0; i < count * width; i++)
+    lsw_put_number(L, i, rows[i / width * SW_LOG_SIZE + from + i % width]);
 }
 
 /* clamp:log(t1, t2) -> flat rows of 10: t, force, moment, point [s, N, N m, m]; number of rows; for

@@ -3,15 +3,6 @@
 
 #include "bind/child.h"
 
-static void push_shapes(lua_State *L, const sw_modes_result *r, size_t n) {
-  lua_createtable(L, (int)r->count, 0);
-  for (size_t i = 0; i < r->count; i++) {
-    lsw_push_flat(L, r->shapes + i * n, n);
-    lua_rawseti(L, -2, (lua_Integer)i + 1);
-  }
-  lua_setfield(L, -2, "shapes");
-}
-
 static void push_note(lua_State *L, const sw_modes_result *r) {
   lsw_set_number(L, "growth", r->growth);
   lsw_say(L,
@@ -39,6 +30,6 @@ int lsw_wire_frequencies(lua_State *L) {
   lsw_push_flat(L, r.frequencies, r.count);
   lsw_set_integer(L, "unstable", r.unstable);
   if (r.unstable) push_note(L, &r);
-  if (args.shapes) push_shapes(L, &r, 3 * nodes);
+  if (args.shapes) lsw_push_rows(L, r.shapes, r.count, 3 * nodes), lua_setfield(L, -2, "shapes");
   return 1;
 }

@@ -230,9 +230,8 @@ static const void *read_list(lua_State *L, int table, const kind *k, size_t item
 
 /* --- kinds of parts --------------------------------------------------------------------- */
 
-static void store_link(void *out, size_t i, const uint32_t *node, size_t count,
+static void store_link(void *out, size_t i, const uint32_t *node, size_t count SW_UNUSED,
                        const double *values) {
-  (void)count;
   ((sw_particles_link *)out)[i] = (sw_particles_link){.a = node[0],
                                                       .b = node[1],
                                                       .k = values[0],
@@ -241,9 +240,8 @@ static void store_link(void *out, size_t i, const uint32_t *node, size_t count,
                                                       .hardening = values[3]};
 }
 
-static void store_fold(void *out, size_t i, const uint32_t *node, size_t count,
+static void store_fold(void *out, size_t i, const uint32_t *node, size_t count SW_UNUSED,
                        const double *values) {
-  (void)count;
   ((sw_particles_fold *)out)[i] = (sw_particles_fold){node[0], node[1], node[2], values[0]};
 }
 

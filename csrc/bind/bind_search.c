@@ -93,11 +93,7 @@ static int mod_eigen(lua_State *L) {
   double *values = a + rows * rows, *vectors = values + rows;
   lsw_must(L, sw_eigen_dense(a, NULL, rows, values, vectors), &err);
   lsw_push_flat(L, values, rows);
-  lua_createtable(L, (int)n, 0);
-  for (size_t k = 0; k < rows; k++) {
-    lsw_push_flat(L, vectors + k * rows, rows);
-    lua_rawseti(L, -2, (lua_Integer)k + 1);
-  }
+  lsw_push_rows(L, vectors, rows, rows);
   return 2;
 }
 

@@ -8,10 +8,7 @@
 /* Sets the field stress: E times each strain [Pa]. */
 static void set_stress(lua_State *L, double E, const double *strain, size_t count) {
   lua_createtable(L, (int)count, 0);
-  for (size_t i = 0; i < count; i++) {
-    lua_pushnumber(L, E * strain[i]);
-    lua_rawseti(L, -2, (lua_Integer)i + 1);
-  }
+  for (size_t i = 0; i < count; i++) lsw_put_number(L, i, E * strain[i]);
   lua_setfield(L, -2, "stress");
 }
 

@@ -237,8 +237,7 @@ static int push_triangles(lua_State *L) {
   const sw_triangles *t = &((const drawn *)lua_touserdata(L, 1))->triangles;
   lsw_push_flat(L, t->vertices, 3 * t->vertex_count);
   lua_createtable(L, (int)(3 * t->triangle_count), 0);
-  for (size_t i = 0; i < 3 * t->triangle_count; i++)
-    lua_pushinteger(L, t->indices[i] + 1), lua_rawseti(L, -2, (lua_Integer)i + 1);
+  for (size_t i = 0; i < 3 * t->triangle_count; i++) lsw_put_integer(L, i, t->indices[i] + 1);
   return 2;
 }
 

@@ -129,8 +129,13 @@ double *lsw_room(lua_State *L, lsw_self w, lsw_counter counter, size_t each, siz
 
 void lsw_push_flat(lua_State *L, const double *values, size_t n) {
   lua_createtable(L, n < INT_MAX ? (int)n : 0, 0);
-  for (size_t i = 0; i < n; i++) {
-    lua_pushnumber(L, values[i]);
+  for (size_t i = 0; i < n; i++) lsw_put_number(L, i, values[i]);
+}
+
+void lsw_push_rows(lua_State *L, const double *values, size_t rows, size_t width) {
+  lua_createtable(L, (int)rows, 0);
+  for (size_t i = 0; i < rows; i++) {
+    lsw_push_flat(L, values + i * width, width);
     lua_rawseti(L, -2, (lua_Integer)i + 1);
   }
 }

@@ -142,8 +142,19 @@ void lsw_forget_forces(lua_State *L, int index, const sw_scene *scene);
 /* Raises unless the value at index is a table of parameters. */
 void lsw_check_table(lua_State *L, int index, const char *what);
 
+/* Set item i (from 0) of the list on top of the stack. */
+static inline void lsw_put_number(lua_State *L, size_t i, double value) {
+  lua_pushnumber(L, value);
+  lua_rawseti(L, -2, (lua_Integer)i + 1);
+}
+static inline void lsw_put_integer(lua_State *L, size_t i, lua_Integer value) {
+  lua_pushinteger(L, value);
+  lua_rawseti(L, -2, (lua_Integer)i + 1);
+}
 /* Pushes n numbers as a flat array. */
 void lsw_push_flat(lua_State *L, const double *values, size_t n);
+/* Pushes a list of such arrays, width numbers each. */
+void lsw_push_rows(lua_State *L, const double *values, size_t rows, size_t width);
 
 /* Asks the core for a number of items of a wire. */
 typedef sw_status (*lsw_counter)(sw_scene *scene, sw_handle wire, size_t *count, sw_error *err);

@@ -20,7 +20,6 @@
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "bind/process.h"
@@ -136,12 +135,6 @@ typedef struct reading {
   lua_Hook hook; /* hook of the asking Lua at the start of the reading */
 } reading;
 
-static double now(void) {
-  struct timespec t = {0, 0};
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 /* 1 if the user wants to stop. Stock Lua sets a hook at Ctrl-C, which the terminal sends to
  * the child too. */
 static int stop_wanted(const reading *r) {
@@ -153,9 +146,9 @@ static int stop_wanted(const reading *r) {
 static outcome wait_for_bytes(reading *r) {
   for (;;) {
     struct pollfd p = {r->fd, POLLIN, 0};
-    const double start = now();
+    const double start = sw_wall_clock();
     const int n = poll(&p, 1, (int)(1e3 * SLICE));
-    r->waited += fmin(now() - start, 2 * SLICE);
+    r->waited += fmin(sw_wall_clock() - start, 2 * SLICE);
     if (stop_wanted(r)) return STOPPED;
     if (n > 0) return WHOLE;
     if (r->waited > r->most) return LATE;

@@ -39,8 +39,7 @@ const sw_hold *sw_held_by(const sw_held_wire *v, double s) {
 }
 
 const sw_clamp_hinge *sw_held_clamp(const sw_held_wire *v, size_t i, int side) {
-  for (size_t c = 0; c < v->plan->clamp_count; c++) {
-    const sw_clamp_hinge *h = &v->plan->clamps[c];
+  SW_ITEMS(const sw_clamp_hinge, h, v->plan->clamps, v->plan->clamp_count) {
     if (h->node == i && h->side == side) return h;
   }
   return NULL;

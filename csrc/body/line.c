@@ -321,8 +321,7 @@ static void middles(const sw_plan *p, const double *values, double *out) {
   memcpy(out, values, 3 * p->nodes * sizeof *out);
 }
 
-static double arc(const sw_scene_wire *w, const sw_plan *p, size_t node) {
-  (void)w;
+static double arc(const sw_scene_wire *w SW_UNUSED, const sw_plan *p, size_t node) {
   return sw_plan_place(p, node);
 }
 

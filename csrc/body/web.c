@@ -57,8 +57,7 @@ static sw_status take(sw_scene *scene, size_t w) {
 
 /* --- hold ----------------------------------------------------------------------- */
 
-static sw_status place(sw_scene *s, sw_hold *h, const sw_hold_args *a, int fresh) {
-  (void)fresh;
+static sw_status place(sw_scene *s, sw_hold *h, const sw_hold_args *a, int fresh SW_UNUSED) {
   const sw_mesh *m = &sw_scene_wire_in(s, h->wire)->mesh;
   sw_body_interval(m, a, &h->s1, &h->s2);
   sw_strand_rings(m, &h->s1, &h->s2);
@@ -98,8 +97,8 @@ static sw_status grasp(const sw_scene_wire *w, sw_hold *h, const sw_hold_args *a
   return SW_OK;
 }
 
-static sw_status refine(const sw_scene *s, const sw_hold *h, sw_mesh *m) {
-  (void)s, (void)h, (void)m;
+static sw_status refine(const sw_scene *s SW_UNUSED, const sw_hold *h SW_UNUSED,
+                        sw_mesh *m SW_UNUSED) {
   return SW_OK;
 }
 
@@ -141,9 +140,8 @@ static sw_status check_holds(const sw_scene *s, size_t wire, sw_error *err) {
 /* --- carry over ----------------------------------------------------------------- */
 
 /* Particles stay as they are. */
-static void carry_over(const sw_body *b, const double *s, size_t count, size_t *new_node,
+static void carry_over(const sw_body *b, const double *s SW_UNUSED, size_t count, size_t *new_node,
                        size_t *new_edge) {
-  (void)s;
   for (size_t k = 0; k < count; k++) new_node[k] = new_edge[k] = b->first_node + k;
 }
 
@@ -153,8 +151,7 @@ static void middles(const sw_plan *p, const double *values, double *out) {
   for (size_t r = 0; r < p->web->rings; r++) sw_web_middle(p->web, values, r, out + 3 * r);
 }
 
-static double arc(const sw_scene_wire *w, const sw_plan *p, size_t ring) {
-  (void)p;
+static double arc(const sw_scene_wire *w, const sw_plan *p SW_UNUSED, size_t ring) {
   return w->mesh.s[ring];
 }
 

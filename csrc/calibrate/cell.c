@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "base/vec.h"
 #include "calibrate/cell_inner.h"
 #include "calibrate/dense.h"
@@ -80,8 +81,7 @@ static void squeeze_load(const sw_cell *c, double *f) {
 /* Assembles K (n x n) and the right-hand sides: -G and the plates' forces (SIDES x n). */
 static void assemble(const sw_cell *c, const double *k, double *K, double *right) {
   const size_t n = 3 * c->particles;
-  for (size_t m = 0; m < c->links; m++) {
-    const sw_cell_link *l = c->link + m;
+  SW_ITEMS(const sw_cell_link, l, c->link, c->links) {
     const double stiffness = k[l->group] * l->weight;
     double e[SW_CELL_STRAINS];
     if (l->bend || l->from == l->to) continue;
@@ -112,8 +112,7 @@ static double collect(const sw_cell *c, const double *k, const double *v, double
   const size_t n = 3 * c->particles, size = SW_CELL_SIZE + 1;
   double compliance = 0;
   memset(parts, 0, c->groups * size * sizeof *parts);
-  for (size_t m = 0; m < c->links; m++) {
-    const sw_cell_link *l = c->link + m;
+  SW_ITEMS(const sw_cell_link, l, c->link, c->links) {
     double *part = parts + l->group * size, e[SIDES] = {0};
     const double stiffness = k[l->group] * l->weight;
     if (l->bend) {

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "base/vec.h"
 
 const char *const sw_group_names[SW_GROUPS] = {"longitudinal",  "inner",
@@ -68,21 +69,17 @@ void sw_lattice_free(sw_lattice *l) {
 }
 
 sw_status sw_lattice_link(sw_lattice *l, sw_cell_link link, sw_error *err) {
-  void *p = l->link;
-  if (sw_grow(&p, &l->capacity, l->links + 1, sizeof link) != SW_OK)
+  if (SW_GROW(l->link, l->capacity, l->links + 1) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "calibrate: out of memory");
-  l->link = p;
   l->link[l->links++] = link;
   return SW_OK;
 }
 
 sw_status sw_lattice_solid(sw_lattice *l, int corners, const uint32_t *corner, sw_error *err) {
-  void *p = l->solid;
   sw_cell_solid solid = {.nodes = 2 * corners, .group = SW_GROUP_SOLID};
   for (int i = 0; i < corners; i++) solid.particle[i] = solid.particle[i + corners] = corner[i];
-  if (sw_grow(&p, &l->solid_capacity, l->solids + 1, sizeof solid) != SW_OK)
+  if (SW_GROW(l->solid, l->solid_capacity, l->solids + 1) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "calibrate: out of memory");
-  l->solid = p;
   l->solid[l->solids++] = solid;
   return SW_OK;
 }
@@ -103,8 +100,7 @@ void sw_lattice_keep(sw_lattice *l, unsigned groups) {
 void sw_lattice_share(sw_lattice *l) {
   double whole = 0;
   memset(l->share, 0, l->particles * sizeof *l->share);
-  for (size_t m = 0; m < l->solids; m++) {
-    const sw_cell_solid *s = l->solid + m;
+  SW_ITEMS(const sw_cell_solid, s, l->solid, l->solids) {
     const int corners = s->nodes / 2;
     double area = 0;
     for (int a = 0; a < corners; a++) {
@@ -271,8 +267,7 @@ static sw_status radial_solid(const radial *r, size_t layer, size_t sector, sw_e
 static void unit_weights(sw_lattice *l) {
   double most[SW_GROUPS] = {0};
   for (int pass = 0; pass < 2; pass++)
-    for (size_t m = 0; m < l->links; m++) {
-      sw_cell_link *link = l->link + m;
+    SW_ITEMS(sw_cell_link, link, l->link, l->links) {
       if (pass == 0)
         most[link->group] = fmax(most[link->group], link->weight);
       else

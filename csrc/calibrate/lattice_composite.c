@@ -271,10 +271,8 @@ static sw_status join(const sw_composite_args *args, sw_composite *c, sw_lattice
     SW_TRY(sw_lattice_link(l, (sw_cell_link){i, j, SW_GROUP_BOND, 1, 0, 1}, err));
     return sw_lattice_link(l, (sw_cell_link){j, i, SW_GROUP_BOND, 1, 0, 1}, err);
   }
-  void *p = c->slide;
-  if (sw_grow(&p, &c->capacity, c->slides + 1, sizeof *c->slide) != SW_OK)
+  if (SW_GROW(c->slide, c->capacity, c->slides + 1) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "calibrate: out of memory");
-  c->slide = p;
   c->slide[c->slides++] = (sw_slide){i, j, gap};
   return SW_OK;
 }

@@ -23,10 +23,9 @@ int sw_search_evaluate(sw_search *s, const double *x) {
   return !s->stop;
 }
 
-static sw_status simplex_value(void *user, const double *x, size_t n, double *value,
-                               sw_error *err) {
+static sw_status simplex_value(void *user, const double *x, size_t n SW_UNUSED, double *value,
+                               sw_error *err SW_UNUSED) {
   sw_search *s = user;
-  (void)n, (void)err;
   s->known = 0; /* the simplex may ask for the same place again */
   if (!sw_search_evaluate(s, x)) return SW_EINTR;
   *value = s->value;

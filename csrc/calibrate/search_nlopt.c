@@ -30,19 +30,18 @@ typedef struct bridge {
   nlopt_opt opt;
 } bridge;
 
-static double objective(unsigned n, const double *x, double *gradient, void *user) {
+static double objective(unsigned n SW_UNUSED, const double *x, double *gradient SW_UNUSED,
+                        void *user) {
   bridge *b = user;
-  (void)n, (void)gradient;
   b->s->known = 0;
   if (sw_search_evaluate(b->s, x)) return b->s->value;
   nlopt_force_stop(b->opt);
   return 0;
 }
 
-static void constraints(unsigned m, double *result, unsigned n, const double *x, double *gradient,
-                        void *user) {
+static void constraints(unsigned m, double *result, unsigned n SW_UNUSED, const double *x,
+                        double *gradient SW_UNUSED, void *user) {
   bridge *b = user;
-  (void)n, (void)gradient;
   const int known = sw_search_evaluate(b->s, x);
   if (!known) nlopt_force_stop(b->opt);
   for (unsigned k = 0; k < m; k++) result[k] = known ? b->s->broken[k] : 0;

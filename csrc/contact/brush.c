@@ -3,6 +3,7 @@
  * although it is clear of the obstacle at both ends of the step. */
 #include <math.h>
 
+#include "base/each.h"
 #include "contact/cross.h"
 #include "touch/same.h"
 
@@ -10,14 +11,12 @@
  * then cut a corner round which the wire itself goes. */
 static int is_pressed(const sw_contact *c, const sw_body *b, int obstacle) {
   const int id = c->obstacles[obstacle].id;
-  for (size_t i = 0; i < c->touch_count; i++) {
-    const sw_touch *t = &c->touches[i];
+  SW_ITEMS(const sw_touch, t, c->touches, c->touch_count) {
     if (t->obstacle == obstacle && t->node - b->first_node < b->plan->nodes &&
         t->press.normal_force > 0)
       return 1;
   }
-  for (size_t i = 0; i < c->memory_count; i++) {
-    const sw_memory *m = &c->memory[i];
+  SW_ITEMS(const sw_memory, m, c->memory, c->memory_count) {
     if (m->obstacle == id && m->node - b->first_node < b->plan->nodes && m->kept.normal_force > 0)
       return 1;
   }
@@ -51,8 +50,7 @@ static int comes_near(const sw_contact *c, const sw_system *s, const sw_candidat
 }
 
 int sw_contact_brushes(const sw_contact *c, const sw_system *s, const double *x1) {
-  for (size_t i = 0; i < c->candidate_count; i++) {
-    const sw_candidate *k = &c->candidates[i];
+  SW_ITEMS(const sw_candidate, k, c->candidates, c->candidate_count) {
     const sw_body *b = &s->bodies[k->body];
     if (!k->segment || b->plan->web || sw_contact_is_held(s, k)) continue;
     /* the straight path past a turning obstacle may lead through it */

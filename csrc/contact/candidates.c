@@ -84,8 +84,7 @@ static sw_status add_candidate(sw_contact *c, const sw_system *s, size_t body, s
                                size_t other, int o, int segment) {
   const sw_body *b = &s->bodies[body];
   const double *masses = b->plan->lumped;
-  SW_TRY(sw_grow((void **)&c->candidates, &c->candidate_capacity, c->candidate_count + 1,
-                 sizeof *c->candidates));
+  SW_TRY(SW_GROW(c->candidates, c->candidate_capacity, c->candidate_count + 1));
   sw_contact_expect(c, o);
   c->candidates[c->candidate_count++] =
       (sw_candidate){.obstacle = o,
@@ -301,22 +300,21 @@ static void set_stiffness(sw_contact *c, const sw_system *s, size_t body, size_t
 
 /* Makes room for one candidate at each node: the usual number if all wires lie on one obstacle. */
 static sw_status reserve(sw_contact *c, size_t nodes) {
-  return sw_grow((void **)&c->candidates, &c->candidate_capacity, nodes, sizeof *c->candidates);
+  return SW_GROW(c->candidates, c->candidate_capacity, nodes);
 }
 
 /* Makes empty lists with room for many touches: lists that grow one by one would be copied
  * often. */
 static sw_status make_room(sw_contact *c, size_t bodies) {
   const size_t n = c->candidate_count;
-  SW_TRY(sw_grow((void **)&c->ranges, &c->range_capacity, bodies, sizeof *c->ranges));
-  SW_TRY(sw_grow_empty((void **)&c->touches, &c->touch_capacity, n, sizeof *c->touches));
-  SW_TRY(sw_grow_empty((void **)&c->last, &c->last_capacity, n, sizeof *c->last));
-  return sw_grow_empty((void **)&c->pressed, &c->pressed_capacity, SW_BOOK_STAGES * n,
-                       sizeof *c->pressed);
+  SW_TRY(SW_GROW(c->ranges, c->range_capacity, bodies));
+  SW_TRY(SW_GROW_EMPTY(c->touches, c->touch_capacity, n));
+  SW_TRY(SW_GROW_EMPTY(c->last, c->last_capacity, n));
+  return SW_GROW_EMPTY(c->pressed, c->pressed_capacity, SW_BOOK_STAGES * n);
 }
 
 sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err) {
-  sw_status status = sw_grow((void **)&c->reach, &c->reach_capacity, s->nodes, sizeof *c->reach);
+  sw_status status = SW_GROW(c->reach, c->reach_capacity, s->nodes);
   if (status == SW_OK) status = reserve(c, s->nodes);
   if (status == SW_OK) status = sw_broad_update(c);
   if (status == SW_OK) status = sw_contact_wait(c, s);

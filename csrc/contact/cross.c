@@ -67,9 +67,7 @@ static int raise_barrier(sw_contact *c, sw_system *s, const sw_candidate *k, con
     b.at = 0;
   }
   if (has_barrier(c, &b, &s->counters.looks)) return 0;
-  if (sw_grow((void **)&c->barriers, &c->barrier_capacity, c->barrier_count + 1,
-              sizeof *c->barriers) != SW_OK)
-    return 0;
+  if (SW_GROW(c->barriers, c->barrier_capacity, c->barrier_count + 1) != SW_OK) return 0;
   add_barrier(c, &b);
   const sw_candidate at = {
       .segment = b.segment, .node = b.node, .other = b.other, .body = k->body, .smooth = k->smooth};

@@ -48,10 +48,29 @@ static double let_out(const sw_contact *c, const sw_system *s, const sw_touch *t
   return sw_smaller(speed, SW_PART) * (c->stage_time - c->time);
 }
 
+/* Depth on the segment beside a held node that no force removes [m]. A node held beyond an edge is
+ * below the faces that end there, but inside none. */
+static double imposed(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                      const sw_touch *t, const double *y) {
+  const sw_body *b = &s->bodies[k->body];
+  const int first = b->plan->held[k->node - b->first_node] != SW_FREE;
+  const int last = b->plan->held[k->other - b->first_node] != SW_FREE;
+  sw_closest near;
+  if (!k->segment || first == last) return 0;
+  const sw_vec held = sw_vec_at(y, first ? k->node : k->other);
+  const sw_pose pose = c->now[k->obstacle].pose;
+  const sw_vec local = sw_pose_local(pose, held);
+  if (!sw_shape_point(c->obstacles[k->obstacle].shape, local, k->skin, &near)) return 0;
+  const double plane = sw_dot(t->press.normal, sw_sub(held, t->point));
+  const double at = fmin(fmax(t->at, 0.0), 1.0);
+  const double deep = k->skin - fmax(near.gap, plane);
+  return (first ? 1.0 - at : at) * fmax(0.0, deep);
+}
+
 void sw_contact_forgive(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                         const sw_kept *last, const double *y, sw_touch *t) {
   if (c->regime == SW_CONTACT_EXPLICIT || t->press.gap >= 0) return; /* force follows depth */
-  const double always = sw_contact_imposed(c, s, k, t, y);
+  const double always = imposed(c, s, k, t, y);
   const double depth = sw_contact_depth_before(c, s, t) - always;
   t->forgiven = always;
   if (c->regime != SW_CONTACT_IMPLICIT) return;

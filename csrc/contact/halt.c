@@ -10,6 +10,7 @@
 
 #include <math.h>
 
+#include "base/each.h"
 #include "contact/surface.h"
 #include "system/part.h"
 #include "touch/same.h"
@@ -80,8 +81,7 @@ static double mass_of(const sw_contact *c, const sw_system *s, const sw_touch *t
   size_t first, end;
   section_of(b, t->node, &first, &end);
   double force = 0, mass = 0;
-  for (size_t i = 0; i < c->touch_count; i++) {
-    const sw_touch *other = &c->touches[i];
+  SW_ITEMS(const sw_touch, other, c->touches, c->touch_count) {
     if (other->node >= first && other->node < end) force += fmax(0.0, other->press.normal_force);
   }
   for (size_t i = first; i < end; i++) mass += b->plan->lumped[i - b->first_node];
@@ -143,8 +143,7 @@ static double halt(const sw_contact *c, sw_system *s, sw_touch *t) {
 }
 
 void sw_contact_against(const sw_contact *c, const sw_system *s, sw_against *sum) {
-  for (size_t i = 0; i < c->touch_count; i++) {
-    const sw_touch *t = &c->touches[i];
+  SW_ITEMS(const sw_touch, t, c->touches, c->touch_count) {
     const sw_press *p = &t->press;
     if (t->held || !(t->friction > 0) || !(p->normal_force > 0)) continue;
     const sw_levers l = sw_touch_levers(s, t);
@@ -168,8 +167,7 @@ static double most_of(const sw_touch *t) {
 
 double sw_contact_halt(sw_contact *c, sw_system *s, double still) {
   double moving = 0;
-  for (size_t i = 0; i < c->touch_count; i++) {
-    sw_touch *t = &c->touches[i];
+  SW_ITEMS(sw_touch, t, c->touches, c->touch_count) {
     const int web = s->bodies[t->body].plan->web != NULL;
     const double section = web ? section_speed(c, s, t) : 0.0, own = halt(c, s, t);
     if ((web ? section : own) > still) moving += most_of(t);

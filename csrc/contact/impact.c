@@ -34,9 +34,7 @@ static int dealt_with(const sw_contact *c, const sw_pressed *t, size_t *looks) {
 }
 
 static void note_impact(sw_contact *c, const sw_system *s, const sw_pressed *t, sw_vec kick) {
-  if (sw_grow((void **)&c->impacts, &c->impact_capacity, c->impact_count + 1, sizeof *c->impacts) !=
-      SW_OK)
-    return;
+  if (SW_GROW(c->impacts, c->impact_capacity, c->impact_count + 1) != SW_OK) return;
   c->impacts[c->impact_count++] = (sw_impact){.obstacle = t->obstacle,
                                               .segment = t->segment,
                                               .node = t->node,
@@ -56,7 +54,7 @@ sw_status sw_contact_calm(sw_contact *c, size_t nodes) {
   c->barrier_count = c->impact_count = 0;
   if (nodes <= c->places) return SW_OK;
   c->places = 0;
-  SW_TRY(sw_grow((void **)&c->impact_at, &c->place_capacity, 4 * nodes, sizeof *c->impact_at));
+  SW_TRY(SW_GROW(c->impact_at, c->place_capacity, 4 * nodes));
   memset(c->impact_at, 0, 4 * nodes * sizeof *c->impact_at);
   c->barrier_at = c->impact_at + nodes;
   c->lost = (double *)(void *)(c->impact_at + 2 * nodes);
@@ -351,13 +349,11 @@ static void leave_dull(sw_contact *c) {
 int sw_contact_strike_all(sw_contact *c, sw_system *s, double h, int dull) {
   int changed = 0;
   if (dull) leave_dull(c);
-  if (!c->pressed_count ||
-      sw_grow((void **)&c->strikes, &c->strikes_capacity, s->body_count, 1) != SW_OK ||
-      !find_bodies(c, s, h) ||
-      sw_grow((void **)&c->turns, &c->turn_capacity, c->pressed_count, sizeof *c->turns) != SW_OK)
+  if (!c->pressed_count || SW_GROW(c->strikes, c->strikes_capacity, s->body_count) != SW_OK ||
+      !find_bodies(c, s, h) || SW_GROW(c->turns, c->turn_capacity, c->pressed_count) != SW_OK)
     return 0;
   const size_t n = find_turns(c, s);
-  (void)sw_grow((void **)&c->impacts, &c->impact_capacity, c->impact_count + n, sizeof *c->impacts);
+  (void)SW_GROW(c->impacts, c->impact_capacity, c->impact_count + n);
   qsort(c->turns, n, sizeof *c->turns, by_meeting);
   for (size_t i = 0; i < n; i++) {
     const sw_pressed *t = &c->pressed[c->turns[i].touch];

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "contact/depth.h"
 #include "contact/rolling.h"
 #include "contact/surface.h"
@@ -36,8 +37,7 @@ static void begin_marks(sw_contact *c) {
 
 static void mark(sw_contact *c, const sw_touch *t) {
   if (c->unmarked || !t->press.active) return;
-  c->unmarked = slides(t) || sw_grow((void **)&c->marks, &c->mark_capacity, c->mark_count + 1,
-                                     sizeof *c->marks) != SW_OK;
+  c->unmarked = slides(t) || SW_GROW(c->marks, c->mark_capacity, c->mark_count + 1) != SW_OK;
   if (!c->unmarked)
     c->marks[c->mark_count++] = (sw_mark){t->candidate, t->at, t->press.k, t->press.normal};
 }
@@ -85,8 +85,7 @@ sw_status sw_contact_keeps(void *contact, sw_system *s, const double *y, int *ou
   if (c->unmarked || c->regime == SW_CONTACT_EXPLICIT) return SW_OK;
   SW_TRY(look(c, s, y, 0, err));
   c->looked = 1;
-  for (size_t i = 0; i < c->touch_count; i++) {
-    const sw_touch *t = &c->touches[i];
+  SW_ITEMS(const sw_touch, t, c->touches, c->touch_count) {
     if (!t->press.active) continue;
     if (active >= c->mark_count || !is_marked(t, &c->marks[active++])) return SW_OK;
   }
@@ -102,15 +101,13 @@ static const double NEXT_TO = 1e-6;
 static void note_pressed(sw_contact *c, const sw_touch *t) {
   const double open = c->obstacles[t->obstacle].restitution > 0 ? NEXT_TO : 0.0;
   if (t->held || !(t->press.normal_force > 0 || t->press.gap_after < open)) return;
-  if (sw_grow((void **)&c->pressed, &c->pressed_capacity, c->pressed_count + 1,
-              sizeof *c->pressed) == SW_OK)
+  if (SW_GROW(c->pressed, c->pressed_capacity, c->pressed_count + 1) == SW_OK)
     c->pressed[c->pressed_count++] = sw_contact_pressed(t);
 }
 
-sw_status sw_contact_eval(void *contact, sw_system *s, double time, double hbar, const double *y,
-                          unsigned want, sw_error *err) {
+sw_status sw_contact_eval(void *contact, sw_system *s, double time, double hbar SW_UNUSED,
+                          const double *y, unsigned want, sw_error *err) {
   sw_contact *c = contact;
-  (void)hbar;
   sw_status status = SW_OK;
   if (c->regime == SW_CONTACT_EXPLICIT) status = sw_contact_begin_stage(c, time, 0, err);
   if (status != SW_OK) return status;
@@ -243,8 +240,7 @@ static int stands(const sw_contact *c) {
 static int rubs_on_flat(const sw_contact *c, const sw_system *s) {
   int rubs = 0;
   if (s->rolls) return 0;
-  for (size_t i = 0; i < c->touch_count; i++) {
-    const sw_touch *t = &c->touches[i];
+  SW_ITEMS(const sw_touch, t, c->touches, c->touch_count) {
     if (!t->press.active) continue;
     if (!c->flat[t->obstacle]) return 0;
     rubs |= t->friction > 0;

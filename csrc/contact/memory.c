@@ -32,8 +32,7 @@ static sw_status remember(sw_contact *c, const sw_system *s, const sw_touch *t) 
   const sw_contact_at *o = &c->now[t->obstacle];
   const sw_quat back = sw_quat_conj(o->pose.q);
   const double deepest = sw_contact_deepest(c, s, t);
-  SW_TRY(sw_grow((void **)&c->next_memory, &c->next_capacity, c->next_count + 1,
-                 sizeof *c->next_memory));
+  SW_TRY(SW_GROW(c->next_memory, c->next_capacity, c->next_count + 1));
   sw_memory *m = &c->next_memory[c->next_count++];
   *m = (sw_memory){.obstacle = c->obstacles[t->obstacle].id,
                    .segment = t->segment,
@@ -59,8 +58,7 @@ static size_t carry_over(sw_contact *c, const sw_body *b, size_t m) {
   const size_t end = b->first_node + b->plan->nodes;
   while (m < c->memory_count && c->memory[m].node < b->first_node) m++;
   for (; m < c->memory_count && c->memory[m].node < end; m++) {
-    if (sw_grow((void **)&c->next_memory, &c->next_capacity, c->next_count + 1,
-                sizeof *c->next_memory) == SW_OK)
+    if (SW_GROW(c->next_memory, c->next_capacity, c->next_count + 1) == SW_OK)
       c->next_memory[c->next_count++] = c->memory[m];
   }
   return m;
@@ -78,8 +76,7 @@ void sw_contact_commit(sw_contact *c, sw_system *s) {
   c->still.accepted = 1;
   if (sw_contact_all_wait(c, s)) return; /* their memory stays as it is */
   if (!c->still.any) swap_memories(c);   /* nothing is carried over: one list is enough */
-  (void)sw_grow_empty((void **)&c->next_memory, &c->next_capacity, c->touch_count,
-                      sizeof *c->next_memory);
+  (void)SW_GROW_EMPTY(c->next_memory, c->next_capacity, c->touch_count);
   for (size_t b = 0, i = 0, m = 0; b < s->body_count; b++) {
     if (c->still.any && c->still.kept[b]) m = carry_over(c, &s->bodies[b], m);
     for (; i < c->touch_count && c->touches[i].body == b; i++)
@@ -98,7 +95,7 @@ int sw_contact_is_fresh(const sw_contact *c) { return c->fresh; }
 
 sw_status sw_contact_set_memory(sw_contact *c, const void *memory, size_t bytes, int fresh) {
   const size_t n = bytes / sizeof *c->memory;
-  SW_TRY(sw_fill((void **)&c->memory, &c->memory_capacity, memory, n, sizeof *c->memory));
+  SW_TRY(SW_FILL(c->memory, c->memory_capacity, memory, n));
   c->memory_count = n;
   c->fresh = fresh;
   c->touch_count = 0;
@@ -132,7 +129,7 @@ sw_status sw_contact_set_seen(sw_contact *c, const void *seen, size_t bytes, con
   const size_t n = bytes / sizeof *c->touches;
   c->touch_count = 0;
   if (bytes % sizeof *c->touches != 0) return SW_EINVAL;
-  SW_TRY(sw_fill((void **)&c->touches, &c->touch_capacity, seen, n, sizeof *c->touches));
+  SW_TRY(SW_FILL(c->touches, c->touch_capacity, seen, n));
   for (size_t i = 0; i < n; i++)
     if (!is_possible(c, s, &c->touches[i])) return SW_EINVAL;
   c->touch_count = n;
@@ -187,7 +184,7 @@ sw_status sw_contact_add_memory(sw_contact *c, const void *memory, size_t bytes,
                                 size_t count) {
   const sw_memory *from = memory;
   const size_t n = bytes / sizeof *from;
-  SW_TRY(sw_grow((void **)&c->memory, &c->memory_capacity, c->memory_count + n, sizeof *c->memory));
+  SW_TRY(SW_GROW(c->memory, c->memory_capacity, c->memory_count + n));
   for (size_t i = 0; i < n; i++) {
     int wanted = 0;
     for (size_t k = 0; k < count; k++) wanted |= (size_t)from[i].obstacle == obstacles[k];

@@ -78,7 +78,7 @@ static void put_in_order(sw_contact *c) {
   size_t to = c->touch_count, left = c->parts.touch, tail = to - left;
   if (!tail || !left || c->touches[left - 1].candidate < c->touches[left].candidate) return;
   c->last_count = 0;
-  if (sw_grow((void **)&c->last, &c->last_capacity, tail, sizeof *c->last) != SW_OK) {
+  if (SW_GROW(c->last, c->last_capacity, tail) != SW_OK) {
     put_in_order_slowly(c);
     return;
   }
@@ -113,7 +113,7 @@ void sw_contact_part(void *contact, sw_system *s) {
 /* Makes the touches of the current part those of the previous iterate. */
 static sw_status turn_tail_over(sw_contact *c) {
   const size_t count = c->touch_count - c->parts.touch, at = c->parts.before;
-  SW_TRY(sw_grow((void **)&c->last, &c->last_capacity, at + count, sizeof *c->last));
+  SW_TRY(SW_GROW(c->last, c->last_capacity, at + count));
   if (count) memcpy(c->last + at, c->touches + c->parts.touch, count * sizeof *c->last);
   c->last_count = at + count;
   c->touch_count = c->parts.touch;

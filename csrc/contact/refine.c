@@ -331,8 +331,7 @@ void sw_contact_refine(void *contact, sw_system *s) {
     if (sw_body_rolls_again(s, b)) sw_contact_refine_rolling(c, s, first, end, scale);
     if (!sw_body_solves_again(s, b)) continue;
     const size_t n = 3 * b->plan->nodes;
-    if (sw_grow((void **)&c->room, &c->room_capacity, (1 + MOST_CHANGED) * n, sizeof *c->room) !=
-        SW_OK)
+    if (SW_GROW(c->room, c->room_capacity, (1 + MOST_CHANGED) * n) != SW_OK)
       return; /* out of memory: nothing is refined */
     refined r = {.c = c,
                  .s = s,

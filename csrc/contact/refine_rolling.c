@@ -140,7 +140,7 @@ void sw_contact_refine_rolling(sw_contact *c, sw_system *s, size_t first, size_t
                                double force_scale) {
   sw_body *b = &s->bodies[c->touches[first].body];
   const size_t m = end - first, n = 4 * b->plan->nodes, room = m + MOST * (2 * m + n);
-  if (sw_grow((void **)&c->room, &c->room_capacity, room, sizeof *c->room) != SW_OK) return;
+  if (SW_GROW(c->room, c->room_capacity, room) != SW_OK) return;
   rolling r = {.c = c, .s = s, .body = b, .first = first, .end = end, .off = c->room};
   r.change = r.off + m, r.effect = r.change + MOST * m, r.solution = r.effect + MOST * m;
   double before = HUGE_VAL;

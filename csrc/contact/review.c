@@ -2,6 +2,7 @@
 /* Reviews a trial step against obstacles: accepted, to be repeated, or to be made smaller. */
 #include <math.h>
 
+#include "base/each.h"
 #include "contact/arc.h"
 #include "contact/cross.h"
 #include "contact/curve.h"
@@ -89,8 +90,7 @@ static int may_sink(const sw_contact *c, const sw_system *s, const sw_candidate 
  * corners these may be stale at the step's end. */
 static int cuts_deep(const sw_contact *c, const sw_system *s, const double *x1, double h) {
   if (h < SW_SMALLEST_CARE * c->nominal || c->regime == SW_CONTACT_EXPLICIT) return 0;
-  for (size_t i = 0; i < c->candidate_count; i++) {
-    const sw_candidate *k = &c->candidates[i];
+  SW_ITEMS(const sw_candidate, k, c->candidates, c->candidate_count) {
     if (c->flat[k->obstacle] || sw_contact_is_held(s, k)) continue;
     const double more = k->given ? SQUEEZED * k->radius : DEEPER;
     sw_place place;
@@ -112,8 +112,7 @@ static const double ROUNDING = 1e-9; /* of parts [-] */
 static int bounces(sw_contact *c, const sw_system *s, const double *v1) {
   if (c->plastic || c->regime == SW_CONTACT_EXPLICIT) return 0;
   const int whole = c->h > SW_LONGEST_PART * (1 + ROUNDING);
-  for (size_t i = 0; i < c->touch_count; i++) {
-    const sw_touch *t = &c->touches[i];
+  SW_ITEMS(const sw_touch, t, c->touches, c->touch_count) {
     if (t->known || !(t->press.normal_force > 0) || c->obstacles[t->obstacle].restitution > 0)
       continue;
     const sw_vec wall = sw_obstacle_velocity(&c->now[t->obstacle], t->point);
@@ -132,8 +131,7 @@ static const double MOST_BORNE = 10.0;
 
 static int bars_too_hard(const sw_contact *c, const sw_system *s, double h) {
   if (!c->barrier_count || h < SW_SMALLEST_CARE * c->nominal) return 0;
-  for (size_t i = 0; i < c->touch_count; i++) {
-    const sw_touch *t = &c->touches[i];
+  SW_ITEMS(const sw_touch, t, c->touches, c->touch_count) {
     if (t->feature != SW_BEHIND_BARRIER || !(t->press.normal_force > 0)) continue;
     const double usual = sw_contact_usual_force(s, s->bodies[t->body].plan);
     if (t->press.normal_force > MOST_BORNE * usual) return 1;
@@ -153,8 +151,7 @@ static const double HELD = 2.0;
 static const double ASLANT = 10.0;
 
 static int is_pressed_still(const sw_contact *c, const sw_memory *m) {
-  for (size_t i = 0; i < c->touch_count; i++) {
-    const sw_touch *t = &c->touches[i];
+  SW_ITEMS(const sw_touch, t, c->touches, c->touch_count) {
     const size_t apart = t->node > m->node ? t->node - m->node : m->node - t->node;
     if (apart <= 1 && t->press.normal_force > 0 && c->obstacles[t->obstacle].id == m->obstacle)
       return 1;

@@ -95,7 +95,7 @@ static void harden(sw_contact *c, const sw_system *s) {
 int sw_contact_search(sw_contact *c, const sw_system *s, const double *delta) {
   const size_t n = c->touch_count;
   sw_ahead *to;
-  if (sw_grow((void **)&c->ahead, &c->ahead_capacity, 2 * n, sizeof *c->ahead) != SW_OK) return 0;
+  if (SW_GROW(c->ahead, c->ahead_capacity, 2 * n) != SW_OK) return 0;
   to = c->ahead + n;
   const int goes_on = c->ahead_count == n;
   if (s->rolls) return 0; /* surfaces shift by turns too */

@@ -21,9 +21,7 @@ static sw_vec pressing_of(const sw_touch *t) {
 static void keep_first(sw_contact *c) {
   sw_singles *k = &c->singles;
   k->count = 0;
-  if (!are_several(c) ||
-      sw_grow((void **)&k->first, &k->capacity, c->touch_count, sizeof *k->first) != SW_OK)
-    return;
+  if (!are_several(c) || SW_GROW(k->first, k->capacity, c->touch_count) != SW_OK) return;
   for (size_t i = 0; i < c->touch_count; i++) {
     const sw_touch *t = &c->touches[i];
     if (!(t->press.normal_force > 0)) continue;

@@ -44,7 +44,7 @@ sw_status sw_contact_sink(sw_contact *c, const sw_system *s) {
     c->sunk = NULL, c->sunk_capacity = 0;
     return SW_OK;
   }
-  SW_TRY(sw_grow((void **)&c->sunk, &c->sunk_capacity, 3 * s->nodes, sizeof *c->sunk));
+  SW_TRY(SW_GROW(c->sunk, c->sunk_capacity, 3 * s->nodes));
   memset(c->sunk, 0, 3 * s->nodes * sizeof *c->sunk);
   for (size_t b = 0; b < s->body_count; b++) {
     const sw_body *body = &s->bodies[b];

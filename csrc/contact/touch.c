@@ -27,9 +27,7 @@ enum { LINE = 64 }; /* cache line [B] */
 /* Returns a new touch, all zero, at the end of the list; NULL: out of memory. The next place is
  * prefetched, because long lists are not in the cache. */
 static sw_touch *new_touch(sw_contact *c) {
-  if (sw_grow((void **)&c->touches, &c->touch_capacity, c->touch_count + 1, sizeof *c->touches) !=
-      SW_OK)
-    return NULL;
+  if (SW_GROW(c->touches, c->touch_capacity, c->touch_count + 1) != SW_OK) return NULL;
   sw_touch *t = &c->touches[c->touch_count];
   if (c->touch_count + 1 < c->touch_capacity)
     for (size_t at = 0; at < sizeof *t; at += LINE)

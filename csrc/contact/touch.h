@@ -181,10 +181,6 @@ double sw_contact_coefficient(const sw_contact *c, const sw_system *s, const sw_
 double sw_contact_softer(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                          double stiffness);
 
-/* Depth on the segment beside a held node that no force removes [m]. A node held beyond an edge is
- * below the faces that end there, but inside none. */
-double sw_contact_imposed(const sw_contact *c, const sw_system *s, const sw_candidate *k,
-                          const sw_touch *t, const double *y);
 /* 1 if the wire is pinched between the touch's obstacle and another one. */
 int sw_contact_is_pinched(const sw_contact *c, const sw_touch *t);
 

@@ -149,8 +149,7 @@ static sw_status set_aside(sw_contact *c, const sw_system *s) {
   sw_still *still = &c->still;
   size_t more = 0;
   for (size_t i = 0; i < c->touch_count; i++) more += begins(c, s, &c->touches[i]) != 0;
-  SW_TRY(
-      sw_grow((void **)&still->list, &still->capacity, still->count + more, sizeof *still->list));
+  SW_TRY(SW_GROW(still->list, still->capacity, still->count + more));
   leave_out(still, s);
   size_t left = still->count, to = still->count += more;
   for (size_t tail = c->touch_count; more; tail--) {
@@ -197,7 +196,7 @@ void sw_still_free(sw_still *still) {
 sw_status sw_contact_put_back(sw_contact *c) {
   const size_t all = c->touch_count + c->still.count;
   if (!c->still.count) return SW_OK;
-  SW_TRY(sw_grow((void **)&c->touches, &c->touch_capacity, all, sizeof *c->touches));
+  SW_TRY(SW_GROW(c->touches, c->touch_capacity, all));
   for (size_t to = all, left = c->touch_count, tail = c->still.count; tail;) {
     const int other = left && c->touches[left - 1].node > c->still.list[tail - 1].node;
     c->touches[--to] = other ? c->touches[--left] : c->still.list[--tail];

@@ -29,7 +29,7 @@ static int all_finite(const double *p, size_t count) {
 }
 
 static sw_status begin_object(sw_drawing *d, int is_tube) {
-  SW_TRY(sw_grow((void **)&d->is_tube, &d->object_room, d->object_count + 1, 1));
+  SW_TRY(SW_GROW(d->is_tube, d->object_room, d->object_count + 1));
   d->is_tube[d->object_count] = (uint8_t)is_tube;
   return SW_OK;
 }
@@ -110,8 +110,7 @@ static size_t beyond(const mesh *m, size_t face, uint32_t a, uint32_t b) {
 }
 
 static sw_status add_edges(sw_drawing *d, const mesh *m, const sw_paint *paint) {
-  SW_TRY(
-      sw_grow((void **)&d->edges, &d->edge_room, d->edge_count + 3 * m->count, sizeof *d->edges));
+  SW_TRY(SW_GROW(d->edges, d->edge_room, d->edge_count + 3 * m->count));
   for (size_t f = 0; f < m->count; f++)
     for (size_t k = 0; k < 3; k++) {
       const uint32_t a = m->corners[3 * f + k], b = m->corners[3 * f + (k + 1) % 3];
@@ -129,7 +128,7 @@ static sw_status add_edges(sw_drawing *d, const mesh *m, const sw_paint *paint) 
 }
 
 static sw_status add_mesh(sw_drawing *d, const mesh *m, const sw_paint *paint) {
-  SW_TRY(sw_grow((void **)&d->faces, &d->face_room, d->face_count + m->count, sizeof *d->faces));
+  SW_TRY(SW_GROW(d->faces, d->face_room, d->face_count + m->count));
   SW_TRY(add_edges(d, m, paint));
   for (size_t f = 0; f < m->count; f++) {
     const uint32_t *c = m->corners + 3 * f;
@@ -205,7 +204,7 @@ static void add_piece(sw_drawing *d, const double *points, size_t i, double radi
   for (size_t k = 0; k < 2; k++) sw_vec_to(q->p[k], sw_vec_at(points, i + k));
   for (size_t c = 0; c < 3; c++)
     q->colour[c] = 0.5f * (colour_at(paint, i)[c] + colour_at(paint, i + 1)[c]);
-  q->radius = (float)radius, q->object = (uint32_t)d->object_count;
+  q->radius = (float)radius;
 }
 
 static void add_tube(sw_drawing *d, const double *points, size_t count, double radius,
@@ -237,9 +236,8 @@ sw_status sw_drawing_tube(sw_drawing *d, const double *points, size_t count, dou
   if (!all_finite(points, 3 * count) || !all_finite(&radius, 1)) return SW_EINVAL;
   if (count > MOST / (2 * SIDES) || d->face_count + 2 * SIDES * count > MOST) return SW_EINVAL;
   SW_TRY(begin_object(d, 1));
-  SW_TRY(sw_grow((void **)&d->faces, &d->face_room,
-                 d->face_count + 2 * SIDES * (count - 1) + 2 * CAP_SIDES, sizeof *d->faces));
-  SW_TRY(sw_grow((void **)&d->pieces, &d->piece_room, d->piece_count + count, sizeof *d->pieces));
+  SW_TRY(SW_GROW(d->faces, d->face_room, d->face_count + 2 * SIDES * (count - 1) + 2 * CAP_SIDES));
+  SW_TRY(SW_GROW(d->pieces, d->piece_room, d->piece_count + count));
   add_tube(d, points, count, radius, paint);
   d->object_count++;
   return SW_OK;
@@ -252,12 +250,12 @@ sw_status sw_drawing_balls(sw_drawing *d, const double *points, size_t count, do
   if (!all_finite(points, 3 * count) || !all_finite(&radius, 1)) return SW_EINVAL;
   if (d->ball_count + count > MOST) return SW_EINVAL;
   SW_TRY(begin_object(d, 0));
-  SW_TRY(sw_grow((void **)&d->balls, &d->ball_room, d->ball_count + count, sizeof *d->balls));
+  SW_TRY(SW_GROW(d->balls, d->ball_room, d->ball_count + count));
   for (size_t i = 0; i < count; i++) {
     sw_ball *b = &d->balls[d->ball_count++];
     sw_vec_to(b->p, sw_vec_at(points, i));
     memcpy(b->colour, colour_at(paint, i), sizeof b->colour);
-    b->radius = (float)radius, b->gloss = paint->gloss, b->object = (uint32_t)d->object_count;
+    b->radius = (float)radius, b->gloss = paint->gloss;
   }
   d->object_count++;
   return SW_OK;
@@ -266,7 +264,7 @@ sw_status sw_drawing_balls(sw_drawing *d, const double *points, size_t count, do
 sw_status sw_drawing_lines(sw_drawing *d, const double *points, size_t count,
                            const sw_paint *paint) {
   if (!all_finite(points, 6 * count) || d->line_count + count > MOST) return SW_EINVAL;
-  SW_TRY(sw_grow((void **)&d->lines, &d->line_room, d->line_count + count, sizeof *d->lines));
+  SW_TRY(SW_GROW(d->lines, d->line_room, d->line_count + count));
   for (size_t i = 0; i < count; i++) {
     sw_line *l = &d->lines[d->line_count++];
     for (size_t k = 0; k < 2; k++) sw_vec_to(l->p[k], sw_vec_at(points, 2 * i + k));
@@ -280,7 +278,7 @@ sw_status sw_drawing_floor(sw_drawing *d, sw_vec point, sw_vec normal, double sq
                            const sw_paint *paint) {
   const double given[8] = {point.x, point.y, point.z, normal.x, normal.y, normal.z, square, reach};
   if (!all_finite(given, 8) || !(square > 0) || !(reach > 0)) return SW_EINVAL;
-  SW_TRY(sw_grow((void **)&d->floors, &d->floor_room, d->floor_count + 1, sizeof *d->floors));
+  SW_TRY(SW_GROW(d->floors, d->floor_room, d->floor_count + 1));
   sw_floor *f = &d->floors[d->floor_count++];
   f->point = point, f->normal = sw_unit_or(normal, sw_v(0, 0, 1));
   f->across = sw_perpendicular(f->normal), f->square = square, f->reach = reach;

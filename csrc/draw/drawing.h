@@ -19,7 +19,6 @@ typedef struct sw_face {
 typedef struct sw_ball {
   float p[3], radius;
   float colour[3], gloss;
-  uint32_t object;
 } sw_ball;
 
 typedef struct sw_line {
@@ -33,7 +32,6 @@ typedef struct sw_line {
 typedef struct sw_piece {
   float p[2][3], radius;
   float colour[3];
-  uint32_t object;
 } sw_piece;
 
 typedef struct sw_floor {

@@ -37,7 +37,7 @@ int sw_in_front(const sw_pieces *p, double x, double y, double near) {
 }
 
 static sw_status add(sw_pieces *p, const double from[3], const double to[3], int hidden) {
-  SW_TRY(sw_grow((void **)&p->list, &p->room, p->count + 1, sizeof *p->list));
+  SW_TRY(SW_GROW(p->list, p->room, p->count + 1));
   sw_stretch *last = p->count ? &p->list[p->count - 1] : NULL;
   if (last && last->hidden == hidden && last->to[0] == from[0] && last->to[1] == from[1]) {
     last->to[0] = to[0], last->to[1] = to[1];

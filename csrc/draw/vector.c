@@ -44,7 +44,7 @@ __attribute__((format(printf, 2, 3))) static void put(paper *g, const char *form
   const int n = vsnprintf(line, sizeof line, format, args);
   va_end(args);
   if (g->status != SW_OK || n < 0) return;
-  g->status = sw_grow((void **)&g->text, &g->room, g->size + (size_t)n + 1, 1);
+  g->status = SW_GROW(g->text, g->room, g->size + (size_t)n + 1);
   if (g->status != SW_OK) return;
   memcpy(g->text + g->size, line, (size_t)n + 1);
   g->size += (size_t)n;
@@ -74,7 +74,7 @@ static int stopped(paper *g, size_t i) {
 }
 
 static sw_status add_item(paper *g, double depth, size_t index, int ball) {
-  SW_TRY(sw_grow((void **)&g->items, &g->item_room, g->item_count + 1, sizeof *g->items));
+  SW_TRY(SW_GROW(g->items, g->item_room, g->item_count + 1));
   g->items[g->item_count++] = (item){depth, index, ball};
   return SW_OK;
 }

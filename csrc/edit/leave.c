@@ -137,8 +137,7 @@ sw_status sw_scene_remove_body(sw_scene *s, sw_handle body, sw_error *err) {
   if (!sw_scene_find_body(s, body, err)) return SW_EDEAD;
   const size_t wire = body.slot;
   SW_TRY(note_poses(s, wire, SIZE_MAX, err));
-  sw_status status =
-      sw_grow((void **)&s->gone, &s->gone_capacity, s->gone_count + 1, sizeof *s->gone);
+  sw_status status = SW_GROW(s->gone, s->gone_capacity, s->gone_count + 1);
   if (status == SW_OK) status = sw_scene_unbuild(s);
   if (status != SW_OK) return sw_fail(err, status, "scene:remove: %s", sw_status_text(status));
   leave_holds(s, wire);

@@ -34,9 +34,8 @@ sw_status sw_scene_wire_contact(sw_scene *s, const sw_wire_contact_args *args,
     if (!sw_scene_find_body(s, wires[k], err)) return SW_EDEAD;
   SW_TRY(sw_scene_unbuild(s));
   uint32_t *slots = sw_alloc(count, sizeof *slots);
-  if (!slots ||
-      sw_grow((void **)&sw_scene_rules_of(s)->list, &sw_scene_rules_of(s)->capacity,
-              sw_scene_rules_of(s)->count + 1, sizeof *sw_scene_rules_of(s)->list) != SW_OK) {
+  if (!slots || SW_GROW(sw_scene_rules_of(s)->list, sw_scene_rules_of(s)->capacity,
+                        sw_scene_rules_of(s)->count + 1) != SW_OK) {
     sw_free(slots);
     return sw_fail(err, SW_ENOMEM, "scene:wire_contact: out of memory");
   }

@@ -64,18 +64,16 @@ static items look_at_wire(const sw_scene *s, const track *t, size_t frame, size_
   return it;
 }
 
+/* Obstacles, holds and tools are in the same order in films and frames. */
+static sw_frame_kind frame_kind(int kind) { return (sw_frame_kind)(kind - SW_FILM_OBSTACLE); }
+
 static items look(const sw_scene *s, const track *t, size_t frame) {
   static const size_t first[3] = {0, 3, SW_FRAME_POSE};
   size_t around;
   int there = 1;
   items it = {NULL, 1, 1};
   if (t->kind < SW_FILM_OBSTACLE) return look_at_wire(s, t, frame, &around);
-  if (t->kind == SW_FILM_OBSTACLE)
-    it.p = sw_scene_frame_obstacle(s, frame, t->slot, &there);
-  else if (t->kind == SW_FILM_HOLD)
-    it.p = sw_scene_frame_hold(s, frame, t->slot, &there);
-  else
-    it.p = sw_scene_frame_tool(s, frame, t->slot);
+  it.p = sw_scene_frame_body(s, frame, frame_kind(t->kind), t->slot, &there);
   if (!it.p || !there) return (items){NULL, 0, 1};
   it.p += first[t->channel];
   return it;
@@ -84,7 +82,7 @@ static items look(const sw_scene *s, const track *t, size_t frame) {
 /* --- the tracks ---------------------------------------------------------------- */
 
 static sw_status add_track(maker *m, track t) {
-  SW_TRY(sw_grow((void **)&m->tracks, &m->track_capacity, m->track_count + 1, sizeof t));
+  SW_TRY(SW_GROW(m->tracks, m->track_capacity, m->track_count + 1));
   m->tracks[m->track_count++] = t;
   return SW_OK;
 }
@@ -152,9 +150,7 @@ static sw_status add_bodies(maker *m, int kind, double step, int values) {
     track t = {.kind = (uint8_t)kind, .object = (uint32_t)k, .slot = k, .line = 1, .width = 4};
     int known = 0, there;
     for (size_t f = 0; f < m->frames && !known; f++)
-      known = (kind == SW_FILM_OBSTACLE ? sw_scene_frame_obstacle(m->s, m->frame[f], k, &there)
-               : kind == SW_FILM_HOLD   ? sw_scene_frame_hold(m->s, m->frame[f], k, &there)
-                                        : sw_scene_frame_tool(m->s, m->frame[f], k)) != NULL;
+      known = sw_scene_frame_body(m->s, m->frame[f], frame_kind(kind), k, &there) != NULL;
     if (!known) return SW_OK;
     SW_TRY(add_places(m, t, step));
     t.channel = 1, t.scale = TURN;
@@ -226,7 +222,7 @@ static sw_status put_track(maker *m, const track *t) {
   for (size_t f = 0; f < m->frames; f++) {
     const items it = look(m->s, t, m->frame[f]);
     if (m->interrupted && m->interrupted()) return SW_EINTR;
-    SW_TRY(sw_grow((void **)&m->codes[0], &m->room[0], t->width * it.count, sizeof **m->codes));
+    SW_TRY(SW_GROW(m->codes[0], m->room[0], t->width * it.count));
     put_items(m, t, &it, f && last == it.count ? m->codes[1] : NULL);
     uint32_t *const swap = m->codes[0];
     const size_t room = m->room[0];
@@ -268,12 +264,9 @@ static int is_whole(const sw_scene *s, size_t frame) {
     for (size_t i = 0; p && i < count; i++)
       if (!all_finite(p + SW_FRAME_SURFACE * i, 3)) return 0;
   }
-  for (size_t k = 0; (p = sw_scene_frame_obstacle(s, frame, k, &there)) != NULL; k++)
-    if (!all_finite(p, SW_FRAME_POSE)) return 0;
-  for (size_t k = 0; (p = sw_scene_frame_hold(s, frame, k, &there)) != NULL; k++)
-    if (!all_finite(p, SW_FRAME_POSE)) return 0;
-  for (size_t k = 0; (p = sw_scene_frame_tool(s, frame, k)) != NULL; k++)
-    if (!all_finite(p, SW_FRAME_POSE)) return 0;
+  for (sw_frame_kind of = SW_FRAME_OBSTACLES; of <= SW_FRAME_TOOLS; of++)
+    for (size_t k = 0; (p = sw_scene_frame_body(s, frame, of, k, &there)) != NULL; k++)
+      if (!all_finite(p, SW_FRAME_POSE)) return 0;
   return 1;
 }
 

@@ -18,15 +18,11 @@ struct sw_pack {
   sw_status status;
 };
 
-static void *take(void *unused, unsigned count, unsigned size) {
-  (void)unused;
+static void *take(void *unused SW_UNUSED, unsigned count, unsigned size) {
   return sw_alloc(count, size);
 }
 
-static void give(void *unused, void *p) {
-  (void)unused;
-  sw_free(p);
-}
+static void give(void *unused SW_UNUSED, void *p) { sw_free(p); }
 
 static sw_status pack_new(sw_pack **out, int level) {
   sw_pack *p = sw_alloc(1, sizeof *p);
@@ -54,7 +50,7 @@ static void squeeze(sw_pack *p, int flush) {
   p->z.next_in = p->in, p->z.avail_in = (unsigned)p->waiting;
   p->waiting = 0;
   do {
-    if (p->status == SW_OK) p->status = sw_grow((void **)&p->out, &p->capacity, p->size + ROOM, 1);
+    if (p->status == SW_OK) p->status = SW_GROW(p->out, p->capacity, p->size + ROOM);
     if (p->status != SW_OK) return;
     p->z.next_out = p->out + p->size, p->z.avail_out = ROOM;
     (void)deflate(&p->z, flush); /* Z_BUF_ERROR only means that nothing was left to do */

@@ -220,12 +220,11 @@ static double hinge_energy(const sw_field *f, double EI) {
   return sum_of(p->nodes - 2, each + 1);
 }
 
-static sw_status eval(const void *args, sw_field *f, sw_error *err) {
+static sw_status eval(const void *args, sw_field *f, sw_error *err SW_UNUSED) {
   const double EI = ((const sw_bend_args *)args)->EI;
   const sw_plan *p = f->plan;
   double *c = f->scratch[0], *ks = f->scratch[1], *kw = f->scratch[2];
   double *const *t = f->tangent;
-  (void)err;
   if (f->want & (SW_WANT_FORCE | SW_WANT_STIFFNESS) &&
       hinge_factors(p->nodes, EI, p->hinge, t[0], t[1], t[2], c, ks, kw))
     sharp_hinges(p->nodes, EI, p->hinge, c, ks, kw);

@@ -101,11 +101,10 @@ static void add_friction(const sw_clip *c, sw_field *f) {
   }
 }
 
-static sw_status eval(const void *args, sw_field *f, sw_error *err) {
+static sw_status eval(const void *args, sw_field *f, sw_error *err SW_UNUSED) {
   if (sw_clip_is_broken(f->history)) return SW_OK;
   const sw_clip c = clip_of(args, f, f->history);
   const int what = f->want & SW_WANT_STIFFNESS ? SW_CLIP_WANT_STIFFNESS : 0;
-  (void)err;
   for (long e = sw_clip_find(&c, f, 0); e >= 0; e = sw_clip_find(&c, f, e + 1)) {
     sw_clip_walk walk;
     sw_clip_sum sum;

@@ -134,9 +134,8 @@ static void add_stiffness(const sw_web_crease *crease, const bent *b, size_t num
   sw_field_add_block(f, crease->c, crease->d, slot[5], &H[C][EDGE][0][0], 3);
 }
 
-static sw_status eval(const void *args, sw_field *f, sw_error *err) {
+static sw_status eval(const void *args SW_UNUSED, sw_field *f, sw_error *err SW_UNUSED) {
   const sw_web *web = f->plan->web;
-  (void)args, (void)err;
   for (size_t n = 0; n < web->creases; n++) {
     const sw_web_crease *crease = &web->crease[n];
     bent b;

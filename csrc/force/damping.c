@@ -109,9 +109,8 @@ static void spring_dashpot(double beta, sw_field *f, size_t e) {
   sw_field_add_pair(f, link->a, link->b, f->link_slot[e], K);
 }
 
-static sw_status eval(const void *args, sw_field *f, sw_error *err) {
+static sw_status eval(const void *args, sw_field *f, sw_error *err SW_UNUSED) {
   const damping_args *a = args;
-  (void)err;
   if (a->mass > 0) mass_term(a->mass, f);
   if (a->stiffness > 0 && f->plan->web) {
     for (size_t e = 0; e < f->plan->web->links; e++) spring_dashpot(a->stiffness, f, e);

@@ -19,10 +19,9 @@ static const sw_param rows[] = {
      "drag per length and speed squared; 1/2 rho Cd d for a cylinder across the flow"},
 };
 
-static sw_status eval(const void *args, sw_field *f, sw_error *err) {
+static sw_status eval(const void *args, sw_field *f, sw_error *err SW_UNUSED) {
   const drag_args *a = args;
   const sw_plan *p = f->plan;
-  (void)err;
   for (size_t i = 0; i < p->nodes; i++) {
     const sw_vec v = sw_load(f->v + 3 * i);
     const double length = p->lumped[i] / p->beam.mass;

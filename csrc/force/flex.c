@@ -60,9 +60,8 @@ static void clamp_hinge(const sw_clamp_hinge *h, double EI, sw_field *f) {
   }
 }
 
-static sw_status eval(const void *args, sw_field *f, sw_error *err) {
+static sw_status eval(const void *args, sw_field *f, sw_error *err SW_UNUSED) {
   const double EI = ((const sw_bend_args *)args)->EI;
-  (void)err;
   if (!(EI > 0)) return SW_OK;
   if (f->want & SW_WANT_FORCE)
     for (int k = 0; k < 3; k++) add_gradient(f->plan, EI, f->x + k, f->gradient[k]);

@@ -98,9 +98,8 @@ static void add_stiffness(const sw_web_fold *fold, const bent *b, size_t number,
   sw_field_add_block(f, fold->b, fold->c, slot[2], bc, 3);
 }
 
-static sw_status eval(const void *args, sw_field *f, sw_error *err) {
+static sw_status eval(const void *args SW_UNUSED, sw_field *f, sw_error *err SW_UNUSED) {
   const sw_web *web = f->plan->web;
-  (void)args, (void)err;
   for (size_t n = 0; n < web->folds; n++) {
     const sw_web_fold *fold = &web->fold[n];
     bent b;

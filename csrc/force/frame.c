@@ -151,9 +151,8 @@ static void at_clamps(const frame_args *args, sw_field *f) {
   }
 }
 
-static sw_status eval(const void *args, sw_field *f, sw_error *err) {
+static sw_status eval(const void *args, sw_field *f, sw_error *err SW_UNUSED) {
   const frame_args *a = args;
-  (void)err;
   if (a->EI_axis[0] != a->EI_axis[1])
     two(a, f);
   else if (f->plan->beam.curved)

@@ -38,9 +38,7 @@ static void add_weight(size_t n, const double *mass, const double *g, double *fo
     for (size_t k = 0; k < 3; k++) force[3 * i + k] += mass[i] * g[k];
 }
 
-static sw_status eval(const void *args, sw_field *field, sw_error *err) {
-  (void)args;
-  (void)err;
+static sw_status eval(const void *args SW_UNUSED, sw_field *field, sw_error *err SW_UNUSED) {
   const sw_plan *p = field->plan;
   const double *g = field->gravity;
   if (field->want & SW_WANT_FORCE) add_weight(p->nodes, p->lumped, g, field->force);

@@ -15,9 +15,8 @@ static const sw_param rows[] = {
      NULL, offsetof(line_args, force), "force per length of wire, fixed in world axes"},
 };
 
-static sw_status eval(const void *args, sw_field *f, sw_error *err) {
+static sw_status eval(const void *args, sw_field *f, sw_error *err SW_UNUSED) {
   const line_args *a = args;
-  (void)err;
   for (size_t i = 0; i < f->plan->nodes; i++) {
     const sw_vec q = sw_scale(a->force, f->plan->lumped[i] / f->plan->beam.mass);
     if (f->want & SW_WANT_FORCE) sw_accumulate(f->force + 3 * i, q);

@@ -91,18 +91,14 @@ static void on_edge(const couple *c, int k, sw_field *f) {
     for (int j = i; j < 3; j++, at++) f->own[at][e] += M * (p[i] * q[j] + q[i] * p[j]) / (r2 * r2);
 }
 
-static sw_status eval(const void *args, sw_field *f, sw_error *err) {
+static sw_status eval(const void *args, sw_field *f, sw_error *err SW_UNUSED) {
   const couple c = couple_of(args, f->plan);
-  (void)err;
   for (int k = 0; k < 2; k++)
     if (c.moment[k] > 0) on_edge(&c, k, f);
   return SW_OK;
 }
 
-static size_t state_size(const sw_plan *plan) {
-  (void)plan;
-  return HISTORY;
-}
+static size_t state_size(const sw_plan *plan SW_UNUSED) { return HISTORY; }
 
 static void commit(const void *args, const sw_field *f, double *history) {
   const couple c = couple_of(args, f->plan);
@@ -117,8 +113,8 @@ static void commit(const void *args, const sw_field *f, double *history) {
 }
 
 /* Edges of another plan point nearly as those before. */
-static void inherit(const sw_plan *old, const double *from, const sw_field *f, double *history) {
-  (void)old;
+static void inherit(const sw_plan *old SW_UNUSED, const double *from, const sw_field *f,
+                    double *history) {
   memcpy(history, from, state_size(f->plan) * sizeof *history);
 }
 

@@ -35,11 +35,10 @@ static void add_stiffness(const sw_web_solid *s, const double *H, const size_t *
   }
 }
 
-static sw_status eval(const void *args, sw_field *f, sw_error *err) {
+static sw_status eval(const void *args SW_UNUSED, sw_field *f, sw_error *err SW_UNUSED) {
   const sw_web *web = f->plan->web;
   const unsigned want = f->want | (f->cautious ? SW_SOLID_SEMIDEFINITE : 0u);
   double x[3 * SW_SOLID_NODES], g[3 * SW_SOLID_NODES], H[9 * SW_SOLID_NODES * SW_SOLID_NODES];
-  (void)args, (void)err;
   for (size_t n = 0; n < web->solids; n++) {
     const sw_web_solid *s = &web->solid[n];
     const sw_solid *shape = (const sw_solid *)web->shapes + sw_plan_shape(f->plan, s);
@@ -54,10 +53,9 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   return SW_OK;
 }
 
-static double largest_share(const void *args, const sw_field *f, const double *delta) {
+static double largest_share(const void *args SW_UNUSED, const sw_field *f, const double *delta) {
   const sw_web *web = f->plan->web;
   double from[3 * SW_SOLID_NODES], move[3 * SW_SOLID_NODES], share = 1.0;
-  (void)args;
   SW_ITEMS(const sw_web_solid, s, web->solid, web->solids) {
     gather(s, f->x, from);
     gather(s, delta, move);
@@ -67,8 +65,7 @@ static double largest_share(const void *args, const sw_field *f, const double *d
   return share;
 }
 
-static double stable_dt(const void *args, const sw_plan *plan) {
-  (void)args;
+static double stable_dt(const void *args SW_UNUSED, const sw_plan *plan) {
   return plan->web->solid_rate2 > 0 ? 2.0 / sqrt(plan->web->solid_rate2) : HUGE_VAL;
 }
 

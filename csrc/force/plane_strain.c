@@ -31,12 +31,11 @@ static double stiffness_of(const plane_strain_args *a, const sw_beam *b) {
   return isnan(a->stiffness) ? STIFF * b->EA / (b->radius * b->radius) : a->stiffness;
 }
 
-static sw_status eval(const void *args, sw_field *f, sw_error *err) {
+static sw_status eval(const void *args, sw_field *f, sw_error *err SW_UNUSED) {
   const plane_strain_args *a = args;
   const sw_plan *p = f->plan;
   const sw_vec d = sw_unit_or(a->direction, sw_v(1, 0, 0));
   const double u[3] = {d.x, d.y, d.z}, K = stiffness_of(a, &p->beam);
-  (void)err;
   for (size_t i = 0; i < p->nodes; i++) {
     const double k = K * p->lumped[i] / p->beam.mass;
     const double off = sw_dot(sw_sub(sw_load(f->x + 3 * i), a->at), d) - p->s[i];
@@ -54,9 +53,8 @@ static double stable_dt(const void *args, const sw_plan *plan) {
   return 2.0 * sqrt(plan->beam.mass / stiffness_of(args, &plan->beam));
 }
 
-static sw_status check(const void *args, const sw_beam *beam, sw_error *err) {
+static sw_status check(const void *args, const sw_beam *beam SW_UNUSED, sw_error *err) {
   const plane_strain_args *a = args;
-  (void)beam;
   if (sw_norm(a->direction) > 0) return SW_OK;
   return sw_fail(err, SW_EINVAL, "force plane_strain: direction must not be zero");
 }

@@ -82,9 +82,8 @@ static void add_stiffness(const sw_web_link *link, const spring *s, size_t e, sw
   sw_field_add_pair(f, link->a, link->b, f->link_slot[e], K);
 }
 
-static sw_status eval(const void *args, sw_field *f, sw_error *err) {
+static sw_status eval(const void *args, sw_field *f, sw_error *err SW_UNUSED) {
   const sw_web *w = f->plan->web;
-  (void)err;
   for (size_t e = 0; e < w->links; e++) {
     spring s;
     if (!measure(args, w, e, f->x, f->history, &s)) continue;
@@ -115,8 +114,8 @@ static void commit(const void *args, const sw_field *f, double *history) {
   }
 }
 
-static void inherit(const sw_plan *old, const double *from, const sw_field *f, double *history) {
-  (void)old;
+static void inherit(const sw_plan *old SW_UNUSED, const double *from, const sw_field *f,
+                    double *history) {
   memcpy(history, from, state_size(f->plan) * sizeof *history);
 }
 

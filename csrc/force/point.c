@@ -31,10 +31,9 @@ static void on_ring(const sw_web *web, size_t ring, sw_vec force, sw_field *f) {
   f->energy -= sw_dot(force, sw_load(middle));
 }
 
-static sw_status eval(const void *args, sw_field *f, sw_error *err) {
+static sw_status eval(const void *args, sw_field *f, sw_error *err SW_UNUSED) {
   const point_args *a = args;
   double fraction;
-  (void)err;
   const size_t e = sw_plan_locate(f->plan, a->s, &fraction);
   if (f->plan->web) {
     on_ring(f->plan->web, e, sw_scale(a->force, 1.0 - fraction), f);

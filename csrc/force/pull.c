@@ -61,10 +61,9 @@ static void stiffness_of(const pull_args *a, const pulled *p, double w, double K
 
 enum { NEXT = 6 };
 
-static sw_status eval(const void *args, sw_field *f, sw_error *err) {
+static sw_status eval(const void *args, sw_field *f, sw_error *err SW_UNUSED) {
   const pull_args *a = args;
   double K[9];
-  (void)err;
   const pulled p = pulled_of(a, f);
   const int stiff = (f->want & SW_WANT_STIFFNESS) != 0, web = f->plan->web != NULL;
   for (size_t end = 0; end < 2; end++) {
@@ -80,9 +79,9 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
 
 static const char *const outputs[] = {"distance", "tension", NULL};
 
-static void read(const void *args, const sw_field *f, const double *history, double *out) {
+static void read(const void *args, const sw_field *f, const double *history SW_UNUSED,
+                 double *out) {
   const pulled p = pulled_of(args, f);
-  (void)history;
   out[0] = p.distance, out[1] = p.size;
 }
 

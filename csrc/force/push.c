@@ -17,10 +17,9 @@ static const sw_param rows[] = {
      NULL, offsetof(push_args, force), "the force on all of them together, fixed in world axes"},
 };
 
-static sw_status eval(const void *args, sw_field *f, sw_error *err) {
+static sw_status eval(const void *args, sw_field *f, sw_error *err SW_UNUSED) {
   const push_args *a = args;
   const sw_vec each = sw_scale(a->force, 1.0 / (double)a->some.count);
-  (void)err;
   for (size_t i = 0; i < a->some.count; i++) {
     const size_t at = 3 * (size_t)a->some.particle[i];
     if (f->want & SW_WANT_FORCE) sw_accumulate(f->force + at, each);

@@ -3,8 +3,7 @@
  * E = 1/2 (EA/l0)(l - l0)^2. */
 #include "force/axial.h"
 
-static sw_status eval(const void *args, sw_field *field, sw_error *err) {
-  (void)err;
+static sw_status eval(const void *args, sw_field *field, sw_error *err SW_UNUSED) {
   return sw_axial_eval(((const sw_repel_args *)args)->EA, SW_AXIAL_COMPRESSION, field);
 }
 

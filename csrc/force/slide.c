@@ -122,9 +122,8 @@ static void add_stiffness(const sw_web_slide *s, const pair *p, size_t number, s
     }
 }
 
-static sw_status eval(const void *args, sw_field *f, sw_error *err) {
+static sw_status eval(const void *args SW_UNUSED, sw_field *f, sw_error *err SW_UNUSED) {
   const sw_web *w = f->plan->web;
-  (void)args, (void)err;
   for (size_t i = 0; i < w->slides; i++) {
     pair p;
     measure(w, i, f->x, f->history + 1 + 2 * i, &p);
@@ -141,9 +140,8 @@ static int applies(const sw_plan *plan) { return plan->web && plan->web->slides 
 
 static size_t state_size(const sw_plan *plan) { return 1 + 2 * plan->web->slides; }
 
-static void commit(const void *args, const sw_field *f, double *history) {
+static void commit(const void *args SW_UNUSED, const sw_field *f, double *history) {
   const sw_web *w = f->plan->web;
-  (void)args;
   for (size_t i = 0; i < w->slides; i++) {
     double *own = history + 1 + 2 * i;
     pair p;
@@ -162,8 +160,7 @@ static void inherit(const sw_plan *old, const double *from, const sw_field *f, d
     history[0] = from[0];
 }
 
-static double stable_dt(const void *args, const sw_plan *plan) {
-  (void)args;
+static double stable_dt(const void *args SW_UNUSED, const sw_plan *plan) {
   return plan->web->slide_rate2 > 0 ? 2.0 / sqrt(plan->web->slide_rate2) : HUGE_VAL;
 }
 

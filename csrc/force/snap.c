@@ -76,10 +76,9 @@ static void add_edge(const sw_clip *c, double damping, sw_field *f, size_t e) {
   put(c, f, e, &sum);
 }
 
-static sw_status eval(const void *args, sw_field *f, sw_error *err) {
+static sw_status eval(const void *args, sw_field *f, sw_error *err SW_UNUSED) {
   sw_clip_args a = ((const snap_args *)args)->clip;
   const double time = a.stiffness;
-  (void)err;
   a.stiffness = a.strength = NAN;
   const sw_clip c = sw_clip_of(&a, &f->plan->beam);
   for (long e = sw_clip_find(&c, f, 0); e >= 0; e = sw_clip_find(&c, f, e + 1))
@@ -87,8 +86,7 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   return SW_OK;
 }
 
-static sw_status check(const void *args, const sw_beam *beam, sw_error *err) {
-  (void)beam;
+static sw_status check(const void *args, const sw_beam *beam SW_UNUSED, sw_error *err) {
   return sw_clip_check_lips(&((const snap_args *)args)->clip, "snap", err);
 }
 

@@ -61,16 +61,14 @@ static double energy_of(const sw_web *web, const double *x) {
   return energy;
 }
 
-static sw_status eval(const void *args, sw_field *f, sw_error *err) {
-  (void)args, (void)err;
+static sw_status eval(const void *args SW_UNUSED, sw_field *f, sw_error *err SW_UNUSED) {
   if (f->want & (SW_WANT_FORCE | SW_WANT_STIFFNESS)) add_all(f->plan->web, f);
   if (f->want & SW_WANT_ENERGY) f->energy += energy_of(f->plan->web, f->x);
   return SW_OK;
 }
 
 /* By Gershgorin: omega^2 <= 2 (sum of a particle's springs) / its mass. */
-static double stable_dt(const void *args, const sw_plan *plan) {
-  (void)args;
+static double stable_dt(const void *args SW_UNUSED, const sw_plan *plan) {
   return plan->web->rate2 > 0 ? 2.0 / sqrt(plan->web->rate2) : HUGE_VAL;
 }
 

@@ -3,9 +3,8 @@
  * only. Valid for small axial strain (a few per cent), like Hooke's law. */
 #include "force/axial.h"
 
-static sw_status eval(const void *args, sw_field *field, sw_error *err) {
+static sw_status eval(const void *args, sw_field *field, sw_error *err SW_UNUSED) {
   const sw_stretch_args *a = args;
-  (void)err;
   return sw_axial_eval(a->EA, SW_AXIAL_TENSION | (a->tension_only > 0 ? 0 : SW_AXIAL_COMPRESSION),
                        field);
 }

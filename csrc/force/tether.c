@@ -30,10 +30,7 @@ static const sw_param rows[] = {
  * not the pull at the present length. */
 enum { DISSIPATED, BORNE, EVENED, FATE, HISTORY = FATE + SW_TIE_FATE };
 
-static size_t state_size(const sw_plan *plan) {
-  (void)plan;
-  return HISTORY;
-}
+static size_t state_size(const sw_plan *plan SW_UNUSED) { return HISTORY; }
 
 /* The tied place, between places i and i + 1 of the wire. */
 typedef struct tied {
@@ -61,10 +58,9 @@ static sw_vec force_of(const tied *t, double pull) {
   return sw_scale(sw_unit_or(t->apart, sw_v(0, 0, 0)), -pull);
 }
 
-static sw_status eval(const void *args, sw_field *f, sw_error *err) {
+static sw_status eval(const void *args, sw_field *f, sw_error *err SW_UNUSED) {
   const tether_args *a = args;
   double K[9];
-  (void)err;
   if (f->history && f->history[FATE + SW_TIE_BROKEN] > 0) return SW_OK;
   const tied t = tied_of(a, f);
   if (t.distance <= a->slack && a->slack > 0) return SW_OK;
@@ -115,8 +111,8 @@ static void commit(const void *args, const sw_field *f, double *h) {
   h[DISSIPATED] += 0.5 * t.pull * t.pull / a->stiffness;
 }
 
-static void inherit(const sw_plan *old, const double *from, const sw_field *f, double *h) {
-  (void)old, (void)f;
+static void inherit(const sw_plan *old SW_UNUSED, const double *from, const sw_field *f SW_UNUSED,
+                    double *h) {
   for (size_t k = 0; k < HISTORY; k++) h[k] = from[k];
 }
 

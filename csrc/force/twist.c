@@ -155,9 +155,8 @@ static void span_part(const sw_span *span, double torque, sw_field *f) {
   clamp_part(f, &f->plan->clamps[span->right], torque);
 }
 
-static sw_status eval(const void *args, sw_field *f, sw_error *err) {
+static sw_status eval(const void *args, sw_field *f, sw_error *err SW_UNUSED) {
   const double GJ = ((const twist_args *)args)->GJ;
-  (void)err;
   if (!f->twist) return SW_OK;
   for (size_t k = 0; k < f->plan->span_count; k++) {
     const sw_span *span = &f->plan->spans[k];

@@ -21,16 +21,14 @@ static sw_vec clamp_moment(const void *args, const sw_field *f, const sw_clamp_h
   return sw_dashpot_clamp_moment(((const viscous_args *)args)->eta, f, h);
 }
 
-static sw_status eval(const void *args, sw_field *f, sw_error *err) {
+static sw_status eval(const void *args, sw_field *f, sw_error *err SW_UNUSED) {
   const double eta = ((const viscous_args *)args)->eta;
-  (void)err;
   sw_dashpot_hinges(eta, f);
   for (size_t c = 0; c < f->plan->clamp_count; c++) sw_dashpot_clamp(eta, f, &f->plan->clamps[c]);
   return SW_OK;
 }
 
-static double viscosity(const void *args, const sw_plan *plan) {
-  (void)plan;
+static double viscosity(const void *args, const sw_plan *plan SW_UNUSED) {
   return ((const viscous_args *)args)->eta;
 }
 

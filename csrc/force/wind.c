@@ -84,7 +84,7 @@ static void hold_back(const stream *s, sw_field *f, size_t e, sw_vec t) {
     for (int j = i; j < 3; j++, at++) f->own[at][e] += k * ((i == j) - a[i] * a[j]);
 }
 
-static sw_status eval(const void *args, sw_field *f, sw_error *err) {
+static sw_status eval(const void *args, sw_field *f, sw_error *err SW_UNUSED) {
   const wind_args *a = args;
   const sw_plan *p = f->plan;
   const double d = isnan(a->diameter) ? 2.0 * p->beam.radius : a->diameter;
@@ -96,7 +96,6 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
                     0,
                     (f->want & SW_WANT_STIFFNESS) && f->velocity_rate > 0};
   double K[9];
-  (void)err;
   if (!(f->want & (SW_WANT_FORCE | SW_WANT_STIFFNESS))) return SW_OK;
   for (size_t e = 0; e + 1 < sw_axis_points(p); e++) {
     const sw_vec way = sw_sub(sw_axis_at(f, e + 1), sw_axis_at(f, e));

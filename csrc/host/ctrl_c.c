@@ -43,8 +43,7 @@ static void push_place(lua_State *L) {
   luaL_where(L, 0);
 }
 
-static void stop(lua_State *L, lua_Debug *ar) {
-  (void)ar;
+static void stop(lua_State *L, lua_Debug *ar SW_UNUSED) {
   lua_sethook(L, NULL, 0, 0);
   if (!sw_interrupted()) return;
   sw_interrupt_clear();

@@ -241,29 +241,26 @@ static void stop(sw_hold *h, double t) {
   f->motion = NULL;
 }
 
-static sw_status go(sw_hold *h, const sw_link_wire *w, double speed, sw_motion *motion,
-                    sw_error *err) {
+static sw_status go(sw_hold *h, const sw_link_wire *w, double speed, sw_motion *motion SW_UNUSED,
+                    sw_error *err SW_UNUSED) {
   const double before = feed_at(h, w->time).speed;
-  (void)motion, (void)err;
   stop(h, w->time);
   h->feed.speed = speed;
   keep_speed(h, w, before);
   return SW_OK;
 }
 
-static sw_status push(sw_hold *h, const sw_link_wire *w, double force, sw_motion *motion,
-                      sw_error *err) {
+static sw_status push(sw_hold *h, const sw_link_wire *w, double force, sw_motion *motion SW_UNUSED,
+                      sw_error *err SW_UNUSED) {
   const double speed = feed_at(h, w->time).speed;
-  (void)motion, (void)err;
   stop(h, w->time);
   h->feed.slip.push = force, h->feed.slip.speed = speed;
   return SW_OK;
 }
 
-static sw_status limit(sw_hold *h, const sw_link_wire *w, double force, sw_motion *motion,
-                       sw_error *err) {
+static sw_status limit(sw_hold *h, const sw_link_wire *w SW_UNUSED, double force,
+                       sw_motion *motion SW_UNUSED, sw_error *err SW_UNUSED) {
   sw_slip *slip = &h->feed.slip;
-  (void)w, (void)motion, (void)err;
   slip->limit = force;
   if (isnan(force) && isnan(slip->push)) slip->speed = slip->growth = slip->way = 0;
   sw_slip_taken(slip);

@@ -162,8 +162,7 @@ static void tape(sw_tape *t, sw_hold *h) {
 static const char *const outputs[] = {"place", "speed", "force", NULL};
 
 /* Along the rail: place, speed, force of friction and ends on the wire [m], [m/s], [N]. */
-static void read(const sw_hold *h, double time, double *out) {
-  (void)time;
+static void read(const sw_hold *h, double time SW_UNUSED, double *out) {
   out[0] = h->slider.p, out[1] = h->slider.v, out[2] = h->slider.force;
 }
 

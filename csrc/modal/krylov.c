@@ -14,16 +14,11 @@
 static const double NOTHING_NEW = 1e-11;
 enum { PASSES = 2 };
 
-sw_status sw_krylov_new(sw_krylov *k, const sw_system *system, size_t body, double shift,
-                        double *factor, size_t most) {
+sw_status sw_krylov_new(sw_krylov *k, const sw_system *system, size_t body, double *factor,
+                        size_t most) {
   const size_t n = sw_system_unknowns(system, body);
-  *k = (sw_krylov){.system = system,
-                   .body = body,
-                   .n = n,
-                   .shift = shift,
-                   .factor = factor,
-                   .capacity = most,
-                   .seed = 20};
+  *k = (sw_krylov){
+      .system = system, .body = body, .n = n, .factor = factor, .capacity = most, .seed = 20};
   const sw_status status =
       SW_ALLOC_ALL(SW_ROOM(k->projected, most * most), SW_ROOM(k->coefficients, most),
                    SW_ROOM(k->work, n), SW_ROOM(k->image, n), SW_ROOM(k->vectors, most));
@@ -104,7 +99,6 @@ sw_status sw_krylov_extend(sw_krylov *k) {
     if (k->count == k->capacity) return SW_ELIMIT;
     sw_system_mass_times(k->system, k->body, k->vectors[k->done], k->work);
     sw_system_factor_solve(k->system, k->body, k->factor, k->work);
-    k->solves++;
     const double before = length_of_work(k), left = orthogonalise(k, row);
     if (!isfinite(left)) return SW_EDIVERGED;
     if (!(left > NOTHING_NEW * before)) continue;

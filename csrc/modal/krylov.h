@@ -11,7 +11,6 @@ enum { SW_KRYLOV_BLOCK = 6 }; /* a free wire has six motions without stiffness [
 typedef struct sw_krylov {
   const sw_system *system;
   size_t body, n;   /* unknowns */
-  double shift;     /* [rad2/s2] */
   double *factor;   /* of K - shift M */
   double **vectors; /* (capacity) of (n) each, allocated when needed */
   size_t count;     /* basis vectors */
@@ -21,12 +20,11 @@ typedef struct sw_krylov {
   double *work, *image; /* (n) */
   double *coefficients; /* (capacity) */
   unsigned long long seed;
-  size_t solves;
 } sw_krylov;
 
 /* Begins an empty basis. Borrows the factor, which the caller frees. SW_ENOMEM. */
-sw_status sw_krylov_new(sw_krylov *k, const sw_system *system, size_t body, double shift,
-                        double *factor, size_t most);
+sw_status sw_krylov_new(sw_krylov *k, const sw_system *system, size_t body, double *factor,
+                        size_t most);
 void sw_krylov_free(sw_krylov *k);
 
 /* Adds up to count random directions; directions already in the basis are left out. */

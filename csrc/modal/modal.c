@@ -247,7 +247,6 @@ static sw_status solve_again(const job *p, double *const *x, size_t q, double *d
   SW_TRY(compare(p, before, values, q));
   out->count = p->target;
   out->unknowns = p->n;
-  out->iterations = p->krylov.solves;
   out->omega2 = sw_alloc(out->count, sizeof *out->omega2);
   out->shapes = sw_alloc(out->count * p->n, sizeof *out->shapes);
   if (!out->omega2 || !out->shapes) return out_of_memory(p);
@@ -291,7 +290,7 @@ static sw_status run(job *p, size_t modes, sw_modes *out) {
   p->vectors = sw_alloc(most * most, sizeof *p->vectors);
   p->scratch = sw_alloc(most * most, sizeof *p->scratch);
   if (!p->values || !p->vectors || !p->scratch) return out_of_memory(p);
-  if (sw_krylov_new(&p->krylov, p->system, p->body, p->shift, p->factor, most) != SW_OK)
+  if (sw_krylov_new(&p->krylov, p->system, p->body, p->factor, most) != SW_OK)
     return out_of_memory(p);
   SW_TRY(iterate(p));
   return polish(p, out);

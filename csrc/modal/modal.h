@@ -10,12 +10,11 @@
 #include "system/system.h"
 
 typedef struct sw_modes {
-  size_t count;      /* number of modes found [-] */
-  size_t unstable;   /* number of modes with omega2 < 0, which come first [-] */
-  size_t unknowns;   /* per shape [-] */
-  double *omega2;    /* (count), ascending; neutral motions have 0 [rad2/s2] */
-  double *shapes;    /* (count x unknowns), x' M x = 1 [1/sqrt(kg)] */
-  size_t iterations; /* solves with a factorised matrix [-] */
+  size_t count;    /* number of modes found [-] */
+  size_t unstable; /* number of modes with omega2 < 0, which come first [-] */
+  size_t unknowns; /* per shape [-] */
+  double *omega2;  /* (count), ascending; neutral motions have 0 [rad2/s2] */
+  double *shapes;  /* (count x unknowns), x' M x = 1 [1/sqrt(kg)] */
 } sw_modes;
 
 /* Finds all unstable modes and then the `modes` lowest other ones. The system must be linearised.

@@ -3,13 +3,9 @@
  * jumps at corners that are not blended. */
 #include "motion/law.h"
 
-static double least_time(double span, double growth) {
-  (void)growth;
-  return span;
-}
+static double least_time(double span, double growth SW_UNUSED) { return span; }
 
-static int fit(sw_run *run, double growth) {
-  (void)growth;
+static int fit(sw_run *run, double growth SW_UNUSED) {
   run->ramp = 0;
   return 1;
 }

@@ -74,12 +74,12 @@ static void locate(const sw_path *path, const sw_run *run, double s, place *out)
   on_leg(g, x, out);
 }
 
-sw_status sw_path_eval(const sw_motion *motion, double t, sw_motion_state *out, sw_error *err) {
+sw_status sw_path_eval(const sw_motion *motion, double t, sw_motion_state *out,
+                       sw_error *err SW_UNUSED) {
   const sw_path *path = motion->body;
   const sw_run *run = &path->runs[find_run(path, t)];
   double s[3];
   place at;
-  (void)err;
   t = t - run->t;
   path->profile->progress(run, t < run->time ? t : run->time, s);
   locate(path, run, s[0], &at);

@@ -71,9 +71,9 @@ static void state_at(const spline *s, const knot *k, double t, sw_motion_state *
   if (s->turns) turn_at(k, t, out);
 }
 
-static sw_status eval(const sw_motion *motion, double t, sw_motion_state *out, sw_error *err) {
+static sw_status eval(const sw_motion *motion, double t, sw_motion_state *out,
+                      sw_error *err SW_UNUSED) {
   const spline *s = motion->body;
-  (void)err;
   state_at(s, find(s, t), t, out);
   return SW_OK;
 }
@@ -232,9 +232,8 @@ static double length_of(const spline *s) {
   return sum;
 }
 
-static sw_status plan_spline(const sw_motion_law *law, const sw_motion_plan *plan, sw_route *route,
-                             sw_motion *motion, sw_error *err) {
-  (void)law;
+static sw_status plan_spline(const sw_motion_law *law SW_UNUSED, const sw_motion_plan *plan,
+                             sw_route *route, sw_motion *motion, sw_error *err) {
   if (plan->stop > 0 || plan->blend > 0)
     return sw_fail(err, SW_EINVAL,
                    "%s: law 'spline' passes through every way-point smoothly; stop and blend have "

@@ -7,6 +7,7 @@
 
 #include "base/alloc.h"
 #include "base/couple.h"
+#include "base/each.h"
 #include "base/interrupt.h"
 #include "mutual/cells.h"
 #include "mutual/joined.h"
@@ -108,7 +109,7 @@ static sw_status look_at(void *user, const sw_thing *t, const sw_thing *u) {
   if (a == b || !(apart < reach_of(g, speed, all->h)) || sw_joined_are(&g->joined, a, b))
     return SW_OK;
   if (g->count == MOST_NEAR) return SW_ELIMIT;
-  SW_TRY(sw_grow((void **)&g->near, &g->capacity, g->count + 1, sizeof *g->near));
+  SW_TRY(SW_GROW(g->near, g->capacity, g->count + 1));
   g->near[g->count++] = (sw_couple){a, b};
   return SW_OK;
 }
@@ -133,8 +134,7 @@ static sw_status find_pairs(group *g, const sw_body *b, const double *x, const d
 }
 
 sw_status sw_crowd_begin_step(sw_crowd *c, sw_system *s, double h) {
-  for (size_t k = 0; k < c->count; k++) {
-    group *g = &c->groups[k];
+  SW_ITEMS(group, g, c->groups, c->count) {
     sw_body *b = &s->bodies[g->body];
     const size_t at = 3 * b->first_node;
     SW_TRY(find_pairs(g, b, s->x + at, s->v + at, h));
@@ -164,8 +164,7 @@ static void add_stiffness(sw_body *b, const group *g, const sw_couple *p, double
 }
 
 void sw_crowd_eval(const sw_crowd *c, sw_system *s, const double *y, unsigned want) {
-  for (size_t k = 0; k < c->count; k++) {
-    const group *g = &c->groups[k];
+  SW_ITEMS(const group, g, c->groups, c->count) {
     sw_body *b = &s->bodies[g->body];
     const double *x = y + 3 * b->first_node;
     for (size_t i = 0; i < g->count; i++) {
@@ -183,8 +182,7 @@ void sw_crowd_eval(const sw_crowd *c, sw_system *s, const double *y, unsigned wa
 }
 
 int sw_crowd_settled(const sw_crowd *c, const sw_system *s, const double *y, const double *delta) {
-  for (size_t k = 0; k < c->count; k++) {
-    const group *g = &c->groups[k];
+  SW_ITEMS(const group, g, c->groups, c->count) {
     const size_t at = 3 * s->bodies[g->body].first_node;
     for (size_t i = 0; i < g->count; i++) {
       const sw_couple *p = &g->near[i];
@@ -200,8 +198,7 @@ int sw_crowd_settled(const sw_crowd *c, const sw_system *s, const double *y, con
 
 double sw_crowd_energy(const sw_crowd *c, const sw_system *s) {
   double sum = 0;
-  for (size_t k = 0; k < c->count; k++) {
-    const group *g = &c->groups[k];
+  SW_ITEMS(const group, g, c->groups, c->count) {
     const double *x = s->x + 3 * s->bodies[g->body].first_node;
     for (size_t i = 0; i < g->count; i++) {
       const sw_couple *p = &g->near[i];

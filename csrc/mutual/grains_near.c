@@ -88,7 +88,7 @@ static sw_status look_at(sw_grains *g, const sw_system *s, const sw_thing *t, co
   if (!(sw_grain_nearest(s->x, &n.of, at) - n.reach < g->listed_gap)) return SW_OK;
   if (is_one(g, s, &n.of)) return SW_OK;
   if (g->near_count == MOST_NEAR) return SW_ELIMIT;
-  SW_TRY(sw_grow((void **)&g->near, &g->near_capacity, g->near_count + 1, sizeof *g->near));
+  SW_TRY(SW_GROW(g->near, g->near_capacity, g->near_count + 1));
   g->near[g->near_count++] = n;
   return SW_OK;
 }
@@ -120,7 +120,7 @@ static sw_status list_anew(sw_grains *g, const sw_system *s, double gap) {
     SW_TRY(sw_cells_around(&cells, &cells.things[k], meets, &all));
   }
   if (g->near_count) qsort(g->near, g->near_count, sizeof *g->near, by_order);
-  SW_TRY(sw_grow((void **)&g->listed_at, &g->listed_capacity, 3 * s->nodes, sizeof(double)));
+  SW_TRY(SW_GROW(g->listed_at, g->listed_capacity, 3 * s->nodes));
   memcpy(g->listed_at, s->x, 3 * s->nodes * sizeof *s->x);
   g->listed_nodes = s->nodes;
   return SW_OK;
@@ -177,7 +177,7 @@ static sw_status find_pairs(sw_grains *g, const sw_system *s) {
     if (!(gap < reserve_of(g, k.reach, sw_ends_speed(s, &k.of)))) continue;
     k.usual = hardness(g, s, &k.of);
     k.held = sw_ends_held(s, &k.of);
-    SW_TRY(sw_grow((void **)&g->pairs, &g->pair_capacity, g->m.pair_count + 1, sizeof *g->pairs));
+    SW_TRY(SW_GROW(g->pairs, g->pair_capacity, g->m.pair_count + 1));
     g->pairs[g->m.pair_count++] = k;
   }
   return SW_OK;

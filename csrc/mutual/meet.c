@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "contact/contact.h"
 #include "touch/same.h"
 
@@ -172,9 +173,7 @@ static void begin_friction(const sw_mutual *m, const sw_system *s, const double 
 }
 
 sw_meet *sw_meet_new(sw_mutual *m) {
-  if (sw_grow((void **)&m->touches, &m->touch_capacity, m->touch_count + 1, sizeof *m->touches) !=
-      SW_OK)
-    return NULL;
+  if (SW_GROW(m->touches, m->touch_capacity, m->touch_count + 1) != SW_OK) return NULL;
   return memset(&m->touches[m->touch_count], 0, sizeof *m->touches);
 }
 
@@ -249,8 +248,7 @@ static const double PASSES_ROUND = 0.07;
 enum { LONG_SOFT = 6 };
 
 static int have_flown(const sw_mutual *m) {
-  for (size_t i = 0; i < m->touch_count; i++) {
-    const sw_meet *t = &m->touches[i];
+  SW_ITEMS(const sw_meet, t, m->touches, m->touch_count) {
     if (t->flies && t->press.gap < -FLOWN * t->reach) return 1;
   }
   return 0;
@@ -274,8 +272,7 @@ static int stiffen(sw_mutual *m, const sw_system *s) {
   const int small = sw_press_is_short(m->regime == SW_CONTACT_STATIC, m->h, m->nominal);
   int any = 0;
   if (m->regime == SW_CONTACT_EXPLICIT || s->rough) return 0;
-  for (size_t i = 0; i < m->touch_count; i++) {
-    sw_meet *t = &m->touches[i];
+  SW_ITEMS(sw_meet, t, m->touches, m->touch_count) {
     const double deepest = sw_meet_deepest(t);
     double before = sw_larger(0.0, t->reach - sw_dot(t->square, sw_bows_apart(s->x, t->bow)));
     before = t->squeezed ? sw_press_squeezed(t->forgiven, before, deepest) : small ? before : -1.0;
@@ -329,8 +326,7 @@ static int update_all(sw_mutual *m, const double *delta) {
   m->updates++;
   m->widest = 0;
   memset(m->rubbing, 0, m->bodies * sizeof *m->rubbing);
-  for (size_t i = 0; i < m->touch_count; i++) {
-    sw_meet *t = &m->touches[i];
+  SW_ITEMS(sw_meet, t, m->touches, m->touch_count) {
     const verdict one = update(m, t, delta, scale_of(m, t));
     if (t->press.normal_force > 0)
       m->widest = sw_larger(m->widest, sw_norm(t->press.shift) / t->reach);
@@ -357,8 +353,7 @@ static double share_of(sw_mutual *m, sw_contact *contact, sw_system *s) {
   if (solves <= 0 || m->regime != SW_CONTACT_IMPLICIT || !sw_bridges_solves_again(s)) return 1.0;
   w->count = 0, w->work = sw_bridges_work(s);
   if (contact) sw_contact_add_ways(contact, s, w);
-  for (size_t i = 0; i < m->touch_count; i++) {
-    sw_meet *t = &m->touches[i];
+  SW_ITEMS(sw_meet, t, m->touches, m->touch_count) {
     sw_ways_add(w, &t->press, sw_mutual_rule(m, t->of.body)->friction,
                 sw_bows_apart(s->delta, t->bow));
   }
@@ -369,8 +364,7 @@ double sw_mutual_refine(sw_mutual *m, sw_contact *contact, sw_system *s) {
   m->spots.count = 0;
   if (contact) sw_contact_add_spots(contact, s, &m->spots);
   find_scales(m);
-  for (size_t i = 0; i < m->touch_count; i++) {
-    sw_meet *t = &m->touches[i];
+  SW_ITEMS(sw_meet, t, m->touches, m->touch_count) {
     const double friction = sw_mutual_rule(m, t->of.body)->friction;
     const sw_spot spot = {.press = &t->press, .friction = friction, .scale = scale_of(m, t)};
     sw_spots_add(&m->spots, s, spot, &t->bow[0].spot, t->of.body[0], &t->bow[1].spot,
@@ -386,7 +380,7 @@ int sw_mutual_settled(sw_mutual *m, sw_system *s, const double *delta) {
   for (size_t i = 0; fine && i < m->touch_count; i++) {
     const sw_meet *t = &m->touches[i];
     if (!(t->press.normal_force > 0 || t->press.gap_after < 0)) continue;
-    if (sw_grow((void **)&m->hits, &m->hit_capacity, m->hit_count + 1, sizeof *m->hits) != SW_OK)
+    if (SW_GROW(m->hits, m->hit_capacity, m->hit_count + 1) != SW_OK)
       break; /* out of memory: the impact is treated in the next step */
     m->hits[m->hit_count++] =
         (sw_hit){.bow = {t->bow[0], t->bow[1]}, .normal = t->press.normal, .reach = t->reach};

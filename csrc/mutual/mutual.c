@@ -209,8 +209,7 @@ void sw_mutual_commit(sw_mutual *m, sw_system *s) {
   m->next_count = 0;
   for (size_t i = 0; i < m->touch_count; i++) {
     const sw_meet *t = &m->touches[i];
-    if (sw_grow((void **)&m->next_memory, &m->next_capacity, m->next_count + 1,
-                sizeof *m->next_memory) != SW_OK)
+    if (SW_GROW(m->next_memory, m->next_capacity, m->next_count + 1) != SW_OK)
       break; /* a lost anchor starts anew */
     sw_met *out = &m->next_memory[m->next_count++];
     *out = sw_meet_remember(s, t);
@@ -230,7 +229,7 @@ const void *sw_mutual_memory(const sw_mutual *m, size_t *bytes) {
 
 sw_status sw_mutual_set_memory(sw_mutual *m, const void *memory, size_t bytes) {
   const size_t n = bytes / sizeof *m->memory;
-  SW_TRY(sw_fill((void **)&m->memory, &m->memory_capacity, memory, n, sizeof *m->memory));
+  SW_TRY(SW_FILL(m->memory, m->memory_capacity, memory, n));
   m->memory_count = n;
   m->touch_count = 0, m->still.accepted = 0;
   sw_mutual_forget_still(m);
@@ -256,7 +255,7 @@ sw_status sw_mutual_set_seen(sw_mutual *m, const void *seen, size_t bytes, const
   const size_t n = bytes / sizeof *m->touches;
   m->touch_count = 0;
   if (bytes % sizeof *m->touches != 0) return SW_EINVAL;
-  SW_TRY(sw_fill((void **)&m->touches, &m->touch_capacity, seen, n, sizeof *m->touches));
+  SW_TRY(SW_FILL(m->touches, m->touch_capacity, seen, n));
   for (size_t i = 0; i < n; i++)
     for (int k = 0; k < 2; k++) {
       const sw_ends *e = &m->touches[i].of;

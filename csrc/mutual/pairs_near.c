@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "base/interrupt.h"
 #include "base/simd.h"
 #include "mutual/cells.h"
@@ -77,7 +78,7 @@ static sw_status look_at(void *user, const sw_thing *t, const sw_thing *u) {
   if (!(n.distance - n.radii < p->listed_reach)) return SW_OK;
   if (sw_joins_near(s, n.one, n.two)) return SW_OK;
   if (p->near_count == MOST_NEAR) return SW_ELIMIT;
-  SW_TRY(sw_grow((void **)&p->near, &p->near_capacity, p->near_count + 1, sizeof *p->near));
+  SW_TRY(SW_GROW(p->near, p->near_capacity, p->near_count + 1));
   p->near[p->near_count++] = n;
   return SW_OK;
 }
@@ -104,7 +105,7 @@ static sw_status list_anew(sw_pairs *p, const sw_system *s, double reach) {
     SW_TRY(sw_cells_around(&g, &g.things[k], look_at, &all));
     sort_from(p->near + first, p->near_count - first);
   }
-  SW_TRY(sw_grow((void **)&p->listed_at, &p->listed_capacity, 7 * s->nodes, sizeof(double)));
+  SW_TRY(SW_GROW(p->listed_at, p->listed_capacity, 7 * s->nodes));
   p->before = p->listed_at + 3 * s->nodes;
   p->travel = p->before + 3 * s->nodes;
   p->listed_nodes = s->nodes;
@@ -265,7 +266,7 @@ static sw_status plan_bridges(sw_system *s, const sw_pair *k) {
 
 static sw_status add_pair(sw_pairs *p, sw_system *s, const sw_near *n, double sum) {
   const sw_ends ends = sw_segments(n->one, n->two, n->body);
-  SW_TRY(sw_grow((void **)&p->pairs, &p->pair_capacity, p->m.pair_count + 1, sizeof *p->pairs));
+  SW_TRY(SW_GROW(p->pairs, p->pair_capacity, p->m.pair_count + 1));
   sw_pair *k = &p->pairs[p->m.pair_count++];
   *k = (sw_pair){.one = n->one,
                  .two = n->two,
@@ -281,8 +282,7 @@ static sw_status add_pair(sw_pairs *p, sw_system *s, const sw_near *n, double su
 
 /* Finds the pairs that cross with curves, then the pattern of the matrix. */
 static sw_status look_at_curves(sw_pairs *p, sw_system *s) {
-  for (size_t i = 0; i < p->m.pair_count; i++) {
-    sw_pair *k = &p->pairs[i];
+  SW_ITEMS(sw_pair, k, p->pairs, p->m.pair_count) {
     sw_pair_find_curves(p, s, k);
     if (k->bridged) SW_TRY(plan_bridges(s, k));
   }
@@ -340,8 +340,7 @@ sw_status sw_pairs_choose(sw_mutual *m, sw_system *s) {
   SW_TRY(list_near(p, s, &fast));
   p->least_left = -HUGE_VAL;
   SW_TRY(sw_system_begin_plan(s));
-  for (size_t k = 0; k < p->near_count; k++) {
-    sw_near *n = &p->near[k];
+  SW_ITEMS(sw_near, n, p->near, p->near_count) {
     if (sw_interrupted()) return SW_EINTR;
     if (s->waiting && both_wait(s, n)) continue;
     if (may_touch(p, s, n, fast))

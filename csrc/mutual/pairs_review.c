@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "mutual/pairs_sweep.h"
 #include "touch/same.h"
 
@@ -17,9 +18,7 @@ static int is_barred(const sw_pairs *p, const sw_pair *k, const double at[2]) {
 }
 
 static int raise_barrier(sw_pairs *p, const sw_pair *k, const double at[2], sw_vec normal) {
-  if (sw_grow((void **)&p->barriers, &p->barrier_capacity, p->m.barrier_count + 1,
-              sizeof *p->barriers) != SW_OK)
-    return 0;
+  if (SW_GROW(p->barriers, p->barrier_capacity, p->m.barrier_count + 1) != SW_OK) return 0;
   p->barriers[p->m.barrier_count++] = (sw_pair_barrier){k->one, k->two, {at[0], at[1]}, normal};
   return 1;
 }
@@ -33,8 +32,7 @@ static sw_vec square_to(const sw_system *s, const sw_pair *k, sw_vec apart) {
 
 int sw_pairs_expect(const sw_mutual *m, const sw_system *s, double h) {
   const sw_pairs *p = (const sw_pairs *)(const void *)m;
-  for (size_t i = 0; i < m->pair_count; i++) {
-    const sw_pair *k = &p->pairs[i];
+  SW_ITEMS(const sw_pair, k, p->pairs, m->pair_count) {
     const sw_ends ends = sw_segments(k->one, k->two, k->body);
     double at[2];
     if (k->held || !(sw_ends_speed(s, &ends) > SW_SLOWEST_IMPACT)) continue;
@@ -50,8 +48,7 @@ int sw_pairs_expect(const sw_mutual *m, const sw_system *s, double h) {
 int sw_pairs_cross(sw_mutual *m, const sw_system *s, const double *x1) {
   sw_pairs *p = sw_pairs_of(m);
   int changed = 0;
-  for (size_t i = 0; i < m->pair_count; i++) {
-    const sw_pair *k = &p->pairs[i];
+  SW_ITEMS(const sw_pair, k, p->pairs, m->pair_count) {
     double at[2];
     sw_vec normal;
     if (k->held || !sw_pair_sweep(s, k, s->x, x1, at, &normal)) continue;
@@ -68,8 +65,7 @@ static double missed_gap(const sw_pairs *p, const sw_system *s, const double *x1
   double gap = -1;
   size_t k = 0;
   if (farthest <= -p->least_left) return gap;
-  for (size_t i = 0; i < p->near_count; i++) {
-    const sw_near *n = &p->near[i];
+  SW_ITEMS(const sw_near, n, p->near, p->near_count) {
     if (k < p->m.pair_count && p->pairs[k].one == n->one && p->pairs[k].two == n->two) {
       k++;
       continue;
@@ -87,9 +83,8 @@ static double missed_gap(const sw_pairs *p, const sw_system *s, const double *x1
   return gap;
 }
 
-int sw_pairs_widen(sw_mutual *m, sw_system *s, const double *x1, double h) {
+int sw_pairs_widen(sw_mutual *m, sw_system *s, const double *x1, double h SW_UNUSED) {
   sw_pairs *p = sw_pairs_of(m);
-  (void)h;
   if (2.0 * sw_pairs_largest_move(p->listed_at, x1, s->nodes) > p->listed_reach &&
       sw_pairs_list(p, s, 2.0 * sw_pairs_largest_move(s->x, x1, s->nodes)) != SW_OK)
     return -1;
@@ -102,13 +97,11 @@ int sw_pairs_widen(sw_mutual *m, sw_system *s, const double *x1, double h) {
 /* 1 if two bodies press each other, or did at the step's start. Straight paths of their nodes may
  * then cut a bend round which the wires go. */
 static int are_pressed(const sw_mutual *m, const sw_pair *k) {
-  for (size_t i = 0; i < m->touch_count; i++) {
-    const sw_meet *t = &m->touches[i];
+  SW_ITEMS(const sw_meet, t, m->touches, m->touch_count) {
     if (t->press.normal_force > 0 && t->of.body[0] == k->body[0] && t->of.body[1] == k->body[1])
       return 1;
   }
-  for (size_t i = 0; i < m->memory_count; i++) {
-    const sw_met *t = &m->memory[i];
+  SW_ITEMS(const sw_met, t, m->memory, m->memory_count) {
     if (t->kept.normal_force > 0 && t->of.body[0] == k->body[0] && t->of.body[1] == k->body[1])
       return 1;
   }
@@ -117,8 +110,7 @@ static int are_pressed(const sw_mutual *m, const sw_pair *k) {
 
 int sw_pairs_cuts(const sw_mutual *m, const sw_system *s, const double *x1) {
   const sw_pairs *p = (const sw_pairs *)(const void *)m;
-  for (size_t i = 0; i < m->pair_count; i++) {
-    const sw_pair *k = &p->pairs[i];
+  SW_ITEMS(const sw_pair, k, p->pairs, m->pair_count) {
     const double deeper = SW_DEEPER * k->reach;
     if (k->held || sw_pair_approach(s, k, s->x, x1) < deeper) continue;
     if (sw_pair_brushes(k, s->x, x1) && !are_pressed(m, k)) return 1;

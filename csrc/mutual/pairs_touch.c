@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "base/interrupt.h"
 #include "mutual/pairs_curve.h"
 #include "touch/lean.h"
@@ -23,8 +24,7 @@ static sw_meet *new_touch(sw_pairs *p, const sw_pair *k, sw_meet_kind kind, cons
 
 static sw_status behind_barrier(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
                                 int *found) {
-  for (size_t i = 0; i < p->m.barrier_count; i++) {
-    const sw_pair_barrier *b = &p->barriers[i];
+  SW_ITEMS(const sw_pair_barrier, b, p->barriers, p->m.barrier_count) {
     if (b->one != k->one || b->two != k->two) continue;
     const sw_bow bow[2] = {sw_pair_bow(s, k, 0, b->at[0]), sw_pair_bow(s, k, 1, b->at[1])};
     const sw_vec d = sw_bows_apart(y, bow);
@@ -213,8 +213,7 @@ static void match_last(sw_pairs *p) {
 sw_status sw_pairs_find(sw_mutual *m, const sw_system *s, const double *y) {
   sw_pairs *p = sw_pairs_of(m);
   match_last(p);
-  for (size_t i = 0; i < m->pair_count; i++) {
-    const sw_pair *k = &p->pairs[i];
+  SW_ITEMS(const sw_pair, k, p->pairs, m->pair_count) {
     int found = 0;
     if (k->held) continue;
     if (sw_interrupted()) return SW_EINTR;

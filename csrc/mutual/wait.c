@@ -75,8 +75,7 @@ sw_status sw_mutual_set_aside(sw_mutual *m, const sw_system *s) {
   sw_still_meets *still = &m->still;
   const int changed = (s->waiting || still->any) && !sw_waits_are(s, still->kept);
   if (changed) {
-    SW_TRY(sw_grow_empty((void **)&still->room, &still->room_capacity,
-                         m->touch_count + still->count, sizeof *still->room));
+    SW_TRY(SW_GROW_EMPTY(still->room, still->room_capacity, m->touch_count + still->count));
     const size_t count = merge(m, s, still->room);
     SW_SWAP(still->list, still->room);
     SW_SWAP(still->capacity, still->room_capacity);
@@ -96,8 +95,8 @@ static sw_status put_back(sw_mutual *m) {
   sw_still_meets *still = &m->still;
   const size_t all = m->touch_count + still->count;
   if (still->count) {
-    SW_TRY(sw_grow_empty((void **)&still->room, &still->room_capacity, all, sizeof *still->room));
-    SW_TRY(sw_grow((void **)&m->touches, &m->touch_capacity, all, sizeof *m->touches));
+    SW_TRY(SW_GROW_EMPTY(still->room, still->room_capacity, all));
+    SW_TRY(SW_GROW(m->touches, m->touch_capacity, all));
     (void)merge(m, NULL, still->room);
     memcpy(m->touches, still->room, all * sizeof *m->touches);
   }
@@ -118,8 +117,7 @@ sw_status sw_mutual_carry_over(sw_mutual *m) {
   for (size_t i = 0; m->still.any && i < m->memory_count; i++)
     carried += were_kept(m, m->memory[i].of.body);
   if (!carried) return SW_OK;
-  SW_TRY(sw_grow((void **)&m->next_memory, &m->next_capacity, m->next_count + carried,
-                 sizeof *m->next_memory));
+  SW_TRY(SW_GROW(m->next_memory, m->next_capacity, m->next_count + carried));
   m->next_count = to = left + carried;
   while (carried) {
     const sw_met *t = &m->memory[from - 1];

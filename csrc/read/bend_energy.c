@@ -65,10 +65,10 @@ static double of_mesh(const sw_plan *p, const double *x, const double *T, double
   return rings + lines + squares / (EI * (1.0 - q));
 }
 
-static sw_status read(sw_scene *s, sw_handle h, double place, double *out, sw_error *err) {
+static sw_status read(sw_scene *s, sw_handle h, double place SW_UNUSED, double *out,
+                      sw_error *err) {
   sw_system *system = sw_scene_system(s);
   sw_scene_wire *w;
-  (void)place;
   SW_TRY(sw_scene_open_wire(s, h, &w, err));
   const sw_body *b = &system->bodies[h.slot];
   const sw_beam *beam = &w->beam;

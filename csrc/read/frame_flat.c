@@ -110,15 +110,12 @@ static int turns_in(const plane *p, const float *pose, const float *first) {
 
 static int holds_turn_in(const look *l, const plane *p, size_t frame) {
   const float *pose, *first;
-  int held, was;
-  for (size_t h = 0; (pose = sw_scene_frame_hold(l->scene, frame, h, &held)) != NULL; h++) {
-    first = sw_scene_frame_hold(l->scene, l->first, h, &was);
-    if (held && (!first || !was || !turns_in(p, pose, first))) return 0;
-  }
-  for (size_t k = 0; (pose = sw_scene_frame_tool(l->scene, frame, k)) != NULL; k++) {
-    first = sw_scene_frame_tool(l->scene, l->first, k);
-    if (!first || !turns_in(p, pose, first)) return 0;
-  }
+  int holds, held;
+  for (sw_frame_kind of = SW_FRAME_HOLDS; of <= SW_FRAME_TOOLS; of++)
+    for (size_t k = 0; (pose = sw_scene_frame_body(l->scene, frame, of, k, &holds)) != NULL; k++) {
+      first = sw_scene_frame_body(l->scene, l->first, of, k, &held);
+      if (holds && (!first || !held || !turns_in(p, pose, first))) return 0;
+    }
   return 1;
 }
 

@@ -31,7 +31,7 @@ static void free_data(sw_frames *f) {
   f->count = 0;
 }
 
-void sw_scene_drop_frames(sw_scene *s) {
+static void drop_all(sw_scene *s) {
   sw_frames *all = sw_scene_frames_of(s);
   free_data(all);
   all->stride = 1;
@@ -63,7 +63,7 @@ sw_status sw_frames_copy(const sw_frames *from, sw_frames *to) {
 
 sw_status sw_scene_clear_frames(sw_scene *s, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  sw_scene_drop_frames(s);
+  drop_all(s);
   return SW_OK;
 }
 
@@ -234,7 +234,7 @@ static sw_status add_frame(sw_scene *s, sw_error *err) {
                 .tools = sw_scene_tool_slots(s)};
   for (size_t w = 0; w < sw_scene_wire_slots(s); w++)
     f.size += size_of(sw_scene_system(s)->bodies[w].plan);
-  if (sw_grow((void **)&all->list, &all->capacity, all->count + 1, sizeof *all->list) != SW_OK)
+  if (SW_GROW(all->list, all->capacity, all->count + 1) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "out of memory for frames");
   f.data = sw_alloc(f.size, sizeof *f.data);
   if (!f.data) return sw_fail(err, SW_ENOMEM, "out of memory for frames");

@@ -49,13 +49,13 @@ double sw_scene_frame_radius(const sw_scene *scene, size_t w);
 /* 1 if number w of the scene is an object of particles. */
 int sw_scene_frame_is_loose(const sw_scene *scene, size_t w);
 
-/* Data of an obstacle, a hold or a gripper's tool in a frame: x y z [m], qw qx qy qz, force [N] (of
- * wires on an obstacle; of a hold or tool on wires). Obstacles and holds have one more number: 1
- * while the obstacle exists or the hold holds. NULL: it did not exist. */
+/* Data of obstacle, hold or gripper's tool number k in a frame: x y z [m], qw qx qy qz, force [N]
+ * (of wires on an obstacle; of a hold or tool on wires). *there: 1 while the obstacle exists or the
+ * hold holds. NULL: it did not exist. */
 enum { SW_FRAME_POSE = 7, SW_FRAME_BODY = SW_FRAME_POSE + 3 };
-const float *sw_scene_frame_obstacle(const sw_scene *scene, size_t frame, size_t o, int *there);
-const float *sw_scene_frame_hold(const sw_scene *scene, size_t frame, size_t h, int *held);
-const float *sw_scene_frame_tool(const sw_scene *scene, size_t frame, size_t k);
+typedef enum sw_frame_kind { SW_FRAME_OBSTACLES, SW_FRAME_HOLDS, SW_FRAME_TOOLS } sw_frame_kind;
+const float *sw_scene_frame_body(const sw_scene *scene, size_t frame, sw_frame_kind kind, size_t k,
+                                 int *there);
 enum { SW_FRAME_ENERGIES = 3 }; /* kinetic, elastic, gravity [J] */
 const double *sw_scene_frame_energy(const sw_scene *scene, size_t frame);
 

@@ -42,25 +42,16 @@ const double *sw_scene_frame_energy(const sw_scene *s, size_t frame) {
   return sw_scene_frames_of(s)->list[frame].energy;
 }
 
-const float *sw_scene_frame_obstacle(const sw_scene *s, size_t frame, size_t o, int *there) {
+const float *sw_scene_frame_body(const sw_scene *s, size_t frame, sw_frame_kind kind, size_t k,
+                                 int *there) {
   const sw_frame *f = &sw_scene_frames_of(s)->list[frame];
-  if (o >= f->obstacles) return NULL;
-  const float *p = f->data + HOLD * o;
-  *there = p[SW_FRAME_BODY] > 0;
+  const size_t count[] = {f->obstacles, f->holds, f->tools};
+  const float *p = f->data;
+  if (k >= count[kind]) return NULL;
+  for (int before = 0; before < (int)kind; before++) p += HOLD * count[before];
+  p += (kind == SW_FRAME_TOOLS ? TOOL : HOLD) * k;
+  *there = kind == SW_FRAME_TOOLS || p[SW_FRAME_BODY] > 0;
   return p;
-}
-
-const float *sw_scene_frame_hold(const sw_scene *s, size_t frame, size_t h, int *held) {
-  const sw_frame *f = &sw_scene_frames_of(s)->list[frame];
-  if (h >= f->holds) return NULL;
-  const float *p = f->data + HOLD * (f->obstacles + h);
-  *held = p[SW_FRAME_BODY] > 0;
-  return p;
-}
-
-const float *sw_scene_frame_tool(const sw_scene *s, size_t frame, size_t k) {
-  const sw_frame *f = &sw_scene_frames_of(s)->list[frame];
-  return k < f->tools ? f->data + before_wires(f) - TOOL * (f->tools - k) : NULL;
 }
 
 size_t sw_scene_frame_wires(const sw_scene *s) { return sw_scene_bodies_made(s); }

@@ -30,7 +30,6 @@ void sw_frames_free(sw_frames *frames);
 /* Kinetic, elastic, gravity energy of the state [J]. */
 void sw_scene_frame_energies(sw_scene *scene, double out[SW_FRAME_ENERGIES]);
 sw_status sw_scene_store_frame(sw_scene *scene, sw_error *err);
-void sw_scene_drop_frames(sw_scene *scene);
 /* Drops later frames when a snapshot is restored that had `count` frames, one in `stride`. */
 void sw_scene_frames_back_to(sw_scene *scene, size_t count, size_t stride);
 /* Fills in the values of n nodes of the wire, SW_FRAME_VALUES numbers each. */

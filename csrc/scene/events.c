@@ -33,8 +33,7 @@ static sw_event *latest(sw_events *e, const char *kind, const char *object) {
 }
 
 static sw_event *append(sw_events *e) {
-  if (e->count >= SW_EVENTS_MOST ||
-      sw_grow((void **)&e->list, &e->capacity, e->count + 1, sizeof *e->list) != SW_OK) {
+  if (e->count >= SW_EVENTS_MOST || SW_GROW(e->list, e->capacity, e->count + 1) != SW_OK) {
     e->dropped++;
     return NULL;
   }

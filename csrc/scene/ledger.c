@@ -12,8 +12,7 @@ void sw_ledger_free(sw_books *b) {
   *b = (sw_books){0};
 }
 
-sw_status sw_scene_ledger(sw_scene *s, sw_ledger *out, sw_error *err) {
-  (void)err;
+sw_status sw_scene_ledger(sw_scene *s, sw_ledger *out, sw_error *err SW_UNUSED) {
   *out = sw_scene_books(s)->sums;
   return SW_OK;
 }

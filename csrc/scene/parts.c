@@ -82,12 +82,12 @@ void sw_scene_forget_mesh(sw_scene *s, size_t wire) {
 void sw_scene_unmake_body(sw_scene *s) { s->wire_count--; }
 uint32_t sw_scene_number(sw_scene *s) { return ++s->serial; }
 
-#define ADD(type, list, count, capacity)                                         \
-  do {                                                                           \
-    SW_TRY(sw_grow((void **)&(list), &(capacity), (count) + 1, sizeof *(list))); \
-    (list)[count] = *(const type *)object;                                       \
-    (list)[count].generation = ++s->serial;                                      \
-    *out = (sw_handle){(uint32_t)(count)++, s->serial};                          \
+#define ADD(type, list, count, capacity)                \
+  do {                                                  \
+    SW_TRY(SW_GROW((list), (capacity), (count) + 1));   \
+    (list)[count] = *(const type *)object;              \
+    (list)[count].generation = ++s->serial;             \
+    *out = (sw_handle){(uint32_t)(count)++, s->serial}; \
   } while (0)
 
 sw_status sw_scene_add(sw_scene *s, sw_kind kind, const void *object, sw_handle *out) {

@@ -12,9 +12,8 @@ typedef struct box_args {
   sw_vec size;
 } box_args;
 
-static sw_status create(sw_shape *shape, const void *args, const sw_shape_source *source,
-                        sw_error *err) {
-  (void)source, (void)err;
+static sw_status create(sw_shape *shape, const void *args, const sw_shape_source *source SW_UNUSED,
+                        sw_error *err SW_UNUSED) {
   const sw_vec half = sw_scale(((const box_args *)args)->size, 0.5);
   ((box *)shape)->half = half;
   shape->bounds = (sw_bounds){sw_neg(half), half};
@@ -149,8 +148,7 @@ static sw_vec corner(const box *self, int k) {
   return sw_v(k & 1 ? h.x : -h.x, k & 2 ? h.y : -h.y, k & 4 ? h.z : -h.z);
 }
 
-static sw_status triangles(const sw_shape *shape, int around, sw_triangles *out) {
-  (void)around;
+static sw_status triangles(const sw_shape *shape, int around SW_UNUSED, sw_triangles *out) {
   SW_TRY(sw_triangles_new(8, 12, out));
   for (int k = 0; k < 8; k++) sw_store(out->vertices + 3 * k, corner((const box *)shape, k));
   int *to = out->indices;
@@ -188,8 +186,7 @@ static int over_face(const sw_shape *shape, const sw_vec *p, size_t count) {
            : low.x > half.x || high.x < -half.x;
 }
 
-static sw_sharp sharp(const sw_shape *shape, int feature, sw_vec *along) {
-  (void)shape;
+static sw_sharp sharp(const sw_shape *shape SW_UNUSED, int feature, sw_vec *along) {
   const int x = feature % 3, y = feature / Y_DIGIT % 3, z = feature / Z_DIGIT;
   const int between = (x == 1) + (y == 1) + (z == 1);
   if (between == 1) *along = sw_v(x == 1, y == 1, z == 1);
@@ -226,8 +223,8 @@ static void ridges(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_r
       }
 }
 
-static int points_out(const sw_shape *shape, const sw_ridge *ridge, sw_vec n, double share) {
-  (void)shape;
+static int points_out(const sw_shape *shape SW_UNUSED, const sw_ridge *ridge, sw_vec n,
+                      double share) {
   const int x = ridge->feature % 3 - 1, y = ridge->feature / Y_DIGIT % 3 - 1;
   const int z = ridge->feature / Z_DIGIT - 1;
   return x * n.x >= -share && y * n.y >= -share && z * n.z >= -share &&

@@ -12,11 +12,10 @@ typedef struct capsule_args {
   double radius, length;
 } capsule_args;
 
-static sw_status create(sw_shape *shape, const void *args, const sw_shape_source *source,
-                        sw_error *err) {
+static sw_status create(sw_shape *shape, const void *args, const sw_shape_source *source SW_UNUSED,
+                        sw_error *err SW_UNUSED) {
   const capsule_args *given = args;
   capsule *self = (capsule *)shape;
-  (void)source, (void)err;
   self->radius = given->radius;
   self->half = given->length / 2;
   const double r = self->radius, z = self->half + r;

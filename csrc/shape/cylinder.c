@@ -15,11 +15,10 @@ typedef struct cylinder_args {
 
 enum { SIDE, TOP, BOTTOM, TOP_RIM, BOTTOM_RIM };
 
-static sw_status create(sw_shape *shape, const void *args, const sw_shape_source *source,
-                        sw_error *err) {
+static sw_status create(sw_shape *shape, const void *args, const sw_shape_source *source SW_UNUSED,
+                        sw_error *err SW_UNUSED) {
   const cylinder_args *given = args;
   cylinder *self = (cylinder *)shape;
-  (void)source, (void)err;
   self->radius = given->radius;
   self->half = given->length / 2;
   const double r = self->radius, z = self->half;

@@ -54,12 +54,11 @@ static sw_status keep_corners(hull *self) {
   return SW_OK;
 }
 
-static sw_status create(sw_shape *shape, const void *args, const sw_shape_source *source,
+static sw_status create(sw_shape *shape, const void *args SW_UNUSED, const sw_shape_source *source,
                         sw_error *err) {
   hull *self = (hull *)shape;
   int *indices = NULL;
   size_t triangles = 0;
-  (void)args;
   SW_TRY(check_points(source, err));
   SW_TRY(sw_hull_triangles(object, source->points, source->point_count, &indices, &triangles, err));
   sw_status status = sw_trimesh_build(&self->as.mesh, object, source->points, source->point_count,

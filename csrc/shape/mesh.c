@@ -34,11 +34,11 @@ static sw_status create(sw_shape *shape, const void *args, const sw_shape_source
 static void destroy(sw_shape *shape) { sw_trimesh_free(&((sw_meshed *)shape)->mesh); }
 
 static int segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_closest *out) {
-  return sw_trimesh_segment(&((const sw_meshed *)shape)->mesh, a, b, reach, out);
+  return sw_trimesh_segment(sw_trimesh_of(shape), a, b, reach, out);
 }
 
 static int sweep(const sw_shape *shape, const sw_sweep *path, sw_closest *out, double *when) {
-  return sw_trimesh_sweep(&((const sw_meshed *)shape)->mesh, path, out, when);
+  return sw_trimesh_sweep(sw_trimesh_of(shape), path, out, when);
 }
 
 static const sw_param rows[] = {

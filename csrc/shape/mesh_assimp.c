@@ -33,8 +33,8 @@ static size_t file_read(struct aiFile *file, char *out, size_t size, size_t coun
   f->at += n * size;
   return n;
 }
-static size_t file_write(struct aiFile *file, const char *bytes, size_t size, size_t count) {
-  (void)file, (void)bytes, (void)size, (void)count;
+static size_t file_write(struct aiFile *file SW_UNUSED, const char *bytes SW_UNUSED,
+                         size_t size SW_UNUSED, size_t count SW_UNUSED) {
   return 0;
 }
 static size_t file_tell(struct aiFile *file) { return ((memory_file *)(void *)file->UserData)->at; }
@@ -51,9 +51,8 @@ static enum aiReturn file_seek(struct aiFile *file, size_t offset, enum aiOrigin
   return aiReturn_SUCCESS;
 }
 
-static struct aiFile *open_file(struct aiFileIO *io, const char *name, const char *mode) {
+static struct aiFile *open_file(struct aiFileIO *io, const char *name, const char *mode SW_UNUSED) {
   memory_file *f = (memory_file *)(void *)io->UserData;
-  (void)mode;
   if (strcmp(name, f->name) != 0) return NULL;
   struct aiFile *file = sw_alloc(1, sizeof *file);
   f->starved = !file;
@@ -63,10 +62,7 @@ static struct aiFile *open_file(struct aiFileIO *io, const char *name, const cha
                           file_seek, file_flush, (aiUserData)f};
   return file;
 }
-static void close_file(struct aiFileIO *io, struct aiFile *file) {
-  (void)io;
-  sw_free(file);
-}
+static void close_file(struct aiFileIO *io SW_UNUSED, struct aiFile *file) { sw_free(file); }
 
 /* --- triangles ------------------------------------------------------------ */
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Checks that a mesh file has all the data it declares. Each format is checked just closely enough
  * to find a truncated file; the reader checks the rest. */
-#include "base/vec.h"
-#include "shape/mesh_off.h"
-#include "shape/mesh_ply.h"
+#include <stdarg.h>
+#include <stdio.h>
+
 #include "shape/mesh_read.h"
 #include "shape/mesh_words.h"
 
@@ -11,6 +11,16 @@ static sw_mesh_reader reader = sw_mesh_read;
 
 void sw_mesh_set_reader(sw_mesh_reader own) { reader = own ? own : sw_mesh_read; }
 sw_mesh_reader sw_mesh_get_reader(void) { return reader; }
+
+sw_status sw_mesh_unreadable(const sw_mesh_file *file, sw_error *err, const char *why, ...) {
+  char text[SW_ERROR_TEXT];
+  va_list list;
+  va_start(list, why);
+  vsnprintf(text, sizeof text, why, list);
+  va_end(list);
+  return sw_fail(err, SW_EFORMAT, "%s: data is not readable as %s: %s; write the file anew",
+                 file->object, file->format, text);
+}
 
 /* --- STL ------------------------------------------------------------------ */
 
@@ -39,11 +49,9 @@ static sw_status check_corners(const sw_mesh_file *file, sw_error *err) {
     if (!sw_words_next(&line, &word) || !sw_words_are(word, "vertex")) continue;
     for (int k = 0; k < 3; k++)
       if (!sw_words_next(&line, &word) || !sw_words_number(word))
-        return sw_fail(
-            err, SW_EFORMAT,
-            "%s: data is not readable as stl: line %zu, a corner, needs three numbers, and has "
-            "'%s'; write the file anew",
-            file->object, number, sw_words_show(word, shown));
+        return sw_mesh_unreadable(file, err,
+                                  "line %zu, a corner, needs three numbers, and has '%s'", number,
+                                  sw_words_show(word, shown));
   }
   return SW_OK;
 }
@@ -57,22 +65,16 @@ static sw_status check_stl(const sw_mesh_file *file, sw_error *err) {
   if (sw_words_next(&all, &word) && word.end - word.at >= 5 && memcmp(word.at, "solid", 5) == 0) {
     const char *facet = last_of(file, "facet"), *end = last_of(file, "endsolid");
     if (end && (!facet || end > facet)) return check_corners(file, err);
-    return sw_fail(err, SW_EFORMAT,
-                   "%s: data is not readable as stl: it is cut off, the closing word 'endsolid' is "
-                   "missing; write the file anew",
-                   file->object);
+    return sw_mesh_unreadable(file, err, "it is cut off, the closing word 'endsolid' is missing");
   }
   if (size < STL_HEAD)
-    return sw_fail(
-        err, SW_EFORMAT,
-        "%s: data is not readable as stl: it has %zu bytes, and the head alone takes %d; "
-        "write the file anew",
-        file->object, size, STL_HEAD);
+    return sw_mesh_unreadable(file, err, "it has %zu bytes, and the head alone takes %d", size,
+                              STL_HEAD);
   if (size > whole) return SW_OK;
-  return sw_fail(err, SW_EFORMAT,
-                 "%s: data is not readable as stl: it is cut off or damaged: it declares %zu "
-                 "triangles, which take %zu bytes, and has %zu; write the file anew",
-                 file->object, count, whole, size);
+  return sw_mesh_unreadable(
+      file, err,
+      "it is cut off or damaged: it declares %zu triangles, which take %zu bytes, and has %zu",
+      count, whole, size);
 }
 
 /* --- GLB ------------------------------------------------------------------ */
@@ -82,10 +84,8 @@ static sw_status check_glb(const sw_mesh_file *file, sw_error *err) {
   const size_t size = file->byte_count, whole = size >= HEAD ? sw_words_u32(file->bytes + 8) : HEAD;
   if (size >= HEAD && memcmp(file->bytes, "glTF", 4) != 0) return SW_OK; /* the reader reports it */
   if (size >= whole && size >= HEAD) return SW_OK;
-  return sw_fail(err, SW_EFORMAT,
-                 "%s: data is not readable as glb: it is cut off or damaged: it declares %zu bytes "
-                 "and has %zu; write the file anew",
-                 file->object, whole, size);
+  return sw_mesh_unreadable(
+      file, err, "it is cut off or damaged: it declares %zu bytes and has %zu", whole, size);
 }
 
 sw_status sw_mesh_check(const sw_mesh_file *file, sw_error *err) {

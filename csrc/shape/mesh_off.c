@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Checks an OFF file: the word OFF, a line with the numbers of points, faces and edges, a line for
  * each point, a line for each face: its number of corners, then their points, counted from 0. */
-#include "shape/mesh_off.h"
-
+#include "shape/mesh_read.h"
 #include "shape/mesh_words.h"
 
 typedef struct head {
@@ -22,29 +21,22 @@ static sw_status read_head(const sw_mesh_file *file, sw_words *from, head *h, sw
   size_t edges;
   if (!line_of(from, &line) || !sw_words_next(&line, &word) || word.end - word.at < 3 ||
       memcmp(word.end - 3, "OFF", 3) != 0)
-    return sw_fail(err, SW_EFORMAT,
-                   "%s: data is not readable as off: it does not begin with the word OFF; write "
-                   "the file anew",
-                   file->object);
+    return sw_mesh_unreadable(file, err, "it does not begin with the word OFF");
   h->axes = *word.at == '4' ? 4 : 3;
   sw_words rest = line;
   if (!sw_words_next(&rest, &word) || *word.at == '#') line_of(from, &line);
   if (sw_words_count(&line, &h->points) && sw_words_count(&line, &h->faces) &&
       sw_words_count(&line, &edges))
     return SW_OK;
-  return sw_fail(err, SW_EFORMAT,
-                 "%s: data is not readable as off: its head has no numbers of points, faces and "
-                 "edges; write the file anew",
-                 file->object);
+  return sw_mesh_unreadable(file, err, "its head has no numbers of points, faces and edges");
 }
 
 static sw_status cut_off(const sw_mesh_file *file, const head *h, const char *what, size_t number,
                          sw_error *err) {
-  return sw_fail(
-      err, SW_EFORMAT,
-      "%s: data is not readable as off: it is cut off or damaged: it declares %zu points "
-      "and %zu faces, and %s number %zu is not whole; write the file anew",
-      file->object, h->points, h->faces, what, number);
+  return sw_mesh_unreadable(file, err,
+                            "it is cut off or damaged: it declares %zu points and %zu faces, and "
+                            "%s number %zu is not whole",
+                            h->points, h->faces, what, number);
 }
 
 static sw_status check_point(const sw_mesh_file *file, const head *h, sw_words line, size_t number,
@@ -54,10 +46,8 @@ static sw_status check_point(const sw_mesh_file *file, const head *h, sw_words l
   for (int k = 0; k < h->axes; k++) {
     if (!sw_words_next(&line, &word)) return cut_off(file, h, "point", number, err);
     if (!sw_words_number(word))
-      return sw_fail(err, SW_EFORMAT,
-                     "%s: data is not readable as off: point number %zu has '%s' where a number "
-                     "should be; write the file anew",
-                     file->object, number, sw_words_show(word, shown));
+      return sw_mesh_unreadable(file, err, "point number %zu has '%s' where a number should be",
+                                number, sw_words_show(word, shown));
   }
   return SW_OK;
 }
@@ -71,11 +61,9 @@ static sw_status check_face(const sw_mesh_file *file, const head *h, sw_words li
     char shown[SW_WORDS_SHOWN];
     if (!sw_words_next(&line, &word)) return cut_off(file, h, "face", number, err);
     if (sw_words_count(&from, &at) && at < h->points) continue;
-    return sw_fail(err, SW_EFORMAT,
-                   "%s: data is not readable as off: face %zu names point %s; the file has %zu "
-                   "points (0 to %lld); write the file anew",
-                   file->object, number, sw_words_show(word, shown), h->points,
-                   (long long)h->points - 1);
+    return sw_mesh_unreadable(
+        file, err, "face %zu names point %s; the file has %zu points (0 to %lld)", number,
+        sw_words_show(word, shown), h->points, (long long)h->points - 1);
   }
   return SW_OK;
 }
@@ -93,8 +81,7 @@ sw_status sw_mesh_check_off(const sw_mesh_file *file, sw_error *err) {
     SW_TRY(check_face(file, &h, line, k, err));
   }
   if (!line_of(&all, &line)) return SW_OK;
-  return sw_fail(err, SW_EFORMAT,
-                 "%s: data is not readable as off: it declares %zu points and %zu faces, and more "
-                 "lines follow them; write the file anew",
-                 file->object, h.points, h.faces);
+  return sw_mesh_unreadable(file, err,
+                            "it declares %zu points and %zu faces, and more lines follow them",
+                            h.points, h.faces);
 }

@@ -2,9 +2,8 @@
 /* Checks a PLY file. Its header lists elements (name, count, properties of each). The items follow,
  * one after another, as words or bytes. A property is a single value, or a list: a count and that
  * many values. */
-#include "shape/mesh_ply.h"
-
 #include "base/each.h"
+#include "shape/mesh_read.h"
 #include "shape/mesh_words.h"
 
 enum { MOST_ELEMENTS = 16, MOST_PROPERTIES = 64 };
@@ -157,10 +156,7 @@ static sw_status check_axes(const sw_mesh_file *file, const header *h, sw_error 
     if (!sw_words_are(e->name, "vertex")) continue;
     for (int k = 0; k < 3; k++)
       if (!(e->axes >> k & 1))
-        return sw_fail(err, SW_EFORMAT,
-                       "%s: data is not readable as ply: its points have no property '%c'; write "
-                       "the file anew",
-                       file->object, 'x' + k);
+        return sw_mesh_unreadable(file, err, "its points have no property '%c'", 'x' + k);
   }
   return SW_OK;
 }
@@ -169,19 +165,14 @@ sw_status sw_mesh_check_ply(const sw_mesh_file *file, sw_error *err) {
   sw_words from = {file->bytes, file->bytes + file->byte_count};
   header h;
   if (!read_header(&h, &from))
-    return sw_fail(err, SW_EFORMAT,
-                   "%s: data is not readable as ply: its header is cut off or damaged; write the "
-                   "file anew",
-                   file->object);
+    return sw_mesh_unreadable(file, err, "its header is cut off or damaged");
   SW_ITEMS(const element, e, h.elements, h.element_count) {
     const size_t whole = whole_items(&h, e, &from);
     if (whole < e->count)
-      return sw_fail(err, SW_EFORMAT,
-                     "%s: data is not readable as ply: it is cut off or damaged: it declares %zu "
-                     "items of '%.*s', and %zu are there; write the file anew",
-                     file->object, e->count,
-                     (int)(e->name.end - e->name.at < 32 ? e->name.end - e->name.at : 32),
-                     e->name.at, whole);
+      return sw_mesh_unreadable(
+          file, err, "it is cut off or damaged: it declares %zu items of '%.*s', and %zu are there",
+          e->count, (int)(e->name.end - e->name.at < 32 ? e->name.end - e->name.at : 32),
+          e->name.at, whole);
   }
   return check_axes(file, &h, err);
 }

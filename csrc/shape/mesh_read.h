@@ -29,6 +29,15 @@ typedef sw_status (*sw_mesh_reader)(const sw_mesh_file *file, sw_mesh_data *out,
  * is found: SW_OK promises nothing. */
 sw_status sw_mesh_check(const sw_mesh_file *file, sw_error *err);
 
+/* Such checks of OFF files, in which Assimp reads wrong indices and words as other points, in
+ * silence, and of PLY files. */
+sw_status sw_mesh_check_off(const sw_mesh_file *file, sw_error *err);
+sw_status sw_mesh_check_ply(const sw_mesh_file *file, sw_error *err);
+/* SW_EFORMAT for a damaged file; why: by a printf format. */
+__attribute__((format(printf, 3, 4))) sw_status sw_mesh_unreadable(const sw_mesh_file *file,
+                                                                   sw_error *err, const char *why,
+                                                                   ...);
+
 /* Reads a file by Assimp in this process; a damaged file may crash the process. No other file is
  * opened, whatever the file refers to. */
 sw_status sw_mesh_read(const sw_mesh_file *file, sw_mesh_data *out, sw_error *err);

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Shapes whose surface is a triangle mesh: functions of shape_class.h that call those of
- * trimesh.h. */
+/* Shapes whose surface is a triangle mesh, and their functions of shape_class.h. */
 #ifndef SW_SHAPE_MESHED_H
 #define SW_SHAPE_MESHED_H
 
@@ -12,11 +11,17 @@ typedef struct sw_meshed {
   sw_trimesh mesh;
 } sw_meshed;
 
+static inline const sw_trimesh *sw_trimesh_of(const sw_shape *shape) {
+  return &((const sw_meshed *)shape)->mesh;
+}
+
 int sw_meshed_distance(const sw_shape *shape, sw_vec p, double reach, sw_closest *out);
+/* Copies the triangles for drawing; visits corners and edges as bones. */
 sw_status sw_meshed_triangles(const sw_shape *shape, int around, sw_triangles *out);
 void sw_meshed_bones(const sw_shape *shape, sw_bone_visit visit, void *user);
-sw_sharp sw_meshed_sharp(const sw_shape *shape, int feature, sw_vec *along);
+/* 1: some edges are so blunt that they approximate a round surface. */
 int sw_meshed_faceted(const sw_shape *shape);
+sw_sharp sw_meshed_sharp(const sw_shape *shape, int feature, sw_vec *along);
 void sw_meshed_ridges(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_ridge_visit visit,
                       void *user);
 int sw_meshed_points_out(const sw_shape *shape, const sw_ridge *ridge, sw_vec n, double share);

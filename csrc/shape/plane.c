@@ -11,14 +11,13 @@ typedef struct plane_args {
   sw_vec normal;
 } plane_args;
 
-static sw_status create(sw_shape *shape, const void *args, const sw_shape_source *source,
+static sw_status create(sw_shape *shape, const void *args, const sw_shape_source *source SW_UNUSED,
                         sw_error *err) {
   plane *self = (plane *)shape;
   const sw_vec up = sw_v(0, 0, 1);
   const sw_vec given = ((const plane_args *)args)->normal;
   const sw_vec n = isnan(given.x) ? up : given;
   const double size = fmax(fmax(fabs(n.x), fabs(n.y)), fabs(n.z));
-  (void)source;
   if (!(size > 0))
     return sw_fail(err, SW_EINVAL, "obstacle plane: normal = {0, 0, 0} has no direction");
   self->normal = sw_unit_or(sw_v(n.x / size, n.y / size, n.z / size), up);
@@ -38,8 +37,8 @@ static int distance(const sw_shape *shape, sw_vec p, double reach, sw_closest *o
 }
 
 /* The distance is linear along a segment, so it has no minimum between the ends. */
-static int segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_closest *out) {
-  (void)shape, (void)a, (void)b, (void)reach, (void)out;
+static int segment(const sw_shape *shape SW_UNUSED, sw_vec a SW_UNUSED, sw_vec b SW_UNUSED,
+                   double reach SW_UNUSED, sw_closest *out SW_UNUSED) {
   return 0;
 }
 

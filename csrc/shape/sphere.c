@@ -11,10 +11,9 @@ typedef struct sphere_args {
   double radius;
 } sphere_args;
 
-static sw_status create(sw_shape *shape, const void *args, const sw_shape_source *source,
-                        sw_error *err) {
+static sw_status create(sw_shape *shape, const void *args, const sw_shape_source *source SW_UNUSED,
+                        sw_error *err SW_UNUSED) {
   const double r = ((const sphere_args *)args)->radius;
-  (void)source, (void)err;
   ((sphere *)shape)->radius = r;
   shape->bounds = (sw_bounds){{-r, -r, -r}, {r, r, r}};
   return SW_OK;
@@ -62,8 +61,7 @@ static void bones(const sw_shape *shape, sw_bone_visit visit, void *user) {
   visit(user, middle, middle, ((const sphere *)shape)->radius);
 }
 
-static double middle(const sw_shape *shape, sw_vec p, sw_vec *q, sw_vec *along) {
-  (void)p;
+static double middle(const sw_shape *shape, sw_vec p SW_UNUSED, sw_vec *q, sw_vec *along) {
   *q = *along = sw_v(0, 0, 0);
   return ((const sphere *)shape)->radius;
 }

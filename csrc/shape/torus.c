@@ -17,11 +17,10 @@ typedef struct torus_args {
   double radius, tube;
 } torus_args;
 
-static sw_status create(sw_shape *shape, const void *args, const sw_shape_source *source,
+static sw_status create(sw_shape *shape, const void *args, const sw_shape_source *source SW_UNUSED,
                         sw_error *err) {
   const torus_args *given = args;
   torus *self = (torus *)shape;
-  (void)source;
   if (!(given->tube < given->radius))
     return sw_fail(err, SW_EINVAL,
                    "obstacle torus: tube = %g m is not allowed; it must be below radius = %g m",

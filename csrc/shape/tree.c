@@ -92,7 +92,7 @@ static void find_centres(const sw_bounds *boxes, size_t count, double *out) {
 sw_status sw_box_tree_new(const sw_bounds *boxes, const double *centres, size_t count,
                           sw_box_tree *out) {
   double *own = centres ? NULL : sw_alloc(3 * count, sizeof *own);
-  *out = (sw_box_tree){.count = count};
+  *out = (sw_box_tree){.nodes = NULL};
   out->nodes = sw_alloc(2 * count, sizeof *out->nodes);
   out->order = sw_alloc(count, sizeof *out->order);
   sw_status status = out->nodes && out->order && (centres || own) ? SW_OK : SW_ENOMEM;
@@ -112,7 +112,7 @@ sw_status sw_box_tree_new(const sw_bounds *boxes, const double *centres, size_t 
 void sw_box_tree_free(sw_box_tree *tree) {
   sw_free(tree->nodes);
   sw_free(tree->order);
-  *tree = (sw_box_tree){.count = 0};
+  *tree = (sw_box_tree){.nodes = NULL};
 }
 
 void sw_box_tree_refit(sw_box_tree *tree, const sw_bounds *boxes) {

@@ -22,7 +22,6 @@ typedef struct sw_box_tree {
   sw_tree_node *nodes; /* (2 count) the root first */
   size_t node_count;
   int *order; /* (count) numbers of the things, in leaf order */
-  size_t count;
 } sw_box_tree;
 
 /* Makes a tree of things with these boxes (count), split by their centres (count x 3); centres

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cleaning of a triangle surface, and the sequence of its build. */
+/* Cleaning of a triangle surface, the tree over its triangles, and the sequence of its build. */
 #include "shape/trimesh.h"
 
 #include <stdint.h>
@@ -7,6 +7,7 @@
 
 #include "base/alloc.h"
 #include "base/interrupt.h"
+#include "shape/meshed.h"
 
 /* Vertices nearer than this share of the largest extent are joined. Files with floats round
  * coordinates to 6e-8 of their size [-]. */
@@ -139,6 +140,48 @@ static sw_status clean(sw_trimesh *mesh, const char *object, const double *verti
   return status;
 }
 
+static sw_bounds box_of(const sw_triangle *t) {
+  const sw_vec a = t->v[0], b = t->v[1], c = t->v[2];
+  return (sw_bounds){
+      sw_v(fmin(fmin(a.x, b.x), c.x), fmin(fmin(a.y, b.y), c.y), fmin(fmin(a.z, b.z), c.z)),
+      sw_v(fmax(fmax(a.x, b.x), c.x), fmax(fmax(a.y, b.y), c.y), fmax(fmax(a.z, b.z), c.z))};
+}
+
+/* Puts the triangles into leaf order. */
+static void reorder(sw_trimesh *mesh, const int *order, int *indices, double *normals) {
+  for (size_t i = 0; i < mesh->triangle_count; i++) {
+    memcpy(indices + 3 * i, mesh->indices + 3 * (size_t)order[i], 3 * sizeof *indices);
+    memcpy(normals + 3 * i, mesh->normals + 3 * (size_t)order[i], 3 * sizeof *normals);
+  }
+  sw_free(mesh->indices), sw_free(mesh->normals);
+  mesh->indices = indices, mesh->normals = normals;
+}
+
+static sw_status build_tree(sw_trimesh *mesh) {
+  const size_t n = mesh->triangle_count;
+  sw_box_tree tree = {.nodes = NULL};
+  double *centres = sw_alloc(3 * n, sizeof *centres), *normals = sw_alloc(3 * n, sizeof *normals);
+  int *indices = sw_alloc(3 * n, sizeof *indices);
+  sw_bounds *boxes = (sw_bounds *)sw_alloc(n, sizeof *boxes);
+  sw_status status = centres && normals && indices && boxes ? SW_OK : SW_ENOMEM;
+  for (size_t i = 0; status == SW_OK && i < n; i++) {
+    const sw_triangle t = sw_trimesh_triangle(mesh, (int)i);
+    boxes[i] = box_of(&t);
+    sw_store(centres + 3 * i, sw_scale(sw_add(sw_add(t.v[0], t.v[1]), t.v[2]), 1.0 / 3));
+  }
+  if (status == SW_OK) status = sw_box_tree_new(boxes, centres, n, &tree);
+  if (status == SW_OK) {
+    reorder(mesh, tree.order, indices, normals);
+    mesh->nodes = tree.nodes, mesh->node_count = tree.node_count;
+    tree.nodes = NULL;
+  } else {
+    sw_free(normals), sw_free(indices);
+  }
+  sw_box_tree_free(&tree);
+  sw_free(centres), sw_free(boxes);
+  return status;
+}
+
 static sw_status check_counts(const char *object, size_t vertex_count, const int *indices,
                               size_t triangle_count, sw_error *err) {
   if (vertex_count == 0 || triangle_count == 0)
@@ -161,7 +204,7 @@ sw_status sw_trimesh_build(sw_trimesh *mesh, const char *object, const double *v
   if (status == SW_OK && mesh->triangle_count == 0)
     return sw_fail(err, SW_EINVAL, "%s: none of the %zu triangles has an area", object,
                    triangle_count);
-  if (status == SW_OK) status = sw_trimesh_tree(mesh);
+  if (status == SW_OK) status = build_tree(mesh);
   if (status == SW_OK) status = sw_trimesh_topology(mesh, object, err);
   if (status == SW_ENOMEM) return sw_fail(err, status, "%s: out of memory", object);
   return status;
@@ -173,14 +216,16 @@ void sw_trimesh_free(sw_trimesh *mesh) {
   memset(mesh, 0, sizeof *mesh);
 }
 
-sw_status sw_trimesh_triangles(const sw_trimesh *mesh, sw_triangles *out) {
+sw_status sw_meshed_triangles(const sw_shape *shape, int around SW_UNUSED, sw_triangles *out) {
+  const sw_trimesh *mesh = sw_trimesh_of(shape);
   SW_TRY(sw_triangles_new(mesh->vertex_count, mesh->triangle_count, out));
   memcpy(out->vertices, mesh->vertices, 3 * mesh->vertex_count * sizeof *out->vertices);
   memcpy(out->indices, mesh->indices, 3 * mesh->triangle_count * sizeof *out->indices);
   return SW_OK;
 }
 
-void sw_trimesh_bones(const sw_trimesh *mesh, sw_bone_visit visit, void *user) {
+void sw_meshed_bones(const sw_shape *shape, sw_bone_visit visit, void *user) {
+  const sw_trimesh *mesh = sw_trimesh_of(shape);
   for (size_t v = 0; v < mesh->vertex_count; v++) {
     const sw_vec corner = sw_trimesh_vertex(mesh, (int)v);
     visit(user, corner, corner, 0);

@@ -55,8 +55,7 @@ sw_status sw_trimesh_build(sw_trimesh *mesh, const char *object, const double *v
                            sw_error *err);
 void sw_trimesh_free(sw_trimesh *mesh);
 
-/* Parts of the build, one per file. */
-sw_status sw_trimesh_tree(sw_trimesh *mesh);
+/* A part of the build. */
 sw_status sw_trimesh_topology(sw_trimesh *mesh, const char *object, sw_error *err);
 
 /* Calls visit for every triangle in leaves whose box, widened by reach on all sides, meets the
@@ -69,18 +68,6 @@ void sw_trimesh_near(const sw_trimesh *mesh, sw_vec a, sw_vec b, double reach,
 int sw_trimesh_distance(const sw_trimesh *mesh, sw_vec p, double reach, sw_closest *out);
 int sw_trimesh_segment(const sw_trimesh *mesh, sw_vec a, sw_vec b, double reach, sw_closest *out);
 int sw_trimesh_sweep(const sw_trimesh *mesh, const sw_sweep *path, sw_closest *out, double *when);
-
-/* Copies the triangles for drawing; visits corners and edges as bones. */
-sw_status sw_trimesh_triangles(const sw_trimesh *mesh, sw_triangles *out);
-void sw_trimesh_bones(const sw_trimesh *mesh, sw_bone_visit visit, void *user);
-
-/* 1: some edges are so blunt that they approximate a round surface. */
-int sw_trimesh_faceted(const sw_trimesh *mesh);
-/* Like sw_shape_sharp, sw_shape_ridges and sw_shape_points_out. */
-sw_sharp sw_trimesh_sharp(const sw_trimesh *mesh, int feature, sw_vec *along);
-void sw_trimesh_ridges(const sw_trimesh *mesh, sw_vec a, sw_vec b, double reach,
-                       sw_ridge_visit visit, void *user);
-int sw_trimesh_points_out(const sw_trimesh *mesh, const sw_ridge *ridge, sw_vec n, double share);
 
 /* Features are numbered triangles first, then edges, then corners. */
 static inline int sw_trimesh_edge_feature(const sw_trimesh *mesh, int edge) {

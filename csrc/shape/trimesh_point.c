@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Signed distance of a point from a mesh: the nearest triangle by branch and bound, the sign by the
  * normal of the nearest face, edge or corner. */
-#include "shape/trimesh.h"
+#include "shape/meshed.h"
 
 typedef struct nearest {
   double d2; /* squared distance [m2] */
@@ -100,4 +100,8 @@ int sw_trimesh_distance(const sw_trimesh *mesh, sw_vec p, double reach, sw_close
   if (best.tri < 0) return 0;
   sign(mesh, p, &best, out);
   return out->gap < reach;
+}
+
+int sw_meshed_distance(const sw_shape *shape, sw_vec p, double reach, sw_closest *out) {
+  return sw_trimesh_distance(sw_trimesh_of(shape), p, reach, out);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The convex edges and corners of a mesh, as lines and points for contact. */
-#include "shape/trimesh.h"
+#include "shape/meshed.h"
 
 /* Sine of the angle between an edge's faces. Below LEVEL the faces are one face, rounded by the
  * file. Below BLUNT (25 degrees) they approximate a round surface [-]. */
@@ -10,13 +10,15 @@ static int sticks_out(const sw_trimesh_edge *edge) {
   return (edge->flags & SW_CONVEX) && edge->sine > LEVEL;
 }
 
-int sw_trimesh_faceted(const sw_trimesh *mesh) {
+int sw_meshed_faceted(const sw_shape *shape) {
+  const sw_trimesh *mesh = sw_trimesh_of(shape);
   for (size_t e = 0; e < mesh->edge_count; e++)
     if (sticks_out(&mesh->edges[e]) && mesh->edges[e].sine < BLUNT) return 1;
   return 0;
 }
 
-sw_sharp sw_trimesh_sharp(const sw_trimesh *mesh, int feature, sw_vec *along) {
+sw_sharp sw_meshed_sharp(const sw_shape *shape, int feature, sw_vec *along) {
+  const sw_trimesh *mesh = sw_trimesh_of(shape);
   const int edge = feature - sw_trimesh_edge_feature(mesh, 0);
   const int corner = feature - sw_trimesh_corner_feature(mesh, 0);
   if (corner >= 0) return mesh->corners[corner].flags & SW_CONVEX ? SW_SHARP_CORNER : SW_SHARP_NOT;
@@ -62,10 +64,10 @@ static void show(void *context, int tri) {
   }
 }
 
-void sw_trimesh_ridges(const sw_trimesh *mesh, sw_vec a, sw_vec b, double reach,
-                       sw_ridge_visit visit, void *user) {
-  tour t = {mesh, visit, user};
-  sw_trimesh_near(mesh, a, b, reach, show, &t);
+void sw_meshed_ridges(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_ridge_visit visit,
+                      void *user) {
+  tour t = {sw_trimesh_of(shape), visit, user};
+  sw_trimesh_near(t.mesh, a, b, reach, show, &t);
 }
 
 /* 1 if n points away from the edge's faces. A border of an open surface can be touched from both
@@ -89,7 +91,8 @@ static int off_corner(const sw_trimesh *mesh, int v, sw_vec n, double share) {
   return 1;
 }
 
-int sw_trimesh_points_out(const sw_trimesh *mesh, const sw_ridge *ridge, sw_vec n, double share) {
+int sw_meshed_points_out(const sw_shape *shape, const sw_ridge *ridge, sw_vec n, double share) {
+  const sw_trimesh *mesh = sw_trimesh_of(shape);
   if (ridge->sharp == SW_SHARP_EDGE)
     return off_edge(&mesh->edges[ridge->feature - sw_trimesh_edge_feature(mesh, 0)], n, share);
   return off_corner(mesh, ridge->feature - sw_trimesh_corner_feature(mesh, 0), n, share);

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "base/clear.h"
 #include "base/simd.h"
 #include "solve/blocks_front.h"
 
@@ -51,8 +50,6 @@ size_t sw_rings_slot(const sw_rings *r, size_t i, size_t j) {
   if (j > i || ring - other > 1 || ring >= r->rings) return SIZE_MAX;
   return 3 * i * r->stride + (ring == other) * r->padded + 3 * (j - other * r->per_ring);
 }
-
-void sw_rings_clear(sw_rings *r) { sw_clear(r->values, r->rings * r->n * r->stride); }
 
 void sw_rings_pad(const sw_rings *r, const double *x, double *padded) {
   for (size_t k = 0; k < r->rings; k++, padded += r->padded) {

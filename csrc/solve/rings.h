@@ -25,9 +25,7 @@ typedef struct sw_rings {
 sw_status sw_rings_new(size_t rings, size_t per_ring, sw_rings **out);
 void sw_rings_free(sw_rings *rings); /* NULL is allowed */
 size_t sw_rings_slot(const sw_rings *rings, size_t i, size_t j);
-void sw_rings_clear(sw_rings *rings);
 sw_status sw_rings_factor(sw_rings *rings, const unsigned char *fixed, size_t *negative);
-double sw_rings_work(size_t rings, size_t per_ring); /* products [-] */
 void sw_rings_solve(const sw_rings *rings, double *x);
 void sw_rings_multiply(const sw_rings *rings, const double *x, double *y);
 void sw_rings_row_times(const sw_rings *rings, size_t node, const double *x, double y[3]);

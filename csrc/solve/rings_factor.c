@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "solve/blocks.h"
 #include "solve/blocks_front.h"
 #include "solve/rings.h"
 
@@ -59,7 +60,7 @@ sw_status sw_rings_factor(sw_rings *r, const unsigned char *fixed, size_t *negat
 
 /* Half a cube for the part of the next ring in a ring's own rows, half a cube for the columns
  * before them, a sixth for the rows themselves. */
-double sw_rings_work(size_t rings, size_t per_ring) {
+double sw_blocks_rings_work(size_t rings, size_t per_ring) {
   const double n = 3.0 * (double)per_ring, joints = (double)(rings - 1);
   return n * n * n * (joints / 2 + joints / 2 + (double)rings / 6);
 }

@@ -47,7 +47,7 @@ static sw_status find_column(sw_sparse *s, analysis *a, uint32_t k) {
   size_t most = (size_t)(a->first[node + 1] - a->first[node]);
   for (uint32_t c = a->child[k]; c != none; c = a->sibling[c])
     most += s->start[c + 1] - s->start[c];
-  SW_TRY(sw_grow((void **)&s->row, &a->row_capacity, s->fill + most + 1, sizeof *s->row));
+  SW_TRY(SW_GROW(s->row, a->row_capacity, s->fill + most + 1));
   uint32_t *rows = s->row + s->fill;
   size_t count = 0;
   a->seen[k] = k;
@@ -172,7 +172,7 @@ sw_status sw_sparse_new(size_t nodes, size_t block, const sw_couple *pairs, size
                         sw_sparse *old, sw_sparse **out) {
   sw_sparse *s = sw_alloc(1, sizeof *s);
   if (!s) return SW_ENOMEM;
-  s->n = nodes, s->block = block, s->pairs = count;
+  s->n = nodes, s->block = block;
   s->along = old && old->along && block == old->block;
   s->slot = sw_alloc(count, sizeof *s->slot);
   sw_status status = s->slot && nodes < INT32_MAX / 4 && count < INT32_MAX / 4 ? SW_OK : SW_ENOMEM;

@@ -14,7 +14,7 @@
 typedef double sw_two __attribute__((vector_size(16)));
 
 struct sw_sparse {
-  size_t n, block, pairs;
+  size_t n, block;
   sw_blocks *fronts;     /* the matrix, if L is dense enough; then only slot is used as well */
   int along;             /* 1: the fronts are eliminated in the order from end to end */
   uint32_t *place;       /* (n) node -> its number in the elimination */

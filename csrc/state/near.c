@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Nodes of a bent wire near a hold: on its curve, and with its bend in the hinges beside a clamp.
  */
-#include "state/near.h"
-
 #include <math.h>
 #include <string.h>
 
@@ -46,7 +44,8 @@ int sw_mesh_is_bent_near(const sw_mesh *m, size_t i) {
   return is_bent(m, lo, hi);
 }
 
-sw_mesh sw_mesh_stretch(const sw_mesh *m, size_t lo, size_t hi) {
+/* Returns nodes lo to hi of a mesh, in the mesh's own arrays. */
+static sw_mesh stretch_of(const sw_mesh *m, size_t lo, size_t hi) {
   sw_mesh part = *m;
   part.n = hi - lo + 1;
   part.s += lo, part.tension += lo, part.rate += lo;
@@ -67,7 +66,8 @@ static sw_status copy_chords(const sw_mesh *m, sw_mesh *to) {
   return SW_OK;
 }
 
-int sw_mesh_is_near(const sw_mesh *from, const sw_mesh *to, size_t i) {
+/* 1 if no inner node, but node i, moved far. */
+static int is_near(const sw_mesh *from, const sw_mesh *to, size_t i) {
   for (size_t k = 1; k + 1 < from->n; k++) {
     const double edge = fmin(from->s[k + 1] - from->s[k], from->s[k] - from->s[k - 1]);
     const double way = sw_dist(sw_vec_at(from->x, k), sw_vec_at(to->x, k));
@@ -80,7 +80,8 @@ static void copy(double *to, const double *from, size_t width, size_t first, siz
   if (to) memcpy(to + width * first, from + width * first, width * (end - first) * sizeof *to);
 }
 
-void sw_mesh_copy_inner(const sw_mesh *from, sw_mesh *to) {
+/* Copies inner nodes, and the frames of edges. */
+static void copy_inner(const sw_mesh *from, sw_mesh *to) {
   const size_t last = to->n - 1;
   copy(to->x, from->x, 3, 1, last);
   copy(to->v, from->v, 3, 1, last);
@@ -95,14 +96,14 @@ void sw_mesh_copy_inner(const sw_mesh *from, sw_mesh *to) {
 /* Puts the nodes between lo and hi on the curve through the nodes before. i: the node that may go
  * far, or none. */
 static sw_status put_on_curve(sw_mesh *m, size_t lo, size_t hi, size_t i, const sw_mesh *before) {
-  sw_mesh part = sw_mesh_stretch(m, lo, hi), chords = {0}, fresh = {0};
+  sw_mesh part = stretch_of(m, lo, hi), chords = {0}, fresh = {0};
   if (!is_bent(m, lo, hi)) return SW_OK;
   const sw_mesh was =
-      sw_mesh_stretch(before, sw_mesh_node(before, m->s[lo]), sw_mesh_node(before, m->s[hi]));
+      stretch_of(before, sw_mesh_node(before, m->s[lo]), sw_mesh_node(before, m->s[hi]));
   const double held[4] = {m->s[lo], m->s[lo], m->s[hi], m->s[hi]};
   sw_status status = copy_chords(&was, &chords);
   if (status == SW_OK) status = sw_mesh_resample(&chords, part.s, part.n, held, 2, &fresh);
-  if (status == SW_OK && sw_mesh_is_near(&part, &fresh, i - lo)) sw_mesh_copy_inner(&fresh, &part);
+  if (status == SW_OK && is_near(&part, &fresh, i - lo)) copy_inner(&fresh, &part);
   sw_mesh_free(&chords);
   sw_mesh_free(&fresh);
   return status;
@@ -115,7 +116,8 @@ sw_status sw_mesh_smooth(sw_mesh *m, size_t i, const sw_mesh *before, const doub
   return put_on_curve(m, lo, hi, i, before);
 }
 
-int sw_mesh_is_kept(const double *keep, size_t count, double s) {
+/* 1 if s is one of the arc lengths to keep (count) [m]. */
+static int is_kept(const double *keep, size_t count, double s) {
   for (size_t k = 0; k < count; k++)
     if (keep[k] == s) return 1;
   return 0;
@@ -133,8 +135,8 @@ sw_status sw_mesh_halve(sw_mesh *m, double low, double high, const double *keep,
   const size_t first = sw_mesh_node(m, low), last = sw_mesh_node(m, high);
   find_reach(m, first, first, keep, count, &lo, &none);
   find_reach(m, last, last, keep, count, &none, &hi);
-  if (sw_mesh_is_kept(keep, count, low)) lo = first;
-  if (sw_mesh_is_kept(keep, count, high)) hi = last;
+  if (is_kept(keep, count, low)) lo = first;
+  if (is_kept(keep, count, high)) hi = last;
   if (status == SW_OK && (m->rest || !m->drawn)) status = put_on_curve(m, lo, hi, m->n, &before);
   sw_mesh_free(&before);
   return status;
@@ -211,13 +213,13 @@ sw_status sw_mesh_lean(sw_mesh *m, size_t first, size_t last, int way, const dou
   add_offset(m, first, -1, &sum, &weights);
   add_offset(m, last, 1, &sum, &weights);
   if (!(weights > 0) || m->drawn || !is_bent(m, lo, hi)) return SW_OK;
-  sw_mesh part = sw_mesh_stretch(m, lo, hi);
+  sw_mesh part = stretch_of(m, lo, hi);
   const double held[6] = {m->s[lo], m->s[lo], m->s[first], m->s[last], m->s[hi], m->s[hi]};
   sw_status status = copy_chords(&part, &chords);
   if (status == SW_OK) shift(&part, &chords, first - lo, last - lo, sw_scale(sum, way / weights));
   if (status == SW_OK) status = sw_mesh_resample(&chords, part.s, part.n, held, 3, &fresh);
-  if (status == SW_OK && sw_mesh_is_near(&part, &fresh, part.n)) {
-    sw_mesh_copy_inner(&fresh, &part);
+  if (status == SW_OK && is_near(&part, &fresh, part.n)) {
+    copy_inner(&fresh, &part);
     copy(part.x, fresh.x, 3, 0, part.n); /* its ends too, where they are the wire's */
   }
   sw_mesh_free(&chords);

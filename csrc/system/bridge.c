@@ -41,8 +41,7 @@ sw_status sw_system_begin_plan(sw_system *s) {
 sw_status sw_system_plan_bridge(sw_system *s, size_t i, size_t j) {
   struct sw_bridges *l = bridges_of(s);
   if (!l) return SW_ENOMEM;
-  SW_TRY(sw_grow((void **)&l->planned, &l->planned_capacity, l->planned_count + 1,
-                 sizeof *l->planned));
+  SW_TRY(SW_GROW(l->planned, l->planned_capacity, l->planned_count + 1));
   l->planned[l->planned_count++] =
       (sw_couple){(uint32_t)(i < j ? i : j), (uint32_t)(i < j ? j : i)};
   return SW_OK;
@@ -51,7 +50,7 @@ sw_status sw_system_plan_bridge(sw_system *s, size_t i, size_t j) {
 sw_status sw_system_add_bridge(sw_system *s, size_t i, size_t j, const double k[9]) {
   struct sw_bridges *l = bridges_of(s);
   if (!l) return SW_ENOMEM;
-  SW_TRY(sw_grow((void **)&l->list, &l->capacity, l->count + 1, sizeof *l->list));
+  SW_TRY(SW_GROW(l->list, l->capacity, l->count + 1));
   sw_bridge *at = &l->list[l->count++];
   if (i < j) {
     *at = (sw_bridge){(uint32_t)i, (uint32_t)j, {0}, NONE};
@@ -92,7 +91,7 @@ static void enter(struct sw_bridges *l, uint32_t number) {
 static sw_status make_table(struct sw_bridges *l, size_t count) {
   size_t size = 64;
   while (size < 2 * count) size *= 2;
-  SW_TRY(sw_grow((void **)&l->table, &l->table_capacity, size, sizeof *l->table));
+  SW_TRY(SW_GROW(l->table, l->table_capacity, size));
   l->table_size = size;
   memset(l->table, 0, size * sizeof *l->table);
   for (size_t k = 0; k < l->known_count; k++) enter(l, (uint32_t)k);
@@ -103,7 +102,7 @@ static sw_status make_table(struct sw_bridges *l, size_t count) {
 static sw_status add_known(struct sw_bridges *l, uint32_t i, uint32_t j, uint32_t *number) {
   *number = find(l, i, j);
   if (*number != NONE) return SW_OK;
-  SW_TRY(sw_grow((void **)&l->known, &l->known_capacity, l->known_count + 1, sizeof *l->known));
+  SW_TRY(SW_GROW(l->known, l->known_capacity, l->known_count + 1));
   if (2 * l->known_count >= l->table_size) SW_TRY(make_table(l, 2 * l->known_count + 1));
   l->known[l->known_count] = (sw_couple){i, j};
   *number = (uint32_t)l->known_count++;
@@ -119,7 +118,7 @@ static sw_status take_plan(struct sw_bridges *l) {
   l->anew = 0;
   if (!more && n == l->taken_count && (!n || !memcmp(l->planned, l->taken, n * sizeof *l->planned)))
     return SW_OK;
-  SW_TRY(sw_grow((void **)&l->taken, &l->taken_capacity, n, sizeof *l->taken));
+  SW_TRY(SW_GROW(l->taken, l->taken_capacity, n));
   if (n) memcpy(l->taken, l->planned, n * sizeof *l->taken);
   l->taken_count = n;
   l->known_count = 0;
@@ -156,8 +155,8 @@ static sw_status number_nodes(sw_system *s) {
     for (size_t i = 0; i < body->plan->nodes; i++)
       l->number[body->first_node + i] = body->bridged ? (uint32_t)l->nodes++ : NONE;
   }
-  SW_TRY(sw_grow((void **)&l->right, &l->right_capacity, l->block * l->nodes, sizeof *l->right));
-  return sw_grow((void **)&l->x, &l->x_capacity, l->block * l->nodes, sizeof *l->x);
+  SW_TRY(SW_GROW(l->right, l->right_capacity, l->block * l->nodes));
+  return SW_GROW(l->x, l->x_capacity, l->block * l->nodes);
 }
 
 /* Lists a web's pairs in the matrix's numbers. */
@@ -178,7 +177,7 @@ static sw_status list_pairs(sw_system *s) {
   size_t n = 0, room = 2 * l->nodes + l->known_count;
   for (size_t b = 0; b < s->body_count; b++)
     if (s->bodies[b].bridged && s->bodies[b].plan->web) room += sw_web_couples_room(&s->bodies[b]);
-  SW_TRY(sw_grow((void **)&l->pairs, &l->pair_capacity, room, sizeof *l->pairs));
+  SW_TRY(SW_GROW(l->pairs, l->pair_capacity, room));
   for (size_t b = 0; b < s->body_count; b++) {
     if (!s->bodies[b].bridged) continue;
     const size_t count = s->bodies[b].plan->nodes;

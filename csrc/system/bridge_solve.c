@@ -160,7 +160,7 @@ static sw_status solve_slopes(sw_system *s, size_t count) {
   struct sw_bridges *l = s->bridges;
   const size_t n = l->block * l->nodes;
   size_t k = 0;
-  SW_TRY(sw_grow((void **)&l->spans, &l->span_capacity, count * (n + count + 1), sizeof *l->spans));
+  SW_TRY(SW_GROW(l->spans, l->span_capacity, count * (n + count + 1)));
   for (size_t b = 0; b < s->body_count; b++) {
     sw_body *body = &s->bodies[b];
     if (!body->bridged || !body->has_twist) continue;

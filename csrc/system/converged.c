@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Convergence of a stage's iterate. */
-#include "system/converged.h"
-
 #include <math.h>
 
 #include "system/assemble.h"
@@ -9,6 +7,7 @@
 #include "system/join.h"
 #include "system/part.h"
 #include "system/rail.h"
+#include "system/stage_parts.h"
 #include "system/web.h"
 
 /* Like fmax, but inline: these loops run over all numbers of a wire in each iteration. */

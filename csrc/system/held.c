@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Held nodes in a body's equations: takes them out and computes their reactions. */
-#include "system/held.h"
-
 #include <string.h>
 
 #include "solve/band3.h"
 #include "system/assemble.h"
 #include "system/rail.h"
 #include "system/spin.h"
+#include "system/stage_parts.h"
 #include "system/twist.h"
 #include "system/web.h"
 

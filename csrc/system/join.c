@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "solve/band3.h"
 #include "solve/rotation.h"
 #include "state/tie.h"
@@ -60,8 +61,7 @@ sw_status sw_joins_plan(sw_system *s) {
 sw_status sw_system_add_spring(sw_system *s, const sw_join_spring *spring) {
   struct sw_joins *all = joins_of(s);
   if (!all) return SW_ENOMEM;
-  SW_TRY(sw_grow((void **)&all->springs, &all->spring_capacity, all->spring_count + 1,
-                 sizeof *all->springs));
+  SW_TRY(SW_GROW(all->springs, all->spring_capacity, all->spring_count + 1));
   all->springs[all->spring_count++] = *spring;
   return plan(s, spring->i, spring->j);
 }
@@ -69,7 +69,7 @@ sw_status sw_system_add_spring(sw_system *s, const sw_join_spring *spring) {
 sw_status sw_system_add_hub(sw_system *s, const sw_join_hub *hub) {
   struct sw_joins *all = joins_of(s);
   if (!all) return SW_ENOMEM;
-  SW_TRY(sw_grow((void **)&all->hubs, &all->hub_capacity, all->hub_count + 1, sizeof *all->hubs));
+  SW_TRY(SW_GROW(all->hubs, all->hub_capacity, all->hub_count + 1));
   all->hubs[all->hub_count++] = *hub;
   return plan_hub(s, hub);
 }
@@ -334,12 +334,10 @@ static int wake(sw_system *s, uint32_t node, uint32_t other) {
 static int wake_once(sw_system *s) {
   const struct sw_joins *all = s->joins;
   int any = 0;
-  for (size_t k = 0; k < all->spring_count; k++) {
-    const sw_join_spring *p = &all->springs[k];
+  SW_ITEMS(const sw_join_spring, p, all->springs, all->spring_count) {
     any |= wake(s, p->i, p->j) | wake(s, p->j, p->i);
   }
-  for (size_t k = 0; k < all->hub_count; k++) {
-    const sw_join_hub *h = &all->hubs[k];
+  SW_ITEMS(const sw_join_hub, h, all->hubs, all->hub_count) {
     for (size_t a = 0; a < h->count * h->count; a++)
       any |= wake(s, h->arms[a / h->count].from, h->arms[a % h->count].from);
   }

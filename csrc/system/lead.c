@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Statics: the held nodes' remaining distance in the equations, and repeated solves of touching
  * wires. */
-#include "system/lead.h"
-
 #include "base/each.h"
+#include "system/stage_parts.h"
 
 /* Largest number of repeated solves at one place while touches come and go. */
 enum { MOST_WAITS = 40 };

@@ -30,8 +30,7 @@ static const double *of(const sw_system *s, const sw_body *b, const double *free
   return freedoms + 3 * s->nodes + b->first_roll;
 }
 
-void sw_roll_begin(const sw_system *s, sw_body *b) {
-  (void)s;
+void sw_roll_begin(const sw_system *s SW_UNUSED, sw_body *b) {
   if (!b->roll_block) return;
   const size_t m = b->plan->edges;
   memset(b->roll_turn, 0, m * sizeof(double));

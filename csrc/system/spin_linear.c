@@ -14,10 +14,7 @@ static void each_held(const sw_system *s, const sw_body *b, visit what, double *
   }
 }
 
-static void count(double *turns, size_t edge) {
-  (void)edge;
-  *turns += 1;
-}
+static void count(double *turns, size_t edge SW_UNUSED) { *turns += 1; }
 static void stop(double *turns, size_t edge) { turns[4 * edge] = 0; }
 static void fix(double *turns, size_t edge) { turns[SW_ROW4_SIZE * edge] = 1; }
 

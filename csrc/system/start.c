@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Checks if a free flight turns edges over. */
-#include "system/start.h"
-
 #include "base/each.h"
 #include "base/simd.h"
+#include "system/stage_parts.h"
 #include "system/web.h"
 
 /* An edge counts as turned over if its projection on its old direction is below this share of its

@@ -192,8 +192,7 @@ void sw_system_strain_from_state(sw_system *s) {
   if (!s->strain) return;
   keep_places(s, s->x, s->strain);
   memset(s->strain_rate + s->edges, 0, (s->strains - s->edges) * sizeof *s->strain_rate);
-  for (size_t i = 0; i < s->body_count; i++) {
-    const sw_body *b = &s->bodies[i];
+  SW_ITEMS(const sw_body, b, s->bodies, s->body_count) {
     if (!(b->axial_time > 0)) continue;
     for (size_t e = 0; e < sw_plan_axial(b->plan); e++) {
       const double T = s->tension[b->first_edge + e], k = sw_body_axial(b, e);

@@ -34,8 +34,7 @@ void sw_spots_add(sw_spots *g, const sw_system *s, sw_spot spot, const sw_mean *
   if (!sw_press_slides(spot.press, spot.friction)) return;
   add_place(&spot, &s->bodies[body_one], one, 1.0);
   if (two) add_place(&spot, &s->bodies[body_two], two, -1.0);
-  if (sw_grow((void **)&g->list, &g->capacity, g->count + 1, sizeof *g->list) == SW_OK)
-    g->list[g->count++] = spot;
+  if (SW_GROW(g->list, g->capacity, g->count + 1) == SW_OK) g->list[g->count++] = spot;
 }
 
 static sw_vec shift_of(const sw_spot *t, const double *delta) {
@@ -148,9 +147,8 @@ static void mix(mixing *m) {
 
 void sw_spots_follow(sw_spots *g, sw_system *s) {
   if (!sw_bridges_solves_again(s) || !lags(g, s->delta)) return;
-  if (sw_grow((void **)&g->more, &g->room, 3 * s->nodes, sizeof *g->more) != SW_OK) return;
-  if (sw_grow((void **)&g->mixed, &g->mixed_room, VECTORS * g->count, sizeof *g->mixed) != SW_OK)
-    return;
+  if (SW_GROW(g->more, g->room, 3 * s->nodes) != SW_OK) return;
+  if (SW_GROW(g->mixed, g->mixed_room, VECTORS * g->count) != SW_OK) return;
   mixing m = mixing_in(g->mixed, g->count);
   look(&m, g, s->delta);
   const double before = dot(m.off, m.off, m.n);

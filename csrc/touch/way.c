@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 
 sw_vec sw_press_at(const sw_press *p, double friction, sw_vec s) {
   const double across = sw_dot(p->normal, s), N = fmax(0.0, -p->k * (p->gap + across));
@@ -48,7 +49,7 @@ static double assumed(sw_press *p, double friction, sw_vec s, sw_vec along) {
 
 void sw_ways_add(sw_ways *w, sw_press *press, double friction, sw_vec shift) {
   if (!press->active && !sw_press_closes(press, shift)) return;
-  if (sw_grow((void **)&w->list, &w->capacity, w->count + 1, sizeof *w->list) != SW_OK) return;
+  if (SW_GROW(w->list, w->capacity, w->count + 1) != SW_OK) return;
   const double begins = assumed(press, friction, sw_v(0, 0, 0), shift);
   w->list[w->count++] =
       (sw_way){press, friction, shift, begins, assumed(press, friction, shift, shift)};
@@ -60,8 +61,7 @@ void sw_ways_add(sw_ways *w, sw_press *press, double friction, sw_vec shift) {
 static double slope(const void *user, double share) {
   const sw_ways *w = user;
   double sum = (share - 1.0) * w->work;
-  for (size_t i = 0; i < w->count; i++) {
-    const sw_way *t = &w->list[i];
+  SW_ITEMS(const sw_way, t, w->list, w->count) {
     const sw_vec real = sw_press_at(t->press, t->friction, sw_scale(t->shift, share));
     sum += t->begins + share * (t->ends - t->begins) - sw_dot(real, t->shift);
   }
@@ -71,8 +71,7 @@ static double slope(const void *user, double share) {
 double sw_ways_share(sw_ways *w, double accepted) {
   if (!(w->work > 0) || !(slope(w, 1.0) > accepted * w->work)) return 1.0;
   const double share = sw_way_least(slope, w);
-  for (size_t i = 0; i < w->count; i++) {
-    sw_way *t = &w->list[i];
+  SW_ITEMS(sw_way, t, w->list, w->count) {
     sw_press_go_on(t->press, t->friction, sw_scale(t->shift, share), 1);
   }
   return share;

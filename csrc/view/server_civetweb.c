@@ -18,8 +18,7 @@
 #include "base/each.h"
 #include "view/server_inner.h"
 
-static int say_nothing(const struct mg_connection *c, const char *message) {
-  (void)c, (void)message;
+static int say_nothing(const struct mg_connection *c SW_UNUSED, const char *message SW_UNUSED) {
   return 1;
 }
 

@@ -50,7 +50,7 @@ static sw_status add(sw_scene *s, int kind, sw_handle of, const double *row, con
   sw_watch *one = find(w, kind, of);
   sw_status status = SW_OK;
   if (!one) {
-    status = sw_grow((void **)&w->list, &w->capacity, w->count + 1, sizeof *w->list);
+    status = SW_GROW(w->list, w->capacity, w->count + 1);
     if (status == SW_OK) {
       one = &w->list[w->count++];
       *one = (sw_watch){.kind = kind, .of = of};
@@ -168,8 +168,7 @@ void sw_tape_watches(sw_tape *t, sw_watches *w) {
   size_t n = w->count;
   SW_TAPE_STRUCT(t, sw_watch, 40);
   sw_tape_count(t, &n, 16);
-  if (sw_tape_reads(t) && sw_tape_good(t) &&
-      sw_grow((void **)&w->list, &w->capacity, n, sizeof *w->list) != SW_OK)
+  if (sw_tape_reads(t) && sw_tape_good(t) && SW_GROW(w->list, w->capacity, n) != SW_OK)
     sw_tape_fail(t, SW_ENOMEM);
   if (sw_tape_reads(t) && sw_tape_good(t))
     while (w->count > n) sw_log_free(&w->list[--w->count].log);

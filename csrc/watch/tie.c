@@ -76,25 +76,6 @@ static sw_status check_terms(const sw_system *s, const sw_body *b, const double 
   return SW_OK;
 }
 
-int sw_scene_may_break(const sw_scene *s) {
-  sw_system *system = sw_scene_system(s);
-  double bears = 0;
-  for (size_t k = 0; k < sw_scene_join_slots(s); k++) {
-    if (breakable(s, k)) pull_of_joint(s, k, system->x, &bears);
-    if (bears > 0 && isfinite(bears)) return 1;
-    bears = 0;
-  }
-  for (size_t b = 0; sw_scene_force_slots(s) && b < system->body_count; b++) {
-    const sw_body *body = &system->bodies[b];
-    SW_ITEMS(const sw_term, term, body->terms, body->term_count) {
-      bears = 0;
-      if (term->cls->pull) pull_of(system, body, term, system->x, 0, &bears);
-      if (bears > 0 && isfinite(bears)) return 1;
-    }
-  }
-  return 0;
-}
-
 sw_status sw_scene_check_ties(const sw_scene *s, const double *x, sw_error *err) {
   sw_system *system = sw_scene_system(s);
   for (size_t k = 0; k < sw_scene_join_slots(s); k++) {
@@ -115,31 +96,39 @@ typedef struct tie {
   size_t joint;        /* its number, or */
   const sw_term *term; /* its force, on body number wires[0] */
   size_t wires[2];     /* those at its ends */
-  double pull;         /* [N] */
+  double pull, bears;  /* its strength, above 0 [N] */
 } tie;
 
 /* Calls `visit` for each unbroken tie. */
 static void each_tie(const sw_scene *s, void (*visit)(const sw_scene *, const tie *, void *),
                      void *user) {
   const sw_system *system = sw_scene_system(s);
-  double bears;
   for (size_t k = 0; k < sw_scene_join_slots(s); k++) {
     if (!breakable(s, k)) continue;
     const sw_joint *j = sw_scene_join_in(s, k);
-    const tie t = {.joint = k,
-                   .wires = {j->ends[0].wire, j->ends[1].wire},
-                   .pull = pull_of_joint(s, k, system->x, &bears)};
-    if (bears > 0) visit(s, &t, user);
+    tie t = {.joint = k, .wires = {j->ends[0].wire, j->ends[1].wire}};
+    t.pull = pull_of_joint(s, k, system->x, &t.bears);
+    if (t.bears > 0) visit(s, &t, user);
   }
   for (size_t b = 0; sw_scene_force_slots(s) && b < system->body_count; b++) {
     const sw_body *body = &system->bodies[b];
     SW_ITEMS(const sw_term, term, body->terms, body->term_count) {
       if (!term->cls->pull) continue;
-      const tie t = {
-          .term = term, .wires = {b, b}, .pull = pull_of(system, body, term, system->x, 0, &bears)};
-      if (bears > 0) visit(s, &t, user);
+      tie t = {.term = term, .wires = {b, b}};
+      t.pull = pull_of(system, body, term, system->x, 0, &t.bears);
+      if (t.bears > 0) visit(s, &t, user);
     }
   }
+}
+
+static void note_strength(const sw_scene *s SW_UNUSED, const tie *t, void *any) {
+  if (isfinite(t->bears)) *(int *)any = 1;
+}
+
+int sw_scene_may_break(const sw_scene *s) {
+  int any = 0;
+  each_tie(s, note_strength, &any);
+  return any;
 }
 
 static double pull_at(const sw_scene *s, const tie *t, const double *x) {

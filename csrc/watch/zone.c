@@ -36,8 +36,7 @@ void sw_scene_clear_zone(sw_zone *z) { sw_shape_release(z->shape); }
 sw_status sw_scene_add_zone(sw_scene *s, sw_shape *shape, const sw_zone_args *args, sw_error *err) {
   sw_zones *zones = sw_scene_zones_of(s);
   SW_TRY(sw_scene_editable(s, err));
-  if (sw_grow((void **)&zones->list, &zones->capacity, zones->count + 1, sizeof *zones->list) !=
-      SW_OK)
+  if (SW_GROW(zones->list, zones->capacity, zones->count + 1) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", sw_scene_name(s));
   sw_zone *z = &zones->list[zones->count];
   *z = (sw_zone){.pose = {args->at, args->rotation}, .temperature = args->temperature};

@@ -16,8 +16,7 @@ static const sw_wire_class *const all[] = {
 
 const sw_wire_class *const *sw_wire_all(void) { return all; }
 
-void sw_web_recipe(const sw_beam *beam, sw_recipe *out) {
-  (void)beam;
+void sw_web_recipe(const sw_beam *beam SW_UNUSED, sw_recipe *out) {
   *out = (sw_recipe){.count = 6,
                      .terms = {{"gravity", {0}},
                                {"spring", {0}},
