@@ -298,6 +298,19 @@ static void judge(sw_jaw *j) {
 /* Smaller changes of the force, over the wanted one, give no stiffness [-]. */
 static const double TELLING = 0.05;
 
+/* While jaws approach, a stiffness of a blow, or of wires that lay askew, may be far too large:
+ * each guess then goes too short a way, which tells nothing about the stiffness. If a way gives
+ * less than this share of the force that it promised, the stiffness is lowered by the same share
+ * [-]. */
+static const double SHORT = 0.25;
+
+/* 1 if the last way gave far less force than the stiffness promised. */
+static int fell_short(const sw_jaw *j, double way, double gain) {
+  const double promised = j->stiffness * way;
+  return j->status == SW_JAW_MOVES && way > SAME_OPENING && promised > TELLING * j->force &&
+         gain < SHORT * promised;
+}
+
 static void follow(sw_scene *s, sw_tool *t) {
   sw_jaw *j = &t->jaw;
   const double before = j->opening, force = j->now;
@@ -309,7 +322,10 @@ static void follow(sw_scene *s, sw_tool *t) {
   const double k = (j->now - force) / (before - j->opening);
   const int tells =
       force > 0 && fabs(j->now - force) > TELLING * j->force && fabs(before - j->opening) > TELLS;
-  if (tells && k > 0 && k < HUGE_VAL) j->stiffness = k;
+  if (tells && k > 0 && k < HUGE_VAL)
+    j->stiffness = k;
+  else if (force > 0 && fell_short(j, before - j->opening, j->now - force))
+    j->stiffness *= SHORT;
   if (j->mode == SW_JAW_STILL) j->speed = 0;
   judge(j);
 }
