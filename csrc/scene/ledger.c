@@ -30,6 +30,7 @@ void sw_tape_ledger(sw_tape *t, sw_books *b) {
   SW_TAPE_STRUCT(t, sw_ledger, 464);
   sw_tape_raw(t, &b->sums, sizeof b->sums);
   sw_tape_raw(t, &b->now, sizeof b->now);
+  if (t->home) sw_tape_raw(t, b->outer, sizeof b->outer);
   sw_tape_double(t, &b->contact), sw_tape_double(t, &b->highest);
   sw_tape_double(t, &b->most_kinetic), sw_tape_double(t, &b->work);
   sw_tape_double(t, &b->released), sw_tape_double(t, &b->made);

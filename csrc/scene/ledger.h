@@ -57,7 +57,7 @@ typedef struct sw_books {
   double longest;      /* length of the longest wire [m] */
   double weight;       /* sum of the wires' weights times their radii [J] */
   double bending;      /* sum of the wires' EI / L [J] */
-  sw_outer_sum outer[SW_OUTER_SUMS]; /* of this run, anew after it was resumed */
+  sw_outer_sum outer[SW_OUTER_SUMS]; /* of this run, anew after a file was read */
   int put;                           /* 1: a hold was put elsewhere since the last step */
   int has_powers;                    /* 1: there are forces without a potential */
   int known;                         /* 1: all of the above belongs to the present state */
