@@ -48,10 +48,12 @@ static sw_status open_place(sw_scene *s, sw_handle h, double place, spot *p, sw_
       sw_plan_locate(sw_scene_system(s)->bodies[h.slot].plan, place + p->wire->mesh.s[0], &p->f);
   const size_t slices = p->web->rings - 1;
   if (!sw_web_is_ring(p->web, p->ring) || !sw_web_is_ring(p->web, p->ring + 1))
-    return sw_fail(err, SW_EINVAL,
-                   "wire '%s': at s = %.6g m it is a line of particles, whose section does not "
-                   "change",
-                   p->wire->name, place);
+    return sw_fail(
+        err, SW_EINVAL,
+        "wire '%s': at s = %.6g m it is a line of particles, whose section does not "
+        "change; it has sections only in the region of wire:remodel, or of a mixed grasp "
+        "that is not frozen (freeze that one first, to grasp elsewhere)",
+        p->wire->name, place);
   p->slice = p->f < 0.5 && p->ring > 0 ? p->ring - 1 : p->ring;
   if (p->slice + 1 >= slices) p->slice = slices > 1 ? slices - 2 : 0;
   if (p->slice < p->ring && !sw_web_is_ring(p->web, p->slice)) p->slice = p->ring;

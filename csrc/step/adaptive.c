@@ -81,7 +81,7 @@ sw_status sw_step_adaptive(sw_ladder *p, double left, double t1, sw_error *err) 
         sw_ladder_try(p, h, 0.25 * h < SW_SMALLEST_SHARE * SW_SMALLEST_SHARE * p->args->dt, err);
     if (sw_ladder_hopeless(status)) return status;
     sw_outer_look outer = {.speed = 0};
-    if (status == SW_OK) SW_TRY(sw_outer_look_at(s, h, &outer, err));
+    if (status == SW_OK) SW_TRY(sw_outer_look_at(p, h, &outer, err));
     const double over = status == SW_OK ? fmax(over_of(p, h), over_of_outer(p, h, &outer)) : 0.0;
     const int fine = status == SW_OK && (over <= 1 || is_short_enough(p, h));
     double next = status == SW_OK ? next_of(p, h, over) : 0.25 * h;

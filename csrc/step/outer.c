@@ -162,7 +162,8 @@ static sw_status look_at_body(sw_scene *s, sw_body *b, double h, const samples *
   return status;
 }
 
-sw_status sw_outer_look_at(sw_scene *s, double h, sw_outer_look *out, sw_error *err) {
+sw_status sw_outer_look_at(sw_ladder *p, double h, sw_outer_look *out, sw_error *err) {
+  sw_scene *s = p->s;
   sw_system *system = sw_scene_system(s);
   const sw_stepper *stepper = &sw_scene_course(s)->stepper;
   sw_status status = SW_OK;
@@ -175,6 +176,7 @@ sw_status sw_outer_look_at(sw_scene *s, double h, sw_outer_look *out, sw_error *
   for (size_t k = 0; status == SW_OK && k < system->body_count; k++)
     status = look_at_body(s, &system->bodies[k], h, &q, out, err);
   sw_system_look_back(system, &glance);
+  if (status != SW_OK) sw_ladder_undo(p); /* a script's error leaves the last good state */
   return status;
 }
 

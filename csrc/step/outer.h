@@ -6,6 +6,7 @@
 
 #include "scene/ledger.h"
 #include "scene/scene.h"
+#include "step/ladder.h"
 
 /* What a trial misses of forces that functions of scripts give. */
 typedef struct sw_outer_look {
@@ -13,8 +14,8 @@ typedef struct sw_outer_look {
   double speed; /* largest missed change of the velocity of a wire as a whole [m/s] */
 } sw_outer_look;
 
-/* Looks at the last trial, of size h. SW_ECALLBACK, SW_ENOMEM. */
-sw_status sw_outer_look_at(sw_scene *scene, double h, sw_outer_look *out, sw_error *err);
+/* Looks at the last trial, of size h. After an error it is undone. SW_ECALLBACK, SW_ENOMEM. */
+sw_status sw_outer_look_at(sw_ladder *ladder, double h, sw_outer_look *out, sw_error *err);
 /* Call when that trial is taken: books it, and logs an event if a force's known period is too short
  * for the step. */
 void sw_outer_taken(sw_scene *scene, double h, const sw_outer_look *look);

@@ -136,7 +136,7 @@ static double first_part(const sw_scene *s, double h) {
 
 static sw_status take(sw_ladder *p, parts *k, int may_grow, sw_error *err) {
   sw_outer_look outer;
-  SW_TRY(sw_outer_look_at(p->s, k->part, &outer, err));
+  SW_TRY(sw_outer_look_at(p, k->part, &outer, err));
   sw_outer_taken(p->s, k->part, &outer);
   k->done += k->part;
   k->struck = k->grew = 0, k->unfollowed = 0;

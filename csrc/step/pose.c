@@ -174,12 +174,12 @@ static sw_status pose(sw_scene *s, double t1, int halvings, const sw_pose_args *
                       sw_run_report *report, sw_error *err) {
   kept start = {0};
   sw_status status = sw_outer_begin_pose(s, &start.outer, err);
-  if (status != SW_OK) return drop(&start), status;
-  if (sw_scene_may_break(s) || sw_passing_any(s) || sw_jaw_presses_sections(s))
-    SW_TRY(keep(s, &start, err));
-  else if (sw_grips_frozen(s))
-    SW_TRY(keep_loosely(s, &start, err));
-  status = one_pose(s, t1, halvings, how, report, &start, err);
+  const int breaks = sw_scene_may_break(s) || sw_passing_any(s) || sw_jaw_presses_sections(s);
+  if (status == SW_OK && breaks)
+    status = keep(s, &start, err);
+  else if (status == SW_OK && sw_grips_frozen(s))
+    status = keep_loosely(s, &start, err);
+  if (status == SW_OK) status = one_pose(s, t1, halvings, how, report, &start, err);
   drop(&start);
   return status;
 }

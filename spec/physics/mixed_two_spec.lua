@@ -50,7 +50,9 @@ describe("two mixed grips on one wire", function()
         p:wait(1.2) -- its pads catch the wire, which swings for a while
         thawed = A:force()[3] + B:force()[3]
         t.near(0.5, A:force()[3] / thawed, 0.1, "share of A")
-        t.above(9.5, A:state().squeeze, "squeeze of the mesh [N]")
+        for _, hand in ipairs{ A, B } do t.above(9.5, hand:state().squeeze, "squeeze [N]") end
+        t.below(0.1, math.abs(A:squeeze().share), "share of the height that is pressed in")
+        assert.error_matches(function() B:squeeze() end, "it is a line of particles")
       end)
       assert.equal("frozen thawed", kinds(A))
       assert.equal("frozen thawed on rod", kinds(B))
@@ -60,6 +62,24 @@ describe("two mixed grips on one wire", function()
       for _, s in ipairs{ 0.1, 0.3 } do t.near(0, wire:position(s)[3], 5e-4, "height in the pads") end
     end)
   end
+
+  it("the second one grasps once the first one is frozen, and the message before says so", function()
+    local scene = sw.scene{}
+    local wire = scene:wire{ cable = "GXL 1.5", from = { 0, 0, 0 }, to = { L, 0, 0 } }
+    scene:obstacle{ shape = "plane", at = { 0, 0, -wire.radius } }
+    local A, B = scene:gripper{ pads = { width = mm(12) } }, scene:gripper{ pads = { width = mm(12) } }
+    local ok, message
+    scene:process(function()
+      A:grasp(wire, { s = 0.1, approach = "mixed", force = 5, freeze = false })
+      ok, message = pcall(B.grasp, B, wire, { s = 0.3, approach = "mixed", force = 5 })
+      A:freeze()
+      B:grasp(wire, { s = 0.3, approach = "mixed", force = 5 })
+    end)
+    t.fine(scene:run{ dt = 0.01 })
+    assert.is_false(ok)
+    assert.matches("it is a line of particles, .*freeze that one first", message)
+    assert.equal("frozen", kinds(B))
+  end)
 
   it("the second one opens, and the first one keeps its mesh and the wire", function()
     local o, model, force = { cable = "FLRY-B 2.5", dt = 0.005 }, nil, nil
