@@ -128,8 +128,7 @@ static double friction_on(const sw_scene *s, const sw_body *b, sw_pushed *piece)
   size_t first, end, from = piece->from, best = from, most = 0;
   double sum = 0;
   if (!sw_scene_contact(s)) return 0;
-  sw_contact_touches_of(sw_scene_contact(s), b->first_node + piece->from, b->first_node + piece->to,
-                        &first, &end);
+  touches_of(s, b, piece->from, piece->to, &first, &end);
   for (size_t k = first; k <= end; k++) {
     touch t = {.edge = piece->to};
     if (k < end && (!is_between(s, b, k) || !touch_of(s, b, k, &t))) continue;
