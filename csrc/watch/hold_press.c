@@ -21,6 +21,8 @@
 /* The wire is pressed by the hold up to this many edges beside it [-]. */
 static const double BESIDE = 2.0;
 static const size_t ANY = SIZE_MAX; /* of the obstacles */
+/* A touch is at most this many nodes away from the node that it is listed at [-]. */
+static const size_t BEYOND = 2;
 /* Forces on a mesh that are told, over usual ones: it is soft beside the hold [-]. */
 static const double ON_MESH = 2.0;
 /* Forces on a rod that are told exceed the weight that rests there by this share of usual ones:
@@ -44,7 +46,13 @@ static double force_beside(const sw_scene *s, const sw_hold *h, size_t obstacle)
   double force = 0;
   size_t k, end;
   sw_contact_push p;
-  sw_contact_touches_of(contact, b->first_node, b->first_node + b->plan->nodes, &k, &end);
+  size_t from = 0, to = b->plan->nodes;
+  if (!b->plan->web) {
+    from = sw_plan_first(b->plan, h->s1 - reach), to = sw_plan_first(b->plan, h->s2 + reach);
+    from -= from < BEYOND ? from : BEYOND;
+    to = to + BEYOND < b->plan->nodes ? to + BEYOND : b->plan->nodes;
+  }
+  sw_contact_touches_of(contact, b->first_node + from, b->first_node + to, &k, &end);
   for (; k < end; k++)
     if (sw_contact_push_at(contact, system, k, &p) &&
         (obstacle == ANY || p.obstacle == (int)obstacle) && p.place >= h->s1 - reach &&
