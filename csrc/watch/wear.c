@@ -22,8 +22,8 @@ static size_t along(const sw_plan *p) { return p->web ? p->web->rings : p->nodes
  * own. */
 typedef struct layout {
   const sw_plan *plan;
-  sw_bent_side *sides;
-  size_t count; /* of all places */
+  sw_bent_side *sides; /* NULL: none */
+  size_t count;        /* of all places */
 } layout;
 
 /* SW_ENOMEM. */
@@ -43,11 +43,11 @@ static sw_status lay_out(const sw_system *s, const sw_body *b, layout *out) {
 static double place_of(const layout *l, size_t k) {
   const sw_plan *p = l->plan;
   if (p->web) return p->web->s[p->web->first[k]];
-  return p->s[k < p->nodes ? k : l->sides[k - p->nodes].node];
+  return p->s[!l->sides || k < p->nodes ? k : l->sides[k - p->nodes].node];
 }
 
 static int side_of(const layout *l, size_t k) {
-  return k < along(l->plan) ? 0 : l->sides[k - l->plan->nodes].side;
+  return !l->sides || k < along(l->plan) ? 0 : l->sides[k - l->plan->nodes].side;
 }
 
 /* 1 if the places are the present ones. Nodes beside a feed may have moved a little along the
@@ -168,7 +168,7 @@ static double pressure_at(const sw_wear *w, size_t i) {
 
 /* A node beside a clamp or joint gets the larger load of the two. */
 static void press_sides(const layout *p, sw_wear *w) {
-  for (size_t k = w->nodes; k < w->count; k++) {
+  for (size_t k = w->nodes; p->sides && k < w->count; k++) {
     sw_wear_place *node = &w->places[p->sides[k - w->nodes].node];
     node->load = fmax(node->load, w->places[k].load);
   }
