@@ -54,7 +54,7 @@ describe("turns of a wire that lie on each other", function()
       t.above(BRAKE, e.value)
       local row = run:check { limits = { max_tension = 50 } }:row "w.max_tension"
       assert.are.equal("OPEN", row.verdict)
-      assert.is_truthy(row.note:find "together")
+      assert.is_truthy(tostring(row):find("together", 1, true))
     end)
   end
 
@@ -75,9 +75,10 @@ describe("a wire that slides over another one", function()
     local r = sw.cable("GXL 1.5").outer_diameter.value / 2
     local bar = scene:wire { name = "bar", cable = "GXL 1.5", from = { 0, -0.05, 0 }, to = { 0, 0.05, 0 },
       segments = 10 }
-    scene:clamp(bar, { from = 0, to = bar.length })
-    local wire = scene:wire { name = "w", cable = "GXL 1.5", from = { -0.3, 0, 2 * r }, to = { 0.3, 0, 2 * r },
-      segments = 60 }
+    scene:clamp(bar, { s = 0 })
+    scene:clamp(bar, { s = bar.length })
+    local wire = scene:wire { name = "w", cable = "GXL 1.5", from = { -0.3, 0, 2 * r },
+      to = { 0.3, 0, 2 * r }, segments = 60 }
     scene:force { kind = "damping", mass = 4, stiffness = 0.002 }
     scene:wire_contact { friction = 0.3 }
     scene:clamp(wire, { s = wire.length }):follow { relative = true, points = { { 0, 0, 0 }, { 0.1, 0, 0 } },
