@@ -34,6 +34,7 @@ local function fail(text, ...) error((WHAT .. ": " .. text):format(...), 0) end
 
 local function pair(name, value, unit)
   local x, z = checks.field(value, 1), checks.field(value, 2)
+  if type(value) == "table" then checks.only(("%s: %s"):format(WHAT, name), value, nil, 0) end
   for _, v in ipairs { x or "nothing", z or "nothing" } do
     if type(v) ~= "number" or v - v ~= 0 then
       fail("%s must be { x, z }%s, two finite numbers in the plane, z upwards; got %s", name, unit,
@@ -51,6 +52,7 @@ local function directions(o)
   if given ~= nil and type(given) ~= "table" then
     fail("directions must be a list of one { x, z } for each clamp, got %s", checks.got(given))
   end
+  if given then checks.only(WHAT .. ": directions", given, nil, 0) end
   for k = 1, 2 do
     local d = given and given[k]
     local level = { (o.to and o.to[1] < o.from[1]) and -1 or 1, 0 }

@@ -22,6 +22,7 @@ end
 local function spread_list(what, item, key, given)
   local list = {}
   if given == nil then return nil end
+  if type(given) == "table" then checks.only(("%s: %s"):format(what, key), given, nil, 0) end
   if type(given) == "table" and #given ~= #item.values then
     fail("%s: %s must have one number per datum, %d in all, got %d", what, key, #item.values, #given)
   end
