@@ -204,6 +204,7 @@ local function judge_one(self, member, entry, context, list)
     if not (given and entry.name and list[full]) then return end
     value = { value = 0 / 0, note = "this run has no such value" } -- asked for by its full name
   end
+  value.terms = member.terms and member.terms(entry, context)
   with_error(value, error_bar(self.run, entry.name, member.name))
   if not self.several then edges.widen(value, member.edges, entry, self.run) end
   askew.widen(value, member, entry, context)
