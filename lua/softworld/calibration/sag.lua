@@ -2,6 +2,7 @@
 --- Points of a hanging wire, measured or from a photograph: they determine EI over the weight.
 -- @module softworld.calibration.sag
 local checks = require "softworld.checks"
+local fitdata = require "softworld.study.fitdata"
 local plane = require "softworld.calibration.plane"
 local readings = require "softworld.calibration.readings"
 local rows = require "softworld.rows"
@@ -10,6 +11,7 @@ local sagged = require "softworld.calibration.sagged"
 local sag = { name = "sag" }
 
 local WHAT = "sw.calibration: sag"
+local LEAST, MOST = fitdata.LEAST_SIGMA, fitdata.MOST_SIGMA
 local FARTHEST = 1.05 -- farthest point from the wire's start over its length
 local SOFTEST, STIFFEST = 1e5, 1e-3 -- range of weight length^3 / EI that is searched [-]
 
@@ -25,9 +27,9 @@ sag.rows = rows.list{
   { "from", "{x, z}", "m", "where the wire begins", usual = "{0, 0}" },
   { "to", "{x, z}", "m", "where it ends; not of a cantilever" },
   { "directions", "list of {x, z}", "-", "along the wire at clamps", usual = "level, along x" },
-  { "sigma", "number", "m", "standard deviation of a point across the wire", min = 0, above = true,
+  { "sigma", "number", "m", "standard deviation of a point across the wire", min = LEAST, max = MOST,
     usual = "estimated" },
-  { "pixel_sigma", "number", "px", "the same of pixels", min = 0, above = true },
+  { "pixel_sigma", "number", "px", "the same of pixels", min = LEAST, max = MOST },
 }
 
 local function fail(text, ...) error((WHAT .. ": " .. text):format(...), 0) end
