@@ -10,7 +10,8 @@
 static void refuse(lua_State *L, const char *what, const char *key, const char *const *names,
                    size_t count) {
   if (!names) luaL_error(L, "%s is a list; it has no field '%s'", what, key);
-  const char *near = sw_nearest_name(key, names, sizeof names[0], count);
+  const char *near = /* any letter is near to x */
+      key[0] && key[1] ? sw_nearest_name(key, names, sizeof names[0], count) : NULL;
   if (near) luaL_error(L, "%s has no field '%s'; did you mean '%s'?", what, key, near);
   luaL_Buffer b;
   luaL_buffinit(L, &b);

@@ -84,7 +84,7 @@ function checks.only(what, list, names, level)
   for key in next, list do
     if type(key) == "string" and not known(key) then
       if not names then error(("%s is a list; it has no field '%s'"):format(what, key), level) end
-      local near = core.nearest(key, names)
+      local near = #key > 1 and core.nearest(key, names) -- any letter is near to x
       error(("%s has no field '%s'; %s"):format(what, key, near and ("did you mean '%s'?"):format(near)
         or "known are: " .. table.concat(names, " ")), level)
     end
@@ -164,7 +164,7 @@ local FARTHEST = 1e100 -- largest coordinate of a place, as in the core [m]
 --- Returns a copy of the vector {x, y, z}, or raises an error. Coordinates of places [m] are within 1e100 m.
 function checks.vector(what, value, unit, level)
   local copy = {}
-  if type(value) == "table" then checks.only(what, value, axes, level) end
+  if type(value) == "table" then checks.only(what, value, axes, level > 0 and level + 1 or 0) end
   for k, axis in ipairs(axes) do
     local v = checks.field(value, k) or checks.field(value, axis)
     if type(v) ~= "number" or v - v ~= 0 then
@@ -182,7 +182,7 @@ end
 
 --- Raises an error unless value is a rotation: { w, x, y, z }, or { axis = {x, y, z}, angle = [rad] }.
 function checks.rotation(what, value, level)
-  if type(value) == "table" then checks.only(what, value, turns, level) end
+  if type(value) == "table" then checks.only(what, value, turns, level > 0 and level + 1 or 0) end
   if checks.field(value, "axis") then
     local axis = checks.vector(what .. ".axis", value.axis, "-", level + 1)
     if axis[1] == 0 and axis[2] == 0 and axis[3] == 0 then

@@ -148,12 +148,30 @@ local cases = {
   end, "cell: element 1 has no field 'modulos'; did you mean 'modulus'?" },
 }
 
+-- Returns a function that waits in a process for two places to come near each other.
+local function waiting(place)
+  return function()
+    local other = sw.scene{}
+    local hand, w = other:gripper{ at = O }, new_wire(other)
+    other:process(function(p)
+      p:wait_until{ distance = 0.1, between = { place(w), hand } } -- this line is told
+    end)
+    other:run{ dt = 0.01 }
+  end
+end
+
+cases["a place to wait for"] = { waiting(function() return { 0, 0, 1, t = 2 } end),
+  "p:wait_until: between: a place has no field 't'; known are: x y z" }
+cases["a place of a wire to wait for"] = { waiting(function(w) return { w, s = 0.1, t = 2 } end),
+  "p:wait_until: between: a place has no field 't'; known are: s" }
+
 describe("a name that is not known is refused in", function()
   for name, case in pairs(cases) do
     it(name, function()
       local fine, why = pcall(case[1])
       assert.is_false(fine, "no error")
       assert.truthy(why:find(case[2], 1, true), why)
+      assert.falsy(why:find "softworld/[%w_/]+%.lua", why) -- no place in the library
     end)
   end
 end)
