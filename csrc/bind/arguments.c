@@ -361,6 +361,8 @@ double *lsw_read_points(lua_State *L, int table, const char *key, const char *ob
   if (!lua_istable(L, -1))
     luaL_error(L, "%s: %s must be a list of points {x, y, z} [m], got %s", object, key,
                lsw_describe(L, -1));
+  lsw_only_items(L, -2, lua_pushfstring(L, "%s: %s", object, key));
+  lua_pop(L, 1);
   const size_t n = lua_rawlen(L, -1);
   if (n > 10000000) luaL_error(L, "%s: %s has %d points; at most 10000000", object, key, (int)n);
   double *points = lua_newuserdatauv(L, (3 * n + 1) * sizeof *points, 0);

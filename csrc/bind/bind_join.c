@@ -42,6 +42,7 @@ int lsw_scene_join(lua_State *L) {
   lsw_arguments(L, 2, "scene:join", &sw_link_find("join")->params, &args);
   if (!lua_istable(L, 2) || lua_getfield(L, 2, "ends") != LUA_TTABLE)
     return luaL_error(L, "scene:join: ends is required: a list of { wire, s = arc length }");
+  lsw_only_items(L, 3, "scene:join: ends");
   const size_t count = lua_rawlen(L, 3);
   for (size_t k = 0; k < count && k < SW_JOIN_ENDS; k++) {
     lua_rawgeti(L, 3, (lua_Integer)k + 1);

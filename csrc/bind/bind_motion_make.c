@@ -66,20 +66,7 @@ void lsw_motion_keep_reader(lua_State *L) { lua_rawsetp(L, LUA_REGISTRYINDEX, &r
 
 static void check_keys(lua_State *L, int index, const char *what) {
   static const char *const known[] = {"x", "y", "z", "t", "rotation", "turn"};
-  enum { KNOWN = sizeof known / sizeof known[0] };
-  lua_pushnil(L);
-  while (lua_next(L, index)) {
-    int fine = lua_isinteger(L, -2);
-    const char *key = lua_type(L, -2) == LUA_TSTRING ? lua_tostring(L, -2) : "";
-    for (int i = 0; i < KNOWN && !fine; i++) fine = strcmp(key, known[i]) == 0;
-    if (!fine) {
-      const char *near = sw_nearest_name(key, known, sizeof known[0], KNOWN);
-      const char *hint =
-          near ? lua_pushfstring(L, "did you mean '%s'?", near) : "known are x y z t rotation turn";
-      luaL_error(L, "%s has no field '%s'; %s", what, key, hint);
-    }
-    lua_pop(L, 1);
-  }
+  lsw_only(L, index, what, known, sizeof known / sizeof known[0]);
 }
 
 /* Returns the turn {axis=, angle=} on top of the stack, as axis times angle [rad]. */
@@ -100,7 +87,7 @@ static void read_point(lua_State *L, const char *what, sw_waypoint *out) {
   if (!lua_istable(L, index))
     luaL_error(L, "%s must be a table {x, y, z} [m], got %s", what, luaL_typename(L, index));
   check_keys(L, index, what);
-  out->p = lsw_place(L, index, what);
+  out->p = lsw_place_in(L, index, what);
   if (lua_getfield(L, index, "t") != LUA_TNIL)
     out->t = lsw_number(L, -2, lua_pushfstring(L, "%s: t", what), "s");
   if (lua_getfield(L, index, "rotation") != LUA_TNIL) {
@@ -126,6 +113,8 @@ static void read_times(lua_State *L, int table, const char *what, sw_waypoint *p
   }
   if (!lua_istable(L, -1))
     luaL_error(L, "%s: times must be an array of numbers [s], got %s", what, luaL_typename(L, -1));
+  lsw_only_items(L, -2, lua_pushfstring(L, "%s: times", what));
+  lua_pop(L, 1);
   if (lua_rawlen(L, -1) != count)
     luaL_error(L, "%s: times must have one entry per way-point, %d in all, got %d", what,
                (int)count, (int)lua_rawlen(L, -1));
@@ -177,6 +166,8 @@ static sw_status make_path(lua_State *L, int table, const char *what, const lsw_
   if (!lua_istable(L, array) && !lua_isnil(L, array))
     luaL_error(L, "%s: points must be an array of way-points {x,y,z}, got %s", what,
                luaL_typename(L, array));
+  if (lua_istable(L, array)) lsw_only_items(L, array, lua_pushfstring(L, "%s: points", what));
+  lua_settop(L, array);
   plan.count = lua_istable(L, array) ? lua_rawlen(L, array) : 0;
   sw_waypoint *points = lua_newuserdatauv(L, (plan.count + 1) * sizeof *points, 0);
   for (size_t i = 0; i < plan.count; i++) {

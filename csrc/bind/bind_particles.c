@@ -114,6 +114,7 @@ static int set_all(lua_State *L, lsw_self p, size_t count) {
                       "particles:set_velocity takes {vx, vy, vz} or %d numbers, three for each "
                       "particle, got %d",
                       (int)n, (int)lua_rawlen(L, 2));
+  lsw_only_items(L, 2, "particles:set_velocity: the list of velocities");
   const double *v = lsw_numbers(L, 2, n, "particles:set_velocity: an item", "m/s");
   LSW_DO(L, sw_scene_particles_set_velocities, p.scene, p.id, v);
   return 0;

@@ -23,6 +23,14 @@ static size_t length_of(lua_State *L, int index, const char *what) {
   return n;
 }
 
+/* The same for a list that has no names. */
+static size_t items_of(lua_State *L, int index, const char *what) {
+  const size_t n = length_of(L, index, what);
+  lsw_only_items(L, index, lua_pushfstring(L, "particles: %s", what));
+  lua_pop(L, 1);
+  return n;
+}
+
 /* Returns item i (from 0) of the list at index; raises unless it is a finite number. */
 static double number_at(lua_State *L, int index, size_t i, const char *what) {
   lsw_poll(L);
@@ -53,7 +61,7 @@ static uint32_t particle_at(lua_State *L, int index, size_t i, const char *what)
 
 uint32_t *lsw_particle_numbers(lua_State *L, int index, const char *what, size_t *count) {
   index = lua_absindex(L, index);
-  *count = length_of(L, index, what);
+  *count = items_of(L, index, what);
   uint32_t *out = new_array(L, *count, sizeof *out);
   for (size_t i = 0; i < *count; i++) out[i] = particle_at(L, index, i, what);
   return out;
@@ -64,7 +72,7 @@ uint32_t *lsw_particle_numbers(lua_State *L, int index, const char *what, size_t
 static const double *read_positions(lua_State *L, int table, size_t *count) {
   lua_getfield(L, table, "positions");
   const int list = lua_gettop(L);
-  const size_t n = length_of(L, list, "positions");
+  const size_t n = items_of(L, list, "positions");
   lua_rawgeti(L, list, 1);
   const int points = lua_istable(L, -1);
   lua_pop(L, 1);
@@ -82,6 +90,7 @@ static const double *read_positions(lua_State *L, int table, size_t *count) {
     if (!lua_istable(L, -1) || lua_rawlen(L, -1) != 3)
       luaL_error(L, "particles: positions, item %d, must be {x, y, z} [m], got %s", (int)i + 1,
                  lsw_describe(L, -1));
+    lsw_only_items(L, lua_gettop(L), "particles: a position");
     for (size_t k = 0; k < 3; k++) out[3 * i + k] = number_at(L, lua_gettop(L), k, "a position");
     lua_pop(L, 1);
   }
@@ -91,7 +100,7 @@ static const double *read_positions(lua_State *L, int table, size_t *count) {
 static const double *read_masses(lua_State *L, int table, size_t count) {
   lua_getfield(L, table, "masses");
   const int list = lua_gettop(L), one = lua_type(L, list) == LUA_TNUMBER;
-  if (!one && length_of(L, list, "masses") != count)
+  if (!one && items_of(L, list, "masses") != count)
     luaL_error(L, "particles: masses has %d item%s for %d particle%s", (int)lua_rawlen(L, list),
                lua_rawlen(L, list) == 1 ? "" : "s", (int)count, count == 1 ? "" : "s");
   double *out = new_array(L, count, sizeof *out);
@@ -150,7 +159,8 @@ static size_t parts_of(lua_State *L, const kind *k, int entry, size_t number, si
                lsw_describe(L, entry));
   const int group = group_of(L, k, entry);
   const char *what = group < 0 ? k->what : k->group[group];
-  const size_t n = length_of(L, lua_gettop(L), what);
+  const int list = lua_gettop(L);
+  const size_t n = group < 0 ? length_of(L, list, what) : items_of(L, list, what);
   if (group < 0 && n != k->size[0] && n != k->size[1])
     luaL_error(
         L, "particles: %s, entry %d, must name %d%s particles, or have a list '%s'; it names %d",
@@ -179,6 +189,7 @@ static void open_values(lua_State *L, const kind *k, int entry, size_t number, s
       luaL_error(L, "particles: %s, entry %d: %s must have %d item%s, got %d", k->what,
                  (int)number + 1, k->values[v], (int)count, count == 1 ? "" : "s",
                  (int)lua_rawlen(L, -1));
+    items_of(L, lua_gettop(L), k->values[v]);
   }
 }
 
@@ -211,7 +222,7 @@ static const void *read_list(lua_State *L, int table, const kind *k, size_t item
   *count = 0;
   if (lua_getfield(L, table, k->what) == LUA_TNIL) return NULL;
   const int list = lua_gettop(L);
-  const size_t entries = length_of(L, list, k->what);
+  const size_t entries = items_of(L, list, k->what);
   for (size_t i = 0; i < entries; i++) {
     size_t size;
     lua_rawgeti(L, list, (lua_Integer)i + 1);
@@ -295,7 +306,7 @@ static void read_surface(lua_State *L, int table, sw_particles_parts *p) {
     return;
   }
   const int list = lua_gettop(L);
-  const size_t entries = length_of(L, list, "surface");
+  const size_t entries = items_of(L, list, "surface");
   uint32_t *out = new_array(L, 6 * entries, sizeof *out);
   for (size_t i = 0; i < entries; i++) {
     lua_rawgeti(L, list, (lua_Integer)i + 1);
@@ -303,6 +314,7 @@ static void read_surface(lua_State *L, int table, sw_particles_parts *p) {
     if (n != 2 && n != 3)
       luaL_error(L, "particles: surface, entry %d, must be {i, j} or {i, j, k}, got %s", (int)i + 1,
                  lsw_describe(L, -1));
+    lsw_only_items(L, lua_gettop(L), "particles: an entry of surface");
     uint32_t node[3] = {0};
     for (size_t k = 0; k < n; k++) node[k] = particle_at(L, lua_gettop(L), k, "surface");
     for (size_t k = 0; k < (n == 3 ? 3 : 1); k++, p->edges++) {

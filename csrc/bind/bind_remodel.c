@@ -44,6 +44,7 @@ static int read_arguments(lua_State *L, sw_wire_args *args, sw_wire_mesh_args *m
     if (!lua_istable(L, -1) || lua_rawlen(L, -1) != 2)
       return luaL_error(L, "wire:remodel: region must be {s1, s2} [m], got %s",
                         lsw_describe(L, -1));
+    lsw_only_items(L, -1, "wire:remodel: region");
     for (int k = 0; k < 2; k++) {
       lua_rawgeti(L, -1, k + 1);
       region[k] = lsw_number(L, -1, "wire:remodel: region", "m");

@@ -41,6 +41,8 @@ static void read_points(lua_State *L, const char *object, sw_shape_source *sourc
     luaL_error(L, "%s: points must be a table of numbers [m], got %s", object,
                luaL_typename(L, -1));
   const int table = lua_gettop(L);
+  lsw_only_items(L, table, lua_pushfstring(L, "%s: points", object));
+  lua_settop(L, table);
   const lua_Integer items = (lua_Integer)lua_rawlen(L, table);
   const int nested = lua_rawgeti(L, table, 1) == LUA_TTABLE;
   lua_pop(L, 1);

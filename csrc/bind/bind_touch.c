@@ -11,6 +11,7 @@ static sw_handle *read_wires(lua_State *L, const sw_scene *scene, size_t *count)
   if (!single && !lua_istable(L, at))
     luaL_error(L, "%s is a wire, an object of particles or a list of these, got %s", what,
                lsw_describe(L, at));
+  if (!single) lsw_only_items(L, at, what);
   *count = single ? 1 : lua_rawlen(L, at);
   if (!*count) luaL_error(L, "%s lists no wire; leave it out for all wires", what);
   sw_handle *wires = lua_newuserdatauv(L, *count * sizeof *wires, 0);

@@ -58,6 +58,7 @@ static size_t read_numbers(lua_State *L, const char *key, double *out, int *list
     out[0] = lsw_number(L, -1, what, "-");
     return 1;
   }
+  lsw_only_items(L, -1, what);
   n = lua_rawlen(L, -1);
   if (n < 1 || n > SW_MINIMISE_MOST)
     luaL_error(L, "%s has %d numbers; allowed are 1 to %d", what, (int)n, SW_MINIMISE_MOST);

@@ -21,6 +21,7 @@ static double split_stiffness(lua_State *L) {
     return NAN;
   }
   double EI[2] = {0, 0};
+  lsw_only_items(L, 3, "wire: EI");
   for (int k = 0; k < 2 && lua_rawlen(L, 3) == 2; k++) {
     lua_geti(L, 3, k + 1);
     EI[k] = lua_type(L, -1) == LUA_TNUMBER ? lua_tonumber(L, -1) : 0;

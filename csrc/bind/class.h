@@ -101,11 +101,19 @@ double *lsw_read_points(lua_State *L, int table, const char *key, const char *ob
 /* object:get(): pushes a table of the values in args. */
 void lsw_push_values(lua_State *L, const sw_params *params, const void *args);
 
+/* Raises an error for a key of the table at index that is neither an integer nor one of these
+ * names. The n of table.pack may be there. */
+void lsw_only(lua_State *L, int index, const char *what, const char *const *names, size_t count);
+/* The same for a list: it has no names at all. */
+void lsw_only_items(lua_State *L, int index, const char *what);
+
 /* Returns the three finite numbers {x, y, z} (or fields x, y, z) at index. what is
  * for messages: "scene:wire: from". */
 sw_vec lsw_vector(lua_State *L, int index, const char *what, const char *unit);
 /* The same for a place [m], whose coordinates are within SW_PLACE_FARTHEST. */
 sw_vec lsw_place(lua_State *L, int index, const char *what);
+/* The same of a table that may have more fields, which the caller looks at. */
+sw_vec lsw_place_in(lua_State *L, int index, const char *what);
 
 /* Returns the rotation at index: nil = identity, {axis=, angle=} [rad] or {w, x, y, z}. */
 sw_quat lsw_rotation(lua_State *L, int index, const char *what);

@@ -6,6 +6,39 @@
 
 #include "bind/class.h"
 
+/* Raises the error for a key that the table does not have. */
+static void refuse(lua_State *L, const char *what, const char *key, const char *const *names,
+                   size_t count) {
+  if (!names) luaL_error(L, "%s is a list; it has no field '%s'", what, key);
+  const char *near = /* any letter is near to x */
+      key[0] && key[1] ? sw_nearest_name(key, names, sizeof names[0], count) : NULL;
+  if (near) luaL_error(L, "%s has no field '%s'; did you mean '%s'?", what, key, near);
+  luaL_Buffer b;
+  luaL_buffinit(L, &b);
+  for (size_t i = 0; i < count; i++) {
+    luaL_addchar(&b, ' ');
+    luaL_addstring(&b, names[i]);
+  }
+  luaL_pushresult(&b);
+  luaL_error(L, "%s has no field '%s'; known are:%s", what, key, lua_tostring(L, -1));
+}
+
+void lsw_only(lua_State *L, int index, const char *what, const char *const *names, size_t count) {
+  index = lua_absindex(L, index);
+  for (lua_pushnil(L); lua_next(L, index); lua_pop(L, 1)) {
+    if (lua_isinteger(L, -2)) continue;
+    if (lua_type(L, -2) != LUA_TSTRING) refuse(L, what, lsw_describe(L, -2), NULL, 0);
+    const char *key = lua_tostring(L, -2);
+    size_t i = 0;
+    while (i < count && strcmp(names[i], key) != 0) i++;
+    if (i == count && strcmp(key, "n") != 0) refuse(L, what, key, names, count);
+  }
+}
+
+void lsw_only_items(lua_State *L, int index, const char *what) {
+  lsw_only(L, index, what, NULL, 0);
+}
+
 /* Pushes item i of the table, or its field name if there is no item i. */
 static void push_item(lua_State *L, int table, int i, const char *name) {
   if (lua_geti(L, table, i) == LUA_TNIL) {
@@ -31,15 +64,30 @@ static void numbers(lua_State *L, int index, const char *what, const char *unit,
   }
 }
 
-sw_vec lsw_vector(lua_State *L, int index, const char *what, const char *unit) {
-  static const char *const names[] = {"x", "y", "z"};
+static const char *const axes[] = {"x", "y", "z"};
+
+static sw_vec vector_in(lua_State *L, int index, const char *what, const char *unit) {
   double v[3] = {0, 0, 0};
-  numbers(L, index, what, unit, 3, names, v);
+  numbers(L, index, what, unit, 3, axes, v);
   return sw_v(v[0], v[1], v[2]);
 }
 
+static void only_axes(lua_State *L, int index, const char *what) {
+  if (lua_istable(L, index)) lsw_only(L, index, what, axes, 3);
+}
+
+sw_vec lsw_vector(lua_State *L, int index, const char *what, const char *unit) {
+  only_axes(L, index, what);
+  return vector_in(L, index, what, unit);
+}
+
 sw_vec lsw_place(lua_State *L, int index, const char *what) {
-  const sw_vec p = lsw_vector(L, index, what, "m");
+  only_axes(L, index, what);
+  return lsw_place_in(L, index, what);
+}
+
+sw_vec lsw_place_in(lua_State *L, int index, const char *what) {
+  const sw_vec p = vector_in(L, index, what, "m");
   const double v[] = {p.x, p.y, p.z};
   for (int i = 0; i < 3; i++) {
     if (fabs(v[i]) <= SW_PLACE_FARTHEST) continue;
@@ -74,7 +122,7 @@ sw_vec lsw_turn(lua_State *L, int index, const char *what) {
 }
 
 sw_quat lsw_rotation(lua_State *L, int index, const char *what) {
-  static const char *const names[] = {"w", "x", "y", "z"};
+  static const char *const names[] = {"w", "x", "y", "z", "axis", "angle"};
   double q[4] = {1, 0, 0, 0};
   index = lua_absindex(L, index);
   if (lua_isnoneornil(L, index)) return sw_quat_identity();
@@ -82,6 +130,7 @@ sw_quat lsw_rotation(lua_State *L, int index, const char *what) {
     const int turns = lua_getfield(L, index, "axis") != LUA_TNIL;
     lua_pop(L, 1);
     if (turns) return sw_quat_exp(lsw_turn(L, index, what));
+    lsw_only(L, index, what, names, sizeof names / sizeof names[0]);
   }
   numbers(L, index, what, "-", 4, names, q);
   if (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] == 0)

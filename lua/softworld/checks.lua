@@ -72,6 +72,25 @@ function checks.keys(what, args, known, level)
   end
 end
 
+--- Raises an error for a key of a table that is a text and none of these names (a list of words; none: the
+-- table is a plain list). The n of table.pack may be there.
+function checks.only(what, list, names, level)
+  local function known(key)
+    for _, name in ipairs(names or {}) do
+      if name == key then return true end
+    end
+    return key == "n"
+  end
+  for key in next, list do
+    if type(key) == "string" and not known(key) then
+      if not names then error(("%s is a list; it has no field '%s'"):format(what, key), level) end
+      local near = #key > 1 and core.nearest(key, names) -- any letter is near to x
+      error(("%s has no field '%s'; %s"):format(what, key, near and ("did you mean '%s'?"):format(near)
+        or "known are: " .. table.concat(names, " ")), level)
+    end
+  end
+end
+
 --- Returns the message about a field that does not exist: it proposes the nearest of these names, else
 -- `else_says`, else lists all of them.
 function checks.lacks(what, key, names, else_says)
@@ -139,12 +158,14 @@ function checks.field(t, key)
   return there and value or nil
 end
 
+local axes, turns = { "x", "y", "z" }, { "w", "x", "y", "z", "axis", "angle" }
 local FARTHEST = 1e100 -- largest coordinate of a place, as in the core [m]
 
 --- Returns a copy of the vector {x, y, z}, or raises an error. Coordinates of places [m] are within 1e100 m.
 function checks.vector(what, value, unit, level)
   local copy = {}
-  for k, axis in ipairs{ "x", "y", "z" } do
+  if type(value) == "table" then checks.only(what, value, axes, level > 0 and level + 1 or 0) end
+  for k, axis in ipairs(axes) do
     local v = checks.field(value, k) or checks.field(value, axis)
     if type(v) ~= "number" or v - v ~= 0 then
       local got = type(value) ~= "table" and checks.got(value) or ("%s as item %d"):format(checks.got(v), k)
@@ -161,6 +182,7 @@ end
 
 --- Raises an error unless value is a rotation: { w, x, y, z }, or { axis = {x, y, z}, angle = [rad] }.
 function checks.rotation(what, value, level)
+  if type(value) == "table" then checks.only(what, value, turns, level > 0 and level + 1 or 0) end
   if checks.field(value, "axis") then
     local axis = checks.vector(what .. ".axis", value.axis, "-", level + 1)
     if axis[1] == 0 and axis[2] == 0 and axis[3] == 0 then

@@ -97,8 +97,10 @@ function check.integer(what, row, value)
     and ("from %d to %d"):format(row.min, row.max) or ("of %d or more"):format(row.min)), 0)
 end
 
---- Raises an error for a list with a hole, behind which a part of the list would be lost.
+--- Raises an error for a list with a name in it, or with a hole, behind which a part of the list would be
+-- lost.
 function rows.whole(what, list)
+  checks.only(what, list, nil, 0)
   local count = rawlen(list)
   for key in next, list do
     if math.type(key) == "integer" and key > count then count = key end

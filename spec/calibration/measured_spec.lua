@@ -80,6 +80,12 @@ describe("sw.calibration refuses", function()
     ["sag: length = 0.9 m is not allowed; it must be above 0.952381 m"] = with { length = 0.9 },
     ["sag: length = -1 m is not allowed"] = with { length = -1 },
     ["sag: length: sigma = 1 m is not allowed"] = with { length = { 1, sigma = 1 } },
+    ["sag: length: sigma = 1e-160 m is not allowed; it must be at least 1e-12 m and at most 0.333333 m"]
+      = with { length = { 1, sigma = 1e-160 } },
+    ["sag.sigma = 1e-160 m is not allowed; it must be at least 1e-60 m and at most 1e+60 m"]
+      = with { sigma = 1e-160 },
+    ["twist.sigma = 1e-160 is not allowed; it must be at least 1e-60"]
+      = { EI = 1e-3, twist = { length = 1, angle = 9, sigma = 1e-160 } },
     ["sag: length: there is no 'sigm'"] = with { length = { 1, sigm = 1 } },
     ["sag: to is required"] = with({}, "to"),
     ["sag: to must be { x, z }: in the plane, without y"] = with { to = { 1, 0, 0 } },

@@ -45,6 +45,29 @@ describe("a verdict", function()
     end)
   end
 
+  -- A limit of 0: the value may be beyond it by the rounding of the terms that it is the difference of.
+  local zero = { value = 0 }
+  for _, terms in ipairs{ 1e-3, 1, 2.5e4 } do
+    it(("at a limit of 0 knows the rounding of terms of %g"):format(terms), function()
+      for _, side in ipairs{ "max", "min" } do
+        local sign = side == "max" and 1 or -1
+        local noise = { value = sign * terms * 2 ^ -52, terms = terms }
+        assert.equal("PASS", judge.verdict(noise, zero, side))
+        assert.equal(0, judge.margin(noise, zero, side))
+        local beyond = { value = sign * terms * 1e-12, terms = terms }
+        assert.equal("FAIL", judge.verdict(beyond, zero, side))
+        assert.is_near(-terms * 1e-12, judge.margin(beyond, zero, side), 1e-24 * terms)
+        assert.equal("FAIL", judge.verdict({ value = noise.value }, zero, side)) -- of unknown terms
+        assert.equal("OPEN", judge.verdict({ value = 0, low = -1e-12 * terms, high = 1e-12 * terms,
+          terms = terms }, zero, side))
+      end
+    end)
+  end
+
+  it("does not use that rounding at other limits", function()
+    assert.equal("FAIL", judge.verdict({ value = 2e-15, terms = 1 }, { value = 1e-15 }, "max"))
+  end)
+
   it("has a margin above 0 where the limit is kept", function()
     assert.equal(0.5, judge.margin({ value = 1.5 }, { value = 2 }, "max"))
     assert.equal(-0.5, judge.margin({ value = 1.5 }, { value = 2 }, "min"))

@@ -47,6 +47,23 @@ describe("a run that goes on from a file", function()
     assert.is_true(c.scene:run({ dt = 0.005, window = 0.02 }).ok)
   end)
 
+  it("is refused with another record of wear; nothing is changed", function()
+    for _, wear in ipairs{ true, false } do
+      local path, c = file_of({ dt = 0.005, wear = wear }, 2), script()
+      local before = saving.all(c.scene)
+      local words = ("wear = %s, and a record of wear is of all steps of a run, or of none; give wear = %s,")
+        :format(wear, wear)
+      fails({ ("scene:run: wear = %s, but"):format(not wear), path, words }, c.scene.run, c.scene,
+        { dt = 0.005, wear = not wear, resume = path })
+      same(before, saving.all(c.scene))
+      c.scene:resume(path)
+      fails({ words }, c.scene.run, c.scene, { dt = 0.005, wear = not wear })
+      assert.is_true(c.scene:run({ dt = 0.005, wear = wear }).ok)
+    end
+    local path, c = file_of({ dt = 0.005, wear = true }, 2), script()
+    fails({ "wear = false (the usual one), but" }, c.scene.run, c.scene, { dt = 0.005, resume = path })
+  end)
+
   it("makes no step if the file's run has already made the allowed number", function()
     local path, c = file_of({ dt = 0.005 }, 2), script()
     local run = c.scene:run{ dt = 0.005, resume = path, max_steps = 1 }

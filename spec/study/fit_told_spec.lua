@@ -144,6 +144,12 @@ describe("study:fit refuses", function()
     ["data.y[2]"] = of { y = { 1, NAN } },
     ["data.y: there is no sigm; did you mean 'sigma'?"] = of { y = { 1, 2, sigm = 1 } },
     ["data.y: sigma = 0 is not allowed"] = of { y = { 1, 2, sigma = 0 } },
+    ["data.y: sigma = 1e-160 N is not allowed; it must be at least 1e-60 N and at most 1e+60 N"]
+      = of { y = { 1, 2, sigma = 1e-160, unit = "N" } },
+    ["data.y: sigma = 1e+160 is not allowed; it must be at least 1e-60 and at most 1e+60"]
+      = of { y = { 1, 2, sigma = { 1, 1e160 } } },
+    ["data.y: weight = 1e-200 is not allowed; it must be 0, or a number from 1e-120 to 1e+120"]
+      = of { y = { 1, 2, weight = 1e-200 } },
     ["data.y: sigma must have one number per datum, 2 in all, got 1"] = of { y = { 1, 2, sigma = { 1 } } },
     ["data.y: give sigma or weight, not both"] = of { y = { 1, 2, sigma = 1, weight = 1 } },
     ["data.y: unit = 'mm' is none of the SI"] = of { y = { 1, 2, unit = "mm" } },
@@ -166,6 +172,18 @@ describe("study:fit refuses", function()
       assert.truthy(tostring(why):find("fit_told_spec.lua:", 1, true), "no line: " .. tostring(why))
     end)
   end
+
+  it("no small sigma of the range: errors are in proportion to it, the correlation stays", function()
+    local function fitted(sigma) return study(RANGES, line):fit { data = { y = data(Y, sigma) } } end
+    local usual = fitted(0.1)
+    for _, sigma in ipairs { 1e-60, 1e-30 } do
+      local fit = fitted(sigma)
+      near(usual.best.a, fit.best.a, 1e-6)
+      near(usual.parameters.a.error * 10, fit.parameters.a.error / sigma, 1e-4)
+      near(usual.chi2 / 100, fit.chi2 * sigma ^ 2, 1e-6)
+      near(usual.correlation.a.b, fit.correlation.a.b, 1e-4)
+    end
+  end)
 
   it("integers and choices", function()
     for _, p in ipairs { { 1, 5, integer = true }, { choices = { "a", "b" } } } do

@@ -23,6 +23,7 @@ local twist = require "softworld.calibration.twist"
 local calibration = {}
 
 local WHAT = "sw.calibration"
+local SURE = 1e-12       -- least sigma of an independently measured value, over the value [-]
 local WIDE = 8           -- half width of the range of an independently measured value, in its sigma
 local ROUGH = 1e-4       -- tolerance of fits whose sum of squares is wanted only: an error of its square [-]
 local ROUNDS = 3         -- most fits [-]
@@ -62,7 +63,7 @@ local function read_uncertain(what, given, unit)
   end
   checks.number(("%s: %s"):format(WHAT, what), value, 0, " " .. unit, 0, nil, true)
   if sigma ~= nil then
-    checks.number(("%s: %s: sigma"):format(WHAT, what), sigma, 0, " " .. unit, 0, value / 3, true)
+    checks.number(("%s: %s: sigma"):format(WHAT, what), sigma, SURE * value, " " .. unit, 0, value / 3)
   end
   return { value = value, sigma = sigma, unit = unit }
 end

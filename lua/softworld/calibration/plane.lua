@@ -62,7 +62,9 @@ local function read(what, known)
     fail("%s: pixels must be a list of at least four known points { u, v, x, z }, got %s", what,
       type(known) == "table" and ("%d"):format(#known) or checks.got(known))
   end
+  checks.only(what .. ": pixels", known, nil, 0)
   for i, p in ipairs(known) do
+    if type(p) == "table" then checks.only(("%s: pixels[%d]"):format(what, i), p, nil, 0) end
     for k = 1, 4 do
       local value = checks.field(p, k)
       if type(value) ~= "number" or value - value ~= 0 then

@@ -94,8 +94,10 @@ local function from_table(what, points, columns)
   if type(points) ~= "table" then
     fail("%s: points must be a list of %s, got %s", what, wanted, checks.got(points))
   end
+  checks.only(what .. ": points", points, nil, 0)
   for k = 1, #points do
     rows[k] = {}
+    if type(points[k]) == "table" then checks.only(("%s: points[%d]"):format(what, k), points[k], nil, 0) end
     for i = 1, #columns do
       local value = checks.field(points[k], i)
       if type(value) ~= "number" or value - value ~= 0 then

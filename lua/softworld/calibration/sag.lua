@@ -2,6 +2,7 @@
 --- Points of a hanging wire, measured or from a photograph: they determine EI over the weight.
 -- @module softworld.calibration.sag
 local checks = require "softworld.checks"
+local fitdata = require "softworld.study.fitdata"
 local plane = require "softworld.calibration.plane"
 local readings = require "softworld.calibration.readings"
 local rows = require "softworld.rows"
@@ -10,6 +11,7 @@ local sagged = require "softworld.calibration.sagged"
 local sag = { name = "sag" }
 
 local WHAT = "sw.calibration: sag"
+local LEAST, MOST = fitdata.LEAST_SIGMA, fitdata.MOST_SIGMA
 local FARTHEST = 1.05 -- farthest point from the wire's start over its length
 local SOFTEST, STIFFEST = 1e5, 1e-3 -- range of weight length^3 / EI that is searched [-]
 
@@ -25,15 +27,16 @@ sag.rows = rows.list{
   { "from", "{x, z}", "m", "where the wire begins", usual = "{0, 0}" },
   { "to", "{x, z}", "m", "where it ends; not of a cantilever" },
   { "directions", "list of {x, z}", "-", "along the wire at clamps", usual = "level, along x" },
-  { "sigma", "number", "m", "standard deviation of a point across the wire", min = 0, above = true,
+  { "sigma", "number", "m", "standard deviation of a point across the wire", min = LEAST, max = MOST,
     usual = "estimated" },
-  { "pixel_sigma", "number", "px", "the same of pixels", min = 0, above = true },
+  { "pixel_sigma", "number", "px", "the same of pixels", min = LEAST, max = MOST },
 }
 
 local function fail(text, ...) error((WHAT .. ": " .. text):format(...), 0) end
 
 local function pair(name, value, unit)
   local x, z = checks.field(value, 1), checks.field(value, 2)
+  if type(value) == "table" then checks.only(("%s: %s"):format(WHAT, name), value, nil, 0) end
   for _, v in ipairs { x or "nothing", z or "nothing" } do
     if type(v) ~= "number" or v - v ~= 0 then
       fail("%s must be { x, z }%s, two finite numbers in the plane, z upwards; got %s", name, unit,
@@ -51,6 +54,7 @@ local function directions(o)
   if given ~= nil and type(given) ~= "table" then
     fail("directions must be a list of one { x, z } for each clamp, got %s", checks.got(given))
   end
+  if given then checks.only(WHAT .. ": directions", given, nil, 0) end
   for k = 1, 2 do
     local d = given and given[k]
     local level = { (o.to and o.to[1] < o.from[1]) and -1 or 1, 0 }

@@ -2,17 +2,20 @@
 --- Displacement over force as a straight line: a pull gives EA, a squeeze between plates the section's
 -- stiffness. The line's zero is not known, so it is fitted too.
 -- @module softworld.calibration.slope
+local fitdata = require "softworld.study.fitdata"
 local readings = require "softworld.calibration.readings"
 local rows = require "softworld.rows"
 
 local slope = {}
+
+local LEAST, MOST = fitdata.LEAST_SIGMA, fitdata.MOST_SIGMA
 
 local function options(way, length)
   return rows.list{
     { "file", "text", "-", ("CSV with columns force [N], %s [mm]"):format(way) },
     { "points", ("list of {force, %s}"):format(way), "-", "the same as a table [N], [m]" },
     { "length", "number", "m", length, min = 0, above = true, required = true },
-    { "sigma", "number", "m", ("standard deviation of the %s"):format(way), min = 0, above = true,
+    { "sigma", "number", "m", ("standard deviation of the %s"):format(way), min = LEAST, max = MOST,
       usual = "estimated" },
   }
 end

@@ -2,6 +2,7 @@
 --- Measurements that determine GJ: the twist at which a straight wire buckles (with its EI), or a torsional
 -- pendulum.
 -- @module softworld.calibration.twist
+local fitdata = require "softworld.study.fitdata"
 local readings = require "softworld.calibration.readings"
 local rows = require "softworld.rows"
 local twisted = require "softworld.calibration.twisted"
@@ -9,6 +10,7 @@ local twisted = require "softworld.calibration.twisted"
 local twist = { name = "twist" }
 
 local WHAT = "sw.calibration: twist"
+local LEAST, LARGEST = fitdata.LEAST_SIGMA, fitdata.MOST_SIGMA
 local MOST = 1e4 -- largest angle at which a wire buckles [rad]
 
 twist.rows = rows.list{
@@ -23,8 +25,8 @@ twist.rows = rows.list{
   { "points", "list of {tension, angle}", "-", "the same as a table [N], [rad]" },
   { "period", "number", "s", "full period of a torsional pendulum; give inertia too", min = 0, above = true },
   { "inertia", "number", "kg m2", "of the pendulum's weight about the wire", min = 0, above = true },
-  { "sigma", "number", "-", "standard deviation of the angles [rad], or of the period [s]", min = 0,
-    above = true, required = true },
+  { "sigma", "number", "-", "standard deviation of the angles [rad], or of the period [s]", min = LEAST,
+    max = LARGEST, required = true },
 }
 
 local function fail(text, ...) error((WHAT .. ": " .. text):format(...), 0) end

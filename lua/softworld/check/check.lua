@@ -31,7 +31,7 @@ local call = rows.call("run:check", "{...}", "judges whether the process passes,
     usual = "that of the wire" },
   { "limits", "limits", "-", "by name: a number, false or { max =, min =, source =, sure = }",
     usual = "of the catalogue, standards and definitions" },
-  { "checks", "list", "-", "checks of your own: { name =, unit =, of = function(run), max =, min = }" },
+  { "checks", "tables", "-", "checks of your own: { name =, unit =, of = function(run), max =, min = }" },
   { "landing", "table", "-", "path on which the wire must lie at the end", rows = wanted.landing },
   { "fatigue", "table", "-", "curves of how many cycles of tension and bending the wire endures",
     rows = wanted.fatigue },
@@ -204,6 +204,7 @@ local function judge_one(self, member, entry, context, list)
     if not (given and entry.name and list[full]) then return end
     value = { value = 0 / 0, note = "this run has no such value" } -- asked for by its full name
   end
+  value.terms = member.terms and member.terms(entry, context)
   with_error(value, error_bar(self.run, entry.name, member.name))
   if not self.several then edges.widen(value, member.edges, entry, self.run) end
   askew.widen(value, member, entry, context)

@@ -4,8 +4,10 @@
 -- and at distance b after it was never nearer than (a + b - w) / 2, so no sweep through a zone is missed.
 -- @module softworld.check.clearance
 local core = require "softworld.core"
+local terms = require "softworld.check.terms"
 
 return { name = "clearance", unit = "m", side = "min", places = true, on = "wire",
+  terms = terms.places,
   label = "smallest distance from forbidden zones", missing = "wanted distance",
   value = function(entry)
     local best

@@ -5,6 +5,7 @@
 -- @module softworld.check.frequency_gap
 local holding = require "softworld.check.holding"
 local swings = require "softworld.check.swings"
+local terms = require "softworld.check.terms"
 
 -- Returns the gap of a frequency from a band, above 0 outside.
 local function apart(f, band)
@@ -56,6 +57,7 @@ local function least(found, bands)
 end
 
 return { name = "frequency_gap", unit = "-", side = "min", on = "wire", asked = true,
+  terms = terms.one,
   label = "distance of natural frequencies from bands of excitation", missing = "wanted distance",
   wanted = function(context) return context.vibration ~= nil and context.vibration.bands ~= nil end,
   value = function(entry, context)

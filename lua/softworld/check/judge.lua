@@ -9,22 +9,26 @@ local judge = {}
 
 local FAR = 100       -- a limit this many times laxer than usual ones is probably not meant [-]
 local ROUNDING = 1e-12 -- share of a value by which rounding may put it beyond its limit [-]
+local LAST = 16 * 2 ^ -52 -- rounding of a value that should be 0, as a share of the terms that make it [-]
 local THOUSAND = 500  -- same against the value itself, if nothing better is known: its unit may be wrong [-]
 
 -- Returns how far a is beyond the limit, below 0 if it keeps it. side: "max" or "min". Sums such as 0.15 -
--- 0.1 - 0.002 differ from 0.048 in the last bits, so a value that differs by rounding is at its limit.
-local function beyond(a, limit, side)
+-- 0.1 - 0.002 differ from 0.048 in the last bits, so a value that differs by rounding is at its limit. At a
+-- limit of 0 the value tells nothing about its rounding; terms: size of what it is the difference of, or nil.
+local function beyond(a, limit, side, terms)
   if a == limit then return 0.0 end
   local by = side == "max" and a - limit or side == "min" and limit - a
   local size = math.max(math.abs(a), math.abs(limit))
-  if size < math.huge and by > 0 and by <= ROUNDING * size then return 0.0 end
+  local rounding = limit == 0 and terms and LAST * terms or ROUNDING * size
+  if size < math.huge and by > 0 and by <= rounding then return 0.0 end
   return by
 end
 
 -- True if a keeps the limit.
-local function kept(a, limit, side) return beyond(a, limit, side) <= 0 end
+local function kept(a, limit, side, terms) return beyond(a, limit, side, terms) <= 0 end
 
---- Returns the verdict. value and limit: { value =, low =, high = }, low and high may be missing.
+--- Returns the verdict. value and limit: { value =, low =, high = }, low and high may be missing;
+-- value.terms: see softworld.check.terms.
 function judge.verdict(value, limit, side)
   local low, high = value.low or value.value, value.high or value.value
   local least, most = limit.low or limit.value, limit.high or limit.value
@@ -33,13 +37,13 @@ function judge.verdict(value, limit, side)
   for _, x in ipairs{ value.value, low, high, limit.value, least, most } do
     if x ~= x then return "FAIL" end
   end
-  if kept(worst, hard, side) then return "PASS" end
-  return kept(best, soft, side) and "OPEN" or "FAIL"
+  if kept(worst, hard, side, value.terms) then return "PASS" end
+  return kept(best, soft, side, value.terms) and "OPEN" or "FAIL"
 end
 
 --- Returns the distance to the limit in its unit, below 0 if the limit is broken.
 function judge.margin(value, limit, side)
-  return 0.0 - beyond(value.value, limit.value, side)
+  return 0.0 - beyond(value.value, limit.value, side, value.terms)
 end
 
 -- Returns how many times laxer a limit is than a reference; nil if that cannot be told.

@@ -4,6 +4,7 @@
 -- must lie there. A path may go on beyond the wire; the row says how far.
 -- @module softworld.check.landing
 local number = require "softworld.output.number"
+local terms = require "softworld.check.terms"
 local vec = require "softworld.vec"
 
 local SLACK = 1e-9 -- rounding of arc lengths [m]
@@ -112,6 +113,7 @@ local function value(entry, context)
 end
 
 return { name = "landing_error", unit = "m", side = "max", places = true, on = "wire", asked = true,
+  terms = terms.places,
   label = "largest distance from the wanted path at the end", missing = "allowed landing error",
   wanted = function(context) return context.landing ~= nil end, value = value,
   reference = function(entry) return entry.object.length / 100 end }

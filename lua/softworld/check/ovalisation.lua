@@ -2,8 +2,10 @@
 --- Largest ovalisation of all steps in which the wire was a mesh.
 -- @module softworld.check.ovalisation
 local checks = require "softworld.checks"
+local terms = require "softworld.check.terms"
 
 return { name = "max_ovalisation", unit = "-", side = "max", peaks = true, on = "wire", asked = true,
+  terms = terms.one,
   label = "largest ovalisation of a section", missing = "allowed ovalisation",
   value = function(entry)
     local known, value, s, time = pcall(entry.object.max_ovalisation, entry.object)

@@ -4,6 +4,7 @@
 -- them, so its bar is at least as large as the depth.
 -- @module softworld.check.penetration
 local build = require "softworld.scene.build"
+local terms = require "softworld.check.terms"
 
 local SHARE = 0.25 -- of the radius, as of crashes [-]
 
@@ -14,6 +15,7 @@ local function thinnest(scene)
 end
 
 return { name = "penetration", vanishes = true, unit = "m", side = "max", on = "run",
+  terms = terms.places_of_all,
   label = "deepest penetration", missing = "allowed penetration",
   value = function(_, context)
     if #build.data(context.scene).obstacles == 0 then return nil end

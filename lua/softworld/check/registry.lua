@@ -2,15 +2,17 @@
 --- The checks of run:check, in the order of its rows: one file per check, one line here.
 --
 -- A member: { name =, unit =, side = "min" or "max", label =, on = "wire", "gripper", "clip", "tie" or
--- "run", edges =, peaks =, places =, asked =, missing =, value =, limit =, reference =, wanted = }. asked:
--- judged only if the script gives a limit, or wanted(context) is true. missing: name of the missing value if
--- no limit is known. edges: "low", "high" or "both", the side to which the value may be off where a wire's
--- edges are too long for a bend (softworld.check.edges). peaks: true if the value is a peak of the motion,
--- which an event may doubt (softworld.check.doubted); places: true if it is a place, or the shape there.
+-- "run", edges =, peaks =, places =, asked =, missing =, value =, limit =, terms =, reference =, wanted = }.
+-- asked: judged only if the script gives a limit, or wanted(context) is true. missing: name of the missing
+-- value if no limit is known. edges: "low", "high" or "both", the side to which the value may be off where a
+-- wire's edges are too long for a bend (softworld.check.edges). peaks: true if the value is a peak of the
+-- motion, which an event may doubt (softworld.check.doubted); places: true if it is a place, or the shape
+-- there.
 -- Functions take the object's entry { name =, object = } and the context { run =, scene =, use =, ... }:
 --   value: { value =, s = [m], time = [s], note =, low =, high = }; low and high bound the value if it is
 --     not known exactly; nil if there is nothing to judge
 --   limit: { value =, low =, high =, from = "catalogue", "standard" or "definition", source = }, or nil
+--   terms: size of the terms whose difference the value is [unit], see softworld.check.terms
 --   reference: a usual limit of this kind, to detect limits in other units
 -- @module softworld.check.registry
 local registry = {}

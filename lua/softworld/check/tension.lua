@@ -3,6 +3,7 @@
 -- breaking load.
 -- @module softworld.check.tension
 local core = require "softworld.core"
+local terms = require "softworld.check.terms"
 local window = require "softworld.run.window"
 
 local YIELD = 0.01 -- strain that no pull in handling reaches [-]
@@ -20,6 +21,7 @@ local function limit(entry)
 end
 
 return { name = "max_tension", unit = "N", side = "max", peaks = true, on = "wire", edges = "both",
+  terms = terms.tension,
   label = "largest tension",
   missing = "breaking_load", limit = limit,
   value = function(entry, context)

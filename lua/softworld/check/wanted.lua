@@ -75,6 +75,7 @@ local function pair(what, point, units)
   if type(point) ~= "table" then
     error(("%s must be a pair of numbers, got %s"):format(what, checks.got(point)), 0)
   end
+  checks.only(what, point, nil, 0)
   return { checks.number(what .. "[1]", point[1], 0, units[1], 0), checks.number(what .. "[2]", point[2], 0,
     units[2], 0, nil, true) }
 end

@@ -182,6 +182,7 @@ local take = rows.call("gripper:grasp", "wire, {...}", "takes hold of a wire, or
 -- Returns the wire or list of wires as a list.
 local function wires_of(self, given)
   local list = checks.kind(given) == "table" and given or { given }
+  if list == given then checks.only("gripper:grasp: the first argument", list, nil, 0) end
   if #list == 0 then
     error("gripper:grasp: the first argument must be a wire (from scene:wire) or a list of wires, got "
       .. (given == nil and "nil" or "an empty table"), 0)
@@ -205,6 +206,7 @@ end
 
 -- Raises an error if the gripper cannot hold these wires in addition to those it holds.
 local function check_free(self, wires, approach, args)
+  if type(args.s) == "table" then checks.only(("gripper '%s': s"):format(self.name), args.s, nil, 0) end
   if type(args.s) == "table" and #args.s ~= #wires then
     error(("gripper '%s': s has %s for %s"):format(self.name, counted(#args.s, "place"),
       counted(#wires, "wire")), 0)

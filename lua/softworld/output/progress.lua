@@ -49,6 +49,7 @@ end
 -- `total` simulated time to reach [s], nil if the processes decide;
 -- `name` shown in front; `word` name of the steps; `quiet = true` shows nothing;
 -- `long = true` a quiet one says once if many minutes are left;
+-- `passing = true` the line is only removed at the end, for one of several runs;
 -- `stream` (default io.stderr); `terminal` true or false (default: asked of
 -- the system for stderr, false for another stream);
 -- `width` columns or a function giving them; `clock` a function giving real time [s]
@@ -60,6 +61,7 @@ function progress.new(options)
   end
   local self = setmetatable({}, progress)
   self.total, self.name, self.quiet = options.total, options.name, options.quiet or false
+  self.passing = options.passing or false
   self.long = self.quiet and options.long and self.total ~= nil
   self.stream = options.stream or io.stderr
   self.clock = options.clock or fallback_clock()
@@ -187,6 +189,8 @@ end
 local function last_line(self, format, ...)
   if self.quiet or self.ended or self.early then return end
   self:clear()
+  self.ended = self.passing
+  if self.passing then return end
   local label = self.name and self.name:gsub("%c", " ") .. ": " or ""
   self.stream:write(label, string.format(format, ...), "\n")
   self.stream:flush()

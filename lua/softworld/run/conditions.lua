@@ -68,6 +68,7 @@ end
 -- fixed.
 local function place_of(what, level)
   if type(what) == "table" and core.type(rawget(what, 1)) == "wire" then
+    checks.only("p:wait_until: between: a place", what, { "s" }, level + 1)
     local s = number("between: s", what.s, " m", level + 1)
     check_scene(what[1], "the wire", level + 1)
     return function() return what[1]:position(s) end

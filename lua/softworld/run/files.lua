@@ -102,11 +102,13 @@ local function check_size(given)
   if type(given) ~= "table" then
     error("run:chart: size must be { width, height }, got " .. checks.got(given), 0)
   end
+  checks.only("run:chart: size", given, nil, 0)
   for k = 1, 2 do checks.number(("run:chart: size[%d]"):format(k), given[k], 0, "", 0, nil, true) end
 end
 
 local function check_names(given)
-  if given == nil or type(given) == "table" then return end
+  if given == nil then return end
+  if type(given) == "table" then return checks.only("run:chart: columns", given, nil, 0) end
   error("run:chart: columns must be a list of names of series, got " .. checks.got(given), 0)
 end
 

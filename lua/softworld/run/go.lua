@@ -11,7 +11,6 @@ local ledger = require "softworld.run.ledger"
 local observe = require "softworld.run.observe"
 local process = require "softworld.run.process"
 local turns = require "softworld.run.turns"
-local progress = require "softworld.output.progress"
 local reactions = require "softworld.grip.reactions"
 local released = require "softworld.check.released"
 local save = require "softworld.scene.save"
@@ -19,11 +18,11 @@ local settings = require "softworld.run.settings"
 local tables = require "softworld.rows"
 local told = require "softworld.run.told"
 local waiting = require "softworld.run.waiting"
+local working = require "softworld.run.working"
 
 local go = {}
 local chunk = 64 -- steps between two looks at progress; fixed, so that results never depend on it
 local default_frame = 1 / 30 -- [s]
-local progress_after = 1 -- computing time before the bar is shown [s]
 
 --- Fields of `frames`.
 go.frames = tables.list{
@@ -39,18 +38,6 @@ local function merge(total, part)
   total.smallest_dt = math.min(total.smallest_dt, part.smallest_dt)
   total.ok, total.reason, total.time = part.ok, part.reason, part.time
   total.last_jump = part.last_jump or total.last_jump
-end
-
-local function new_bar(args, scene, level)
-  local host = package.loaded["softworld.host"]
-  local wanted = args.progress
-  local usual = wanted == nil -- on a terminal, for runs that take long
-  if usual then wanted = host and host.terminal and os.getenv "TERM" ~= "dumb" end
-  return progress.new{ total = args.duration and args.duration > 0 and args.duration or nil,
-    name = level and ("%s, %s"):format(scene.name, level) or scene.name, quiet = not wanted, long = usual,
-    after = usual and progress_after or nil,
-    terminal = host and host.terminal or nil,
-    clock = core.clock, width = host and host.columns or nil }
 end
 
 local advance = core.class.scene.advance
@@ -135,7 +122,8 @@ end
 
 -- Returns: 1. whether it ended without an error, 2. the reason or the error, 3. see drive.
 local function drive_shown(scene, args, total, level, hindrance)
-  local bar <close> = new_bar(args, scene, level)
+  local bar <close> = working.bar(args, scene, level)
+  if bar.passing then bar:update(0, total.steps) end -- its first steps may take long
   local data = build.data(scene)
   local fine, reason, cut
   data.running = true

@@ -45,12 +45,23 @@ local function check_numbers(what, list, count)
   end
 end
 
+-- Raises an error for a misspelt error. Other fields may be there: quantities of a run have more.
+local function check_pair(what, y)
+  for key in next, y do
+    local near = type(key) == "string" and core.nearest(key, { "value", "error" })
+    if near and near ~= key then fail("%s has no field '%s'; did you mean '%s'?", what, key, near) end
+  end
+end
+
 -- Separates values and errors in a list of numbers and tables with both.
 local function split(what, list)
   local values, errors = {}, nil
   for i, y in ipairs(list) do
     local value, err = y, nil
-    if type(y) == "table" then value, err = checks.field(y, "value"), checks.field(y, "error") end
+    if type(y) == "table" then
+      if not getmetatable(y) then check_pair(("%s: y[%d]"):format(what, i), y) end
+      value, err = checks.field(y, "value"), checks.field(y, "error")
+    end
     if type(value) ~= "number" then
       fail("%s: y[%d] must be a number, or a table with value and error, got %s", what, i, checks.got(y))
     end
@@ -73,6 +84,7 @@ local function errors_of(what, given, count)
   if type(given) ~= "table" then
     fail("%s: error must be a number or a list, got %s", what, checks.got(given))
   end
+  checks.only(("sw.plot: %s: error"):format(what), given, nil, 0)
   check_numbers(what .. ": error", given, count)
   for i, e in ipairs(given) do
     if not (e >= 0 and e < math.huge) then
@@ -131,8 +143,10 @@ local function read(args)
   if o.columns ~= nil and type(o.columns) ~= "table" then
     fail("columns must be a list of names of series, got %s", checks.got(o.columns))
   end
+  if o.columns then checks.only("sw.plot: columns", o.columns, nil, 0) end
   if o.size ~= nil then
     if type(o.size) ~= "table" then fail("size must be { width, height }, got %s", checks.got(o.size)) end
+    checks.only("sw.plot: size", o.size, nil, 0)
     for k = 1, 2 do checks.number(("sw.plot: size[%d]"):format(k), o.size[k], 0, "", 0, nil, true) end
   end
   local several = #args > 1

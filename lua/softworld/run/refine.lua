@@ -9,6 +9,7 @@ local process = require "softworld.run.process"
 local quantity = require "softworld.quantity"
 local trust = require "softworld.run.trust"
 local unread = require "softworld.unread"
+local working = require "softworld.run.working"
 
 local refine = {}
 
@@ -132,6 +133,15 @@ local function unsettled(scene)
   return not settled.ok and "no equilibrium to begin with: " .. settled.reason or nil
 end
 
+-- Makes the models of wires of level k and finds its start; returns why it cannot begin, or nil.
+local function prepare(job, options, k, name)
+  local _ <close> = working.prepares(options, job.scene, name)
+  job.unmade = job.shape and job.shape(k)
+  process.renew(job.scene, {}) -- settling must not start them
+  local rests = job.rests and not options.quasistatic and not job.unmade
+  return job.unmade or rests and unsettled(job.scene) or nil
+end
+
 --- Returns the function compute(k, name), which runs level k on the restored and remeshed scene; if that
 -- cannot start, the result is a failed run. total: its wall and cpu are summed up. job.shape(k), if there is
 -- one, makes other models of wires; it returns why it cannot, or nil, which is kept in job.unmade.
@@ -140,10 +150,7 @@ function refine.computer(job, steps, run_once, total)
   return function(k, name)
     local options = steps(k)
     job.moves = not options.quasistatic
-    job.unmade = job.shape and job.shape(k)
-    process.renew(scene, {}) -- settling must not start them
-    local rests = job.rests and not options.quasistatic and not job.unmade
-    local hindrance = job.unmade or rests and unsettled(scene) or nil
+    local hindrance = prepare(job, options, k, name)
     job.begin_processes()
     sample(job)
     local r = run_once(scene, options, name, hindrance)

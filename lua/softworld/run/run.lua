@@ -28,6 +28,7 @@ local series = require "softworld.run.series"
 local summary = require "softworld.run.summary"
 local trust = require "softworld.run.trust"
 local unread = require "softworld.unread"
+local working = require "softworld.run.working"
 
 local Run = { __name = "run" }
 local readable = runfiles.readable
@@ -153,9 +154,11 @@ function core.class.scene.run(scene, args)
     build.call(3, check_frames, args)
   end
   if build.call(3, choose.wanted, scene, args) then
+    local _ <close> = working.several()
     return hide_failure(build.call(3, choose.run, scene, args, check_start, run_once))
   end
   if refine.wanted(args) then
+    local _ <close> = working.several()
     local job = build.call(3, refine.job, scene, args, check_start)
     return hide_failure(build.call(3, refine.run, job, run_once))
   end

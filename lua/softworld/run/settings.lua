@@ -1,12 +1,13 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Settings of a run that decide its peaks, and what becomes of them when a run goes on from a file: its
--- peaks are of both parts. Another window cannot be mixed; another dt or method is told by an event.
+-- peaks are of both parts. Another window cannot be mixed, and wear is recorded from the start or not at all;
+-- another dt or method is told by an event.
 -- @module softworld.run.settings
 local core = require "softworld.core"
 
 local settings = {}
 
-local names = { "dt", "tolerance", "integrator", "parts", "quasistatic", "window" }
+local names = { "dt", "tolerance", "integrator", "parts", "quasistatic", "window", "wear" }
 local found -- name -> its row
 
 local function row_of(name)
@@ -51,21 +52,31 @@ local function shown(name, value)
   return value == nil and "none" or type(value) == "string" and ("'%s'"):format(value) or tostring(value)
 end
 
---- Raises an error if a run cannot go on with these arguments. before: the settings of the run in the file.
+local function refuse(name, before, args, file, words)
+  error(("scene:run: %s = %s%s, but the run in the file '%s' has %s; give %s = %s, or remove the file to "
+    .. "start from the beginning"):format(name, shown(name, settings.of(args)[name]),
+    args[name] == nil and " (the usual one)" or "", file, words:format(shown(name, before[name])), name,
+    type(before[name]) == "number" and ("%.9g"):format(before[name]) or tostring(before[name])), 0)
+end
+
+--- Raises an error if a run cannot go on with these arguments. before: the settings of the run in the file;
+-- files of earlier versions do not tell about wear.
 function settings.check(before, args, file)
   local now = settings.of(args)
-  if not before or now.window == before.window then return end
-  error(("scene:run: window = %s%s, but the run in the file '%s' has peaks of window = %s, and means over "
-    .. "two times cannot be mixed; give window = %.9g, or remove the file to start from the beginning")
-    :format(shown("window", now.window), args.window == nil and " (the usual one)" or "", file,
-      shown("window", before.window), before.window), 0)
+  if not before then return end
+  if now.window ~= before.window then
+    refuse("window", before, args, file, "peaks of window = %s, and means over two times cannot be mixed")
+  end
+  if before.wear ~= nil and now.wear ~= before.wear then
+    refuse("wear", before, args, file, "wear = %s, and a record of wear is of all steps of a run, or of none")
+  end
 end
 
 --- Tells by an event which settings differ from those of the run in the file.
 function settings.tell(scene, before, now, file)
   local changes = {}
   for _, name in ipairs(names) do
-    if before[name] ~= now[name] then
+    if before[name] ~= now[name] and not (name == "wear" and before.wear == nil) then
       changes[#changes + 1] = ("%s = %s instead of %s"):format(name, shown(name, now[name]),
         shown(name, before[name]))
     end

@@ -11,6 +11,10 @@ local parameters = require "softworld.study.parameters"
 local fitdata = {}
 
 local MOST = 100000 -- most numbers
+--- Range of a sigma [unit of its datum]: fourth powers of it, in covariances, are numbers. A weight is in the
+-- same range, as 1 / sigma^2, or 0.
+fitdata.LEAST_SIGMA, fitdata.MOST_SIGMA = 1e-60, 1e60
+local LIGHTEST, HEAVIEST = fitdata.MOST_SIGMA ^ -2, fitdata.LEAST_SIGMA ^ -2
 
 local function fail(text, ...) error(text:format(...), 0) end
 
@@ -22,14 +26,20 @@ end
 local function spread_list(what, item, key, given)
   local list = {}
   if given == nil then return nil end
+  if type(given) == "table" then checks.only(("%s: %s"):format(what, key), given, nil, 0) end
   if type(given) == "table" and #given ~= #item.values then
     fail("%s: %s must have one number per datum, %d in all, got %d", what, key, #item.values, #given)
   end
   for i = 1, #item.values do
     local value = given
     if type(given) == "table" then value = given[i] end
-    checks.number(("%s: %s"):format(what, key), value, 0, key == "sigma" and unit_of(item) or "", 0, nil,
-      key == "sigma")
+    local here = ("%s: %s"):format(what, key)
+    if key == "sigma" then
+      checks.number(here, value, fitdata.LEAST_SIGMA, unit_of(item), 0, fitdata.MOST_SIGMA)
+    elseif type(value) ~= "number" or value ~= 0 and not (value >= LIGHTEST and value <= HEAVIEST) then
+      fail("%s = %s is not allowed; it must be 0, or a number from %g to %g", here, checks.got(value),
+        LIGHTEST, HEAVIEST)
+    end
     list[i] = value
   end
   return list

@@ -55,6 +55,7 @@ local function read_choices(what, given)
     fail("%s: choices go without a range, log, integer, start and sigma", what)
   end
   if type(list) ~= "table" or #list < 1 then fail("%s: choices must be a list of values", what) end
+  checks.only(what .. ": choices", list, nil, 0)
   for i, value in ipairs(list) do
     local kind = type(value)
     if kind ~= "string" and kind ~= "number" and kind ~= "boolean" or value ~= value then

@@ -159,11 +159,16 @@ local function sorted_groups(stiffness)
   return names
 end
 
+-- Keys of a link and of an element: those that are read, and those that only sw.calibrate gives.
+local link_keys = { "from", "to", "slices", "group", "weight", "bend", "slide", "gap", "direction" }
+local element_keys = { "particles", "modulus", "nu", "slices" }
+
 local function flat_links(links, names)
   local flat, index = {}, {}
   for i, name in ipairs(names) do index[name] = i end
   for i, l in ipairs(links) do
     if type(l) ~= "table" then error(("cell: link %d must be a table"):format(i), 0) end
+    checks.only(("cell: link %d"):format(i), l, link_keys, 0)
     local group = index[l.group]
     if not group then
       local near = type(l.group) == "string" and core.nearest(l.group, names)
@@ -188,6 +193,7 @@ local function flat_elements(args, stiffness)
     if type(list) ~= "table" or #list ~= 6 and #list ~= 8 then
       error(("cell: element %d must have a list of 6 or 8 particles"):format(i), 0)
     end
+    checks.only(("cell: element %d"):format(i), e, element_keys, 0)
     flat[#flat + 1] = #list
     for k = 1, 8 do
       flat[#flat + 1] = k <= #list and number(("particle %d of element %d"):format(k, i), list[k]) or 0
@@ -224,6 +230,7 @@ local function check_cell(args)
     if type(args[key]) ~= "table" then
       error(("cell: %s must be a table, got %s"):format(key, type(args[key])), 0)
     end
+    if key ~= "stiffness" then checks.only("cell: " .. key, args[key], nil, 0) end
   end
 end
 
@@ -232,6 +239,7 @@ local function cell(args)
   local names, places, stiffness = sorted_groups(args.stiffness), {}, {}
   for i, p in ipairs(args.particles) do
     if type(p) ~= "table" then error(("cell: particle %d must be {x, y, z} [m]"):format(i), 0) end
+    checks.only(("cell: particle %d"):format(i), p, nil, 0)
     for k = 1, 3 do places[3 * (i - 1) + k] = number(("particle %d, item %d,"):format(i, k), p[k]) end
   end
   for i, name in ipairs(names) do

@@ -38,11 +38,13 @@ function lifecurve.read(what, curve, unit)
     error(("%s must be points { range [%s], cycles }, got %s"):format(what, unit, checks.got(curve)), 0)
   end
   local copy = {}
+  checks.only(what, curve, nil, 0)
   for i, point in ipairs(curve) do
     local here = ("%s[%d]"):format(what, i)
     if type(point) ~= "table" then
       error(("%s must be { range [%s], cycles }, got %s"):format(here, unit, checks.got(point)), 0)
     end
+    checks.only(here, point, nil, 0)
     copy[i] = { checks.number(here .. "[1]", point[1], 0, " " .. unit, 0, nil, true),
       checks.number(here .. "[2]", point[2], 0, "", 0, nil, true) }
     local before = copy[i - 1]
