@@ -9,6 +9,7 @@
 #include "body/body.h"
 #include "body/build.h"
 #include "body/hold.h"
+#include "body/join.h"
 #include "edit/edit.h"
 #include "link/hold.h"
 #include "scene/drive.h"
@@ -122,13 +123,15 @@ static sw_vec carry_along(const sw_mesh *m, size_t a, size_t b, sw_vec from, sw_
   return sw_carry_unit(u, before, to);
 }
 
-/* Returns the wire's direction at a living hold's end s, where the wire leaves or arrives; 0:
- * none. */
+/* Returns the wire's direction at a living hold's end s, where the wire leaves or arrives, or at a
+ * joint that ends its twist; 0: none. */
 static sw_vec held_direction(const sw_scene *s, size_t wire, double at, int leaves) {
+  const sw_mesh *m = &sw_scene_wire_in(s, wire)->mesh;
   SW_EACH(hold, h, s) {
     if (h->alive && h->wire == wire && h->cls->hold->direction && (leaves ? h->s2 : h->s1) == at)
       return sw_rotate(h->turn, h->director[leaves]);
   }
+  if (sw_scene_stop_at(s, wire, at)) return sw_mesh_tangent(m, sw_mesh_node(m, at));
   return sw_v(0, 0, 0);
 }
 
@@ -139,7 +142,7 @@ static void correct_twist(sw_scene *s, size_t wire, const sw_mesh *old, const sw
   SW_ITEMS(sw_twisted, span, w->twisted, w->twisted_count) {
     const sw_vec from = held_direction(s, wire, span->s1, 1);
     const sw_vec to = held_direction(s, wire, span->s2, 0);
-    if (!(sw_norm(from) > 0) || !(sw_norm(to) > 0)) continue; /* a hold has just gone */
+    if (!(sw_norm(from) > 0) || !(sw_norm(to) > 0)) continue; /* it has just gone */
     const sw_vec u =
         carry_along(old, sw_mesh_node(old, span->s1), sw_mesh_node(old, span->s2), from, to);
     const sw_vec v =
