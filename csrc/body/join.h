@@ -18,7 +18,7 @@ void sw_scene_joint_wires(const sw_scene *scene, const sw_joint *join,
 size_t sw_scene_number_stops(sw_scene *scene);
 /* Writes a wire's such places to out; returns their number. */
 size_t sw_scene_stops(const sw_scene *scene, size_t wire, sw_hold_place *out);
-/* 1 if a living joint ended a span of the wire's twist there in the last system. */
+/* 1 if a living joint ends a span of the wire's twist there, by the last numbering. */
 int sw_scene_stop_at(const sw_scene *scene, size_t wire, double s);
 /* Adds springs and hinges of the living joins to the new system. SW_ENOMEM. */
 sw_status sw_scene_add_joins(sw_scene *scene);

@@ -226,6 +226,7 @@ sw_status sw_scene_remesh(sw_scene *s, const size_t *segments, size_t count, sw_
                      sw_scene_wire_in(s, w)->name, segments[w]);
   SW_TRY(check_fed(s, err));
   SW_TRY(sw_scene_unbuild(s));
+  sw_scene_number_stops(s); /* they are not known after a restore */
   for (size_t w = 0; w < count; w++) {
     const sw_status status = is_drawn(sw_scene_wire_in(s, w)) ? redraw(s, w, segments[w], err)
                                                               : carry_over(s, w, segments[w], err);

@@ -15,7 +15,7 @@
 void sw_joins_free(sw_system *s) {
   if (!s->joins) return;
   SW_FREE_ALL(s->joins->springs, s->joins->hubs, s->joins->places, s->joins->links,
-              s->joins->twisted, s->joins->give, s->joins);
+              s->joins->twisted, s->joins->number, s->joins->give, s->joins);
   s->joins = NULL;
 }
 

@@ -76,6 +76,7 @@ struct sw_joins {
   size_t link_count, link_capacity;
   sw_join_span *twisted;
   size_t twisted_count, twisted_capacity; /* m */
+  size_t *number;                         /* (spans) of all bodies: which of these, or SIZE_MAX */
   double *give;      /* (m x m) turn of the hubs against the arms by the spans' torques [rad/N m] */
   double *stiffness; /* (m x m) inverse of the spans' compliance and the give [N m] */
   double *change;    /* (2 x m) work space */

@@ -38,8 +38,7 @@ static sw_status list_places(sw_system *s) {
   for (size_t h = 0; h < all->hub_count; h++)
     for (size_t a = 0; a < all->hubs[h].count; a++)
       if (all->hubs[h].arms[a].stop > count) count = all->hubs[h].arms[a].stop;
-  all->places = sw_alloc(count + 1, sizeof *all->places);
-  if (!all->places) return SW_ENOMEM;
+  SW_TRY(SW_ALLOC_ALL(SW_ROOM(all->places, count + 1), SW_ROOM(all->number, s->span_count + 1)));
   for (size_t h = 0; h < all->hub_count; h++)
     for (size_t a = 0; a < all->hubs[h].count; a++) {
       const size_t stop = all->hubs[h].arms[a].stop;
@@ -64,6 +63,7 @@ static sw_status add_links(sw_system *s, size_t body, size_t span) {
         .hub = at.hub, .arm = at.arm, .number = number, .end = end, .sign = side ? 1.0 : -1.0};
     new.links[new.link_count++] = hub->links[hub->link_count++] = all->link_count++;
   }
+  all->number[s->bodies[body].first_span + span] = new.link_count ? number : SIZE_MAX;
   if (!new.link_count) return SW_OK;
   SW_TRY(SW_GROW(all->twisted, all->twisted_capacity, number + 1));
   all->twisted[all->twisted_count++] = new;
@@ -87,10 +87,7 @@ sw_status sw_joins_link(sw_system *s) {
 
 size_t sw_joins_span(const sw_system *s, const sw_body *b, size_t span) {
   const struct sw_joins *all = s->joins;
-  if (!all || !b->plan->stops) return SIZE_MAX;
-  for (size_t k = 0; k < all->twisted_count; k++)
-    if (&s->bodies[all->twisted[k].body] == b && all->twisted[k].span == span) return k;
-  return SIZE_MAX;
+  return all && b->plan->stops ? all->number[b->first_span + span] : SIZE_MAX;
 }
 
 /* --- compliance --------------------------------------------------------------------- */
@@ -210,7 +207,7 @@ static void turn_hub(sw_system *s, sw_join_hub *h, const double *x) {
 
 void sw_joins_twist(sw_system *s, const double *x) {
   struct sw_joins *all = s->joins;
-  if (!all || !all->twisted_count) return;
+  if (!all || !all->hub_count) return;
   double *const torque = all->change + all->twisted_count;
   size_spans(s);
   SW_ITEMS(sw_join_hub, h, all->hubs, all->hub_count) {
