@@ -139,10 +139,20 @@ int sw_scene_stop_at(const sw_scene *s, size_t wire, double at) {
   return 0;
 }
 
+/* Forgets the number of a place that is not in the plan: a hold keeps the wire from turning there.
+ */
+static void drop_stop(const sw_scene *s, sw_joint_end *e) {
+  const sw_plan *p = sw_scene_system(s)->bodies[e->wire].plan;
+  for (size_t c = p->clamp_count; c < p->clamp_count + p->stops; c++)
+    if ((size_t)p->clamps[c].hold + 1 == e->stop) return;
+  e->stop = 0;
+}
+
 sw_status sw_scene_add_joins(sw_scene *s) {
   sw_link_wire wires[SW_JOIN_ENDS];
   SW_EACH(join, j, s) {
     if (!j->alive) continue;
+    for (size_t k = 0; k < j->count; k++) drop_stop(s, &j->ends[k]);
     sw_scene_joint_wires(s, j, wires);
     SW_TRY(j->cls->joint->add(j, wires));
   }

@@ -78,6 +78,18 @@ describe("a rigid joint", function()
     end
   end)
 
+  it("tells of a hold at the joint itself, which keeps only the trunk from turning", function()
+    for _, width in ipairs{ 0, 0.02 } do
+      local scene, _, _, trunk = harness{ round = true, middle = true, free = true }
+      if width > 0 then
+        scene:grip(trunk, { s = LONG / 2, width = width })
+      else
+        scene:clamp(trunk, { s = LONG / 2 })
+      end
+      t.above(1.5, event(t.fine(scene:settle())).value, "angle told [rad]")
+    end
+  end)
+
   it("tells of it in motion and in poses, and its rows do not pass", function()
     for _, how in ipairs{ { dt = 0.01 }, { dt = 0.1, quasistatic = true } } do
       local scene = harness{}
