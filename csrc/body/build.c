@@ -198,11 +198,11 @@ static sw_status stopped(const sw_scene *s) {
 }
 
 static sw_status new_plans(sw_scene *s, sw_plan **plans) {
-  sw_hold_place *places SW_LOCAL = sw_alloc(sw_scene_living_holds(s), sizeof *places);
+  sw_hold_place *places SW_LOCAL = sw_alloc(sw_scene_number_stops(s), sizeof *places);
   if (!places) return SW_ENOMEM;
   for (size_t w = 0; w < s->wire_count; w++) {
     const sw_scene_wire *wire = &s->wires[w];
-    size_t n = 0;
+    size_t n = sw_scene_stops(s, w, places);
     int number = 0;
     SW_EACH(hold, h, s) {
       if (!h->alive) continue;

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Holds and joins as the built scene sees them, and wires as links see them. */
+#include <math.h>
+
 #include "body/hold.h"
 #include "body/join.h"
 #include "body/spin.h"
@@ -9,6 +11,7 @@
 #include "scene/ledger.h"
 #include "scene/parts.h"
 #include "scene/wire.h"
+#include "state/mesh.h"
 #include "system/system.h"
 
 static void reshaped(void *user, size_t wire, size_t node) {
@@ -90,12 +93,68 @@ void sw_scene_joint_wires(const sw_scene *s, const sw_joint *j, sw_link_wire out
   }
 }
 
+/* 1 if spans of the wire's twist end at this joint: of a straight wire, without material frames,
+ * that is fixed to others that bend too. */
+static int stops_twist(const sw_scene *s, const sw_joint *j, const sw_link_wire *wires, size_t k) {
+  const sw_scene_wire *w = sw_scene_wire_in(s, j->ends[k].wire);
+  sw_recipe recipe;
+  size_t arms = 0;
+  w->cls->recipe(&w->beam, &recipe);
+  for (size_t i = 0; i < j->count; i++) arms += wires[i].bends && wires[i].beam->EI > 0;
+  return wires[k].bends && w->beam.EI > 0 && arms > 1 && recipe.twist && w->beam.GJ > 0 &&
+         !w->beam.framed && !w->mesh.rest && w->beam.rest_twist == 0;
+}
+
+size_t sw_scene_number_stops(sw_scene *s) {
+  sw_link_wire wires[SW_JOIN_ENDS];
+  size_t count = sw_scene_living_holds(s);
+  SW_EACH(join, j, s) {
+    for (size_t k = 0; k < j->count; k++) j->ends[k].stop = 0;
+    if (!j->alive || !j->rigid || !isnan(j->slack)) continue;
+    sw_scene_joint_wires(s, j, wires);
+    for (size_t k = 0; k < j->count; k++)
+      if (stops_twist(s, j, wires, k)) j->ends[k].stop = ++count;
+  }
+  return count;
+}
+
+size_t sw_scene_stops(const sw_scene *s, size_t wire, sw_hold_place *out) {
+  const sw_mesh *m = &sw_scene_wire_in(s, wire)->mesh;
+  size_t n = 0;
+  SW_EACH(join, j, s)
+    for (size_t k = 0; k < j->count; k++) {
+      const sw_joint_end *e = &j->ends[k];
+      if (!e->stop || e->wire != wire) continue;
+      const double at = m->s[sw_mesh_node(m, e->s)];
+      out[n++] =
+          (sw_hold_place){.s1 = at, .s2 = at, .clamped = SW_STOPS, .hold = (int)(e->stop - 1)};
+    }
+  return n;
+}
+
+int sw_scene_stop_at(const sw_scene *s, size_t wire, double at) {
+  SW_EACH(join, j, s)
+    for (size_t k = 0; j->alive && k < j->count; k++)
+      if (j->ends[k].stop && j->ends[k].wire == wire && j->ends[k].s == at) return 1;
+  return 0;
+}
+
+/* Forgets the number of a place that is not in the plan: a hold keeps the wire from turning there.
+ */
+static void drop_stop(const sw_scene *s, sw_joint_end *e) {
+  const sw_plan *p = sw_scene_system(s)->bodies[e->wire].plan;
+  for (size_t c = p->clamp_count; c < p->clamp_count + p->stops; c++)
+    if ((size_t)p->clamps[c].hold + 1 == e->stop) return;
+  e->stop = 0;
+}
+
 sw_status sw_scene_add_joins(sw_scene *s) {
   sw_link_wire wires[SW_JOIN_ENDS];
   SW_EACH(join, j, s) {
     if (!j->alive) continue;
+    for (size_t k = 0; k < j->count; k++) drop_stop(s, &j->ends[k]);
     sw_scene_joint_wires(s, j, wires);
     SW_TRY(j->cls->joint->add(j, wires));
   }
-  return SW_OK;
+  return sw_joins_link(sw_scene_system(s));
 }

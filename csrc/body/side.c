@@ -45,9 +45,12 @@ static sw_vec moment_at(const sw_system *s, const sw_body *b, size_t node) {
   const struct sw_joins *all = s->joins;
   sw_vec sum = sw_v(0, 0, 0);
   for (size_t k = 0; k < all->hub_count; k++)
-    for (size_t a = 0; a < all->hubs[k].count; a++)
-      if (all->hubs[k].arms[a].node == b->first_node + node)
-        sum = sw_add(sum, sw_join_hub_moment(&all->hubs[k], a, s->x));
+    for (size_t a = 0; a < all->hubs[k].count; a++) {
+      sw_vec bending, twisting;
+      if (all->hubs[k].arms[a].node != b->first_node + node) continue;
+      sw_join_hub_moment(s, &all->hubs[k], a, s->x, &bending, &twisting);
+      sum = sw_add(sum, bending);
+    }
   return sum;
 }
 

@@ -9,13 +9,14 @@
 #include "body/body.h"
 #include "body/build.h"
 #include "body/hold.h"
+#include "body/join.h"
+#include "body/other_edges.h"
 #include "edit/edit.h"
 #include "link/hold.h"
 #include "scene/drive.h"
 #include "scene/lookup.h"
 #include "scene/parts.h"
 #include "scene/wire.h"
-#include "state/hinge.h"
 #include "state/mesh.h"
 
 static const double SAME_PLACE = 1e-9; /* of the wire's length [-] */
@@ -110,44 +111,6 @@ static sw_status new_places(const sw_scene *s, size_t wire, size_t segments, sw_
   return sw_scene_make_places(s, wire, out);
 }
 
-/* Carries a vector across `from`, the direction held at node a, along the edges to `to`, the
- * direction held at node b. */
-static sw_vec carry_along(const sw_mesh *m, size_t a, size_t b, sw_vec from, sw_vec to) {
-  sw_vec u = sw_perpendicular(from), before = from;
-  for (size_t i = a; i < b; i++) {
-    const sw_vec t = sw_unit_or(sw_sub(sw_vec_at(m->x, i + 1), sw_vec_at(m->x, i)), sw_v(1, 0, 0));
-    u = sw_carry_unit(u, before, t);
-    before = t;
-  }
-  return sw_carry_unit(u, before, to);
-}
-
-/* Returns the wire's direction at a living hold's end s, where the wire leaves or arrives; 0:
- * none. */
-static sw_vec held_direction(const sw_scene *s, size_t wire, double at, int leaves) {
-  SW_EACH(hold, h, s) {
-    if (h->alive && h->wire == wire && h->cls->hold->direction && (leaves ? h->s2 : h->s1) == at)
-      return sw_rotate(h->turn, h->director[leaves]);
-  }
-  return sw_v(0, 0, 0);
-}
-
-/* Keeps the turn of the holds against one another. A curve through the nodes turns a carried vector
- * a little more or less than the chords did; the twist makes up for that. */
-static void correct_twist(sw_scene *s, size_t wire, const sw_mesh *old, const sw_mesh *fresh) {
-  const sw_scene_wire *w = sw_scene_wire_in(s, wire);
-  SW_ITEMS(sw_twisted, span, w->twisted, w->twisted_count) {
-    const sw_vec from = held_direction(s, wire, span->s1, 1);
-    const sw_vec to = held_direction(s, wire, span->s2, 0);
-    if (!(sw_norm(from) > 0) || !(sw_norm(to) > 0)) continue; /* a hold has just gone */
-    const sw_vec u =
-        carry_along(old, sw_mesh_node(old, span->s1), sw_mesh_node(old, span->s2), from, to);
-    const sw_vec v =
-        carry_along(fresh, sw_mesh_node(fresh, span->s1), sw_mesh_node(fresh, span->s2), from, to);
-    span->twist -= atan2(sw_dot(sw_cross(u, v), to), sw_dot(u, v));
-  }
-}
-
 /* Between the places that a hold has grasped its wire is straight, wherever nodes were since. */
 static sw_status put_held(sw_scene *s, size_t wire, sw_mesh *m, sw_error *err) {
   SW_EACH(hold, h, s) {
@@ -181,7 +144,7 @@ static sw_status carry_over(sw_scene *s, size_t wire, size_t segments, sw_error 
     w->mesh.spacing = places.spacing;
     status = put_held(s, wire, &w->mesh, err);
     if (status == SW_OK && bends.loads.list) status = sw_scene_give_all_bends(s, wire, &bends);
-    correct_twist(s, wire, &old, &w->mesh);
+    sw_scene_correct_twist(s, wire, &old);
     sw_mesh_free(&old);
   }
   sw_wire_bends_free(&bends);
@@ -223,6 +186,7 @@ sw_status sw_scene_remesh(sw_scene *s, const size_t *segments, size_t count, sw_
                      sw_scene_wire_in(s, w)->name, segments[w]);
   SW_TRY(check_fed(s, err));
   SW_TRY(sw_scene_unbuild(s));
+  sw_scene_number_stops(s); /* they are not known after a restore */
   for (size_t w = 0; w < count; w++) {
     const sw_status status = is_drawn(sw_scene_wire_in(s, w)) ? redraw(s, w, segments[w], err)
                                                               : carry_over(s, w, segments[w], err);

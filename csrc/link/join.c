@@ -110,6 +110,19 @@ static double arm_stiffness(const sw_link_wire *w, const size_t nodes[2]) {
   return sum;
 }
 
+/* Wires that leave the joint by less than this sine from one line do not tell how it turns about
+ * that line: their edges bend as much at the joint [-]. */
+static const double ASIDE = 0.17;
+
+static void set_line(sw_join_hub *h) {
+  h->line = 1;
+  for (size_t a = 0; a < h->count; a++) {
+    h->arms[a].along = sw_dot(h->arms[0].rest, h->arms[a].rest) < 0 ? -1 : 1;
+    for (size_t b = 0; b < a; b++)
+      if (sw_norm(sw_cross(h->arms[a].rest, h->arms[b].rest)) > ASIDE) h->line = 0;
+  }
+}
+
 static sw_status add_hub(const sw_joint *j, const sw_link_wire *wires) {
   sw_join_hub hub = {0};
   for (size_t k = 0; k < j->count; k++) {
@@ -122,8 +135,10 @@ static sw_status add_hub(const sw_joint *j, const sw_link_wire *wires) {
                                                  .to = system_node(w, nodes[1]),
                                                  .node = sw_joint_node(&j->ends[k], w),
                                                  .k = stiffness,
-                                                 .rest = j->ends[k].rest};
+                                                 .rest = j->ends[k].rest,
+                                                 .stop = j->ends[k].stop};
   }
+  set_line(&hub);
   return hub.count > 1 ? sw_system_add_hub(wires->system, &hub) : SW_OK;
 }
 
@@ -149,8 +164,11 @@ static void force(const sw_joint *j, const sw_link_wire *wires, const double *x,
   for (size_t i = 0; i < all->hub_count; i++)
     for (size_t a = 0; a < all->hubs[i].count; a++)
       if (all->hubs[i].arms[a].from == system_node(w, nodes[0]) &&
-          all->hubs[i].arms[a].to == system_node(w, nodes[1]))
-        *moment = sw_add(*moment, sw_join_hub_moment(&all->hubs[i], a, x));
+          all->hubs[i].arms[a].to == system_node(w, nodes[1])) {
+        sw_vec bending, twisting;
+        sw_join_hub_moment(w->system, &all->hubs[i], a, x, &bending, &twisting);
+        *moment = sw_add(*moment, sw_add(bending, twisting));
+      }
 }
 
 static const sw_joint_acts acts = {.measure = measure, .add = add, .force = force};

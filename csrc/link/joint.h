@@ -20,6 +20,8 @@ typedef struct sw_joint_end {
   size_t kept_by;
   uint32_t kept_of;
   double roll;
+  size_t stop; /* while built: number of the hold in the wire's plan that ends spans of twist there,
+                  plus 1; 0: none */
 } sw_joint_end;
 
 typedef struct sw_joint {

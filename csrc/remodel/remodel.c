@@ -13,6 +13,7 @@
 #include "body/body.h"
 #include "body/build.h"
 #include "body/join.h"
+#include "body/other_edges.h"
 #include "edit/edit.h"
 #include "link/hold.h"
 #include "read/reading.h"
@@ -235,10 +236,13 @@ static sw_status change(sw_scene *s, sw_handle h, const sw_strand_plan *plan, co
   out->energy_before = sw_scene_total_energy(s, err);
   SW_TRY(make(s, h.slot, plan, l, next, err));
   sw_borne borne = {0};
+  sw_span_ends ends = {0};
   sw_status thawed = sw_borne_read(s, h.slot, &borne);
+  if (thawed == SW_OK) thawed = sw_scene_read_spans(s, h.slot, &ends);
   if (thawed == SW_OK) thawed = sw_scene_unbuild(s);
   if (thawed != SW_OK) {
     sw_borne_free(&borne);
+    sw_span_ends_free(&ends);
     sw_mesh_free(&next->mesh);
     sw_strand_free(&next->strand);
     sw_free(next->twisted);
@@ -246,6 +250,8 @@ static sw_status change(sw_scene *s, sw_handle h, const sw_strand_plan *plan, co
   }
   sw_status status = exchange(s, h.slot, next, err);
   if (status == SW_OK) status = sw_scene_build(s, err);
+  if (status == SW_OK) sw_scene_turn_spans(s, h.slot, &ends);
+  sw_span_ends_free(&ends);
   if (status == SW_OK) status = sw_borne_exchange(s, h.slot, &borne, err);
   sw_borne_free(&borne);
   if (status != SW_OK) return status;

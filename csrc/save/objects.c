@@ -200,7 +200,7 @@ void sw_tape_force(sw_tape *t, sw_scene_force *x) {
 
 void sw_tape_join(sw_tape *t, sw_joint *x) {
   int broken = x->fate[SW_TIE_BROKEN] > 0;
-  SW_TAPE_STRUCT(t, sw_joint, 1192);
+  SW_TAPE_STRUCT(t, sw_joint, 1256); /* stops are set when it is built */
   UINT32(generation), INT(alive), INT(rigid), NAME(name), SIZE(count);
   DOUBLE(slack), DOUBLE(stiffness), DOUBLE(strength); /* its spring is set when it is built */
   if (sw_tape_reads(t)) x->cls = sw_joint_class(x->slack);

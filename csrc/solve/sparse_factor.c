@@ -121,11 +121,18 @@ sw_status sw_sparse_factor(sw_sparse *s, size_t *negative) {
   return status;
 }
 
+ALWAYS int is_zero(const two *x, const int b) {
+  two sum = x[0] * x[0];
+  for (int i = 1; i < b; i++) sum += x[i] * x[i];
+  return sum[0] + sum[1] == 0;
+}
+
 ALWAYS void solve(const sw_sparse *s, two *restrict x, const int b) {
   const size_t bb = (size_t)b * (size_t)b, bs = (size_t)b;
   for (size_t k = 0; k < s->n; k++) {
     const double *d = s->own + bb * k;
     two *xk = x + bs * k;
+    if (is_zero(xk, b)) continue; /* slopes of twist are so at most nodes */
     for (int i = 1; i < b; i++)
       for (int j = 0; j < i; j++) xk[i] -= d[b * i + j] * xk[j];
     for (uint32_t e = s->start[k]; e < s->start[k + 1]; e++) {

@@ -116,11 +116,12 @@ size_t sw_plan_first(const sw_plan *p, double s) {
 
 static void set_holds(sw_plan *p, const sw_hold_place *holds, size_t count) {
   for (size_t k = 0; k < count; k++)
-    for (size_t i = sw_plan_first(p, holds[k].s1); i < p->nodes && p->s[i] <= holds[k].s2; i++)
+    for (size_t i = sw_plan_first(p, holds[k].s1);
+         holds[k].clamped != SW_STOPS && i < p->nodes && p->s[i] <= holds[k].s2; i++)
       p->held[i] = SW_HELD;
   for (size_t i = 1; i + 1 < p->nodes; i++) p->hinge[i] = 0.5 * (p->rest[i - 1] + p->rest[i]);
   for (size_t k = 0; k < count; k++) {
-    if (!holds[k].clamped) continue;
+    if (!holds[k].clamped || holds[k].clamped == SW_STOPS) continue;
     for (size_t i = sw_plan_first(p, holds[k].s1); i < p->nodes && p->s[i] <= holds[k].s2; i++) {
       p->hinge[i] = 0.0;
       if (p->s[i] == holds[k].s1) add_clamp(p, i, -1, holds[k].hold, &holds[k].give[0]);
@@ -129,13 +130,35 @@ static void set_holds(sw_plan *p, const sw_hold_place *holds, size_t count) {
   }
 }
 
-/* Returns the nearest clamp hinge, at an edge from `from` on, that looks to this side, or
- * clamp_count. */
+static int is_clamped(const sw_plan *p, size_t node) {
+  for (size_t c = 0; c < p->clamp_count; c++)
+    if (p->clamps[c].node == node) return 1;
+  return 0;
+}
+
+/* Adds the ends of spans at joints, on both sides. After the last clamp. */
+static void set_stops(sw_plan *p, const sw_hold_place *holds, size_t count) {
+  for (size_t k = 0; k < count; k++) {
+    const size_t i = sw_plan_first(p, holds[k].s1);
+    if (holds[k].clamped != SW_STOPS || is_clamped(p, i)) continue;
+    for (int side = -1; side <= 1; side += 2) {
+      if (side > 0 ? i + 1 == p->nodes : i == 0) continue;
+      const size_t edge = side > 0 ? i : i - 1;
+      if (p->held[edge] != SW_FREE && p->held[edge + 1] != SW_FREE) continue; /* inside a grip */
+      p->clamps[p->clamp_count + p->stops++] =
+          (sw_clamp_hinge){.node = i, .edge = edge, .side = side, .hold = holds[k].hold};
+    }
+  }
+}
+
+/* Returns the nearest clamp hinge or stop, at an edge from `from` on, that looks to this side, or
+ * their number. */
 static size_t next_clamp(const sw_plan *p, int side, size_t from) {
-  size_t best = p->clamp_count;
-  for (size_t c = 0; c < p->clamp_count; c++) {
+  const size_t count = p->clamp_count + p->stops;
+  size_t best = count;
+  for (size_t c = 0; c < count; c++) {
     if (p->clamps[c].side != side || p->clamps[c].edge < from) continue;
-    if (best == p->clamp_count || p->clamps[c].edge < p->clamps[best].edge) best = c;
+    if (best == count || p->clamps[c].edge < p->clamps[best].edge) best = c;
   }
   return best;
 }
@@ -148,12 +171,13 @@ static double span_length(const sw_plan *p, const sw_span *span) {
 }
 
 static void set_spans(sw_plan *p) {
+  const size_t none = p->clamp_count + p->stops;
   for (size_t e = 0; e < p->edges; e++) {
     const size_t left = next_clamp(p, 1, e);
-    if (left == p->clamp_count) return;
+    if (left == none) return;
     e = p->clamps[left].edge;
     const size_t right = next_clamp(p, -1, e);
-    if (right == p->clamp_count) return;
+    if (right == none) return;
     const size_t last = p->clamps[right].edge;
     sw_span *span = &p->spans[p->span_count++];
     *span = (sw_span){.first = e, .last = last, .left = left, .right = right};
@@ -184,6 +208,7 @@ sw_status sw_plan_new(const sw_beam *beam, const double *s, size_t n, const sw_h
   for (size_t e = 0; e < p->edges; e++) p->rest[e] = s[e + 1] - s[e];
   for (size_t i = 0; i < n; i++) set_mass(p, i);
   set_holds(p, holds, hold_count);
+  set_stops(p, holds, hold_count);
   set_spans(p);
   *out = p;
   return SW_OK;

@@ -7,6 +7,7 @@
 #define SW_STATE_PLAN_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 #include "base/status.h"
 #include "base/vec.h"
@@ -55,12 +56,12 @@ static inline size_t sw_clamp_place(const sw_clamp_hinge *h) {
   return 2 * (size_t)h->hold + (h->side > 0 ? 1 : 0);
 }
 
-/* A stretch of wire between two holds that both keep it from turning about its axis. Only there can
- * a straight wire of equal bending stiffness be twisted; elsewhere it unwinds through a free end.
- */
+/* A stretch of wire between two holds or rigid joints that both keep it from turning about its
+ * axis. Only there can a straight wire of equal bending stiffness be twisted; elsewhere it unwinds
+ * through a free end. */
 typedef struct sw_span {
   size_t first, last; /* its edges, both included */
-  size_t left, right; /* its clamp hinges, indices into clamps */
+  size_t left, right; /* its clamp hinges or stops, indices into clamps */
   double length;      /* for twist, with the give of its clamps [m] */
 } sw_span;
 
@@ -68,9 +69,10 @@ typedef struct sw_span {
  * spans, and its mass is lumped. */
 typedef struct sw_plan {
   int references;
-  size_t nodes; /* n */
-  size_t edges; /* m = n - 1, or 0 with a web */
-  sw_web *web;  /* connects the particles; NULL: nodes in a line */
+  uint32_t stops; /* ends of spans at rigid joints, after the clamps in the list */
+  size_t nodes;   /* n */
+  size_t edges;   /* m = n - 1, or 0 with a web */
+  sw_web *web;    /* connects the particles; NULL: nodes in a line */
   sw_beam beam;
   double length;          /* unstressed wire length [m] */
   double *s;              /* (n) arc length of each node [m] */
@@ -80,7 +82,7 @@ typedef struct sw_plan {
   double *mass_next;      /* (n) consistent mass, node i with i+1 [kg] */
   double *hinge;          /* (n) hinge lengths; 0 = no hinge at this node [m] */
   int *held;              /* (n) SW_FREE or SW_HELD */
-  sw_clamp_hinge *clamps; /* (clamp_count) */
+  sw_clamp_hinge *clamps; /* (clamp_count + stops) */
   size_t clamp_count;
   sw_span *spans; /* (span_count) from the wire's start on */
   size_t span_count;
@@ -88,12 +90,15 @@ typedef struct sw_plan {
   double *rest_twist; /* (n + clamps) twist of the unloaded hinges, or NULL [rad] */
 } sw_plan;
 
+/* Value of sw_hold_place.clamped: no hold, but a rigid joint that ends spans of twist at s1. */
+enum { SW_STOPS = 2 };
+
 /* What a hold requires of the mesh: nodes at s1 and s2 (equal for a point) and every node between
  * them held; the direction fixed too if clamped. */
 typedef struct sw_hold_place {
   double s1, s2; /* [m] */
   int clamped;
-  int hold;              /* the owner's index */
+  int hold;              /* the owner's index; joints come after all holds */
   sw_clamp_give give[2]; /* on the side where the wire arrives and where it leaves */
 } sw_hold_place;
 

@@ -8,6 +8,7 @@
 #include "solve/band4.h"
 #include "solve/dense.h"
 #include "system/bridge.h"
+#include "system/join_twist.h"
 #include "system/spin.h"
 #include "system/twist.h"
 #include "system/web.h"
@@ -137,18 +138,23 @@ static size_t count_spans(const sw_system *s) {
 }
 
 /* Writes a span's slope in the matrix' unknowns, zero at held nodes. */
-static void put_slope(const struct sw_bridges *l, const sw_body *b, size_t first,
-                      const sw_span *span, double *out) {
+static void put_slope(const sw_system *s, const sw_body *b, size_t number, double *out) {
+  const struct sw_bridges *l = s->bridges;
+  const sw_span *span = &b->plan->spans[number];
+  const size_t first = l->first[b - s->bodies], joined = sw_joins_span(s, b, number);
   memset(out, 0, l->block * l->nodes * sizeof *out);
   for (size_t i = span->first; i <= span->last + 1; i++)
     if (b->plan->held[i] == SW_FREE)
       sw_store(out + l->block * (first + i), sw_vec_at(b->twist_rank, i));
+  if (joined != SIZE_MAX) sw_join_twist_put(s, joined, out);
 }
 
 /* Returns the slope times x, in the matrix' unknowns. */
-static double slope_dot(const struct sw_bridges *l, const sw_body *b, size_t first,
-                        const sw_span *span, const double *x) {
-  double sum = 0;
+static double slope_dot(const sw_system *s, const sw_body *b, size_t number, const double *x) {
+  const struct sw_bridges *l = s->bridges;
+  const sw_span *span = &b->plan->spans[number];
+  const size_t first = l->first[b - s->bodies], joined = sw_joins_span(s, b, number);
+  double sum = joined != SIZE_MAX ? sw_join_twist_dot(s, joined, x) : 0;
   for (size_t i = span->first; i <= span->last + 1; i++)
     if (b->plan->held[i] == SW_FREE)
       sum += sw_dot(sw_vec_at(b->twist_rank, i), sw_load(x + l->block * (first + i)));
@@ -166,7 +172,7 @@ static sw_status solve_slopes(sw_system *s, size_t count) {
     if (!body->bridged || !body->has_twist) continue;
     sw_twist_gather(body);
     for (size_t j = 0; j < body->plan->span_count; j++, k++)
-      put_slope(l, body, l->first[b], &body->plan->spans[j], l->spans + n * k);
+      put_slope(s, body, j, l->spans + n * k);
   }
   sw_sparse_solve_two(l->matrix, l->x, count ? l->spans : NULL);
   for (k = 1; k < count; k += 2)
@@ -185,13 +191,14 @@ static size_t correct_twist(sw_system *s, size_t m) {
   for (size_t b = 0; b < s->body_count; b++) {
     const sw_body *body = &s->bodies[b];
     for (size_t j = 0; body->bridged && body->has_twist && j < body->plan->span_count; j++, k++) {
-      const sw_span *span = &body->plan->spans[j];
-      for (size_t i = 0; i < m; i++)
-        S[m * k + i] = slope_dot(l, body, l->first[b], span, l->spans + n * i);
+      for (size_t i = 0; i <= k; i++)
+        S[m * k + i] = S[m * i + k] = slope_dot(s, body, j, l->spans + n * i);
       S[m * k + k] += 1.0 / body->field.twist_stiffness[j];
-      z[k] = slope_dot(l, body, l->first[b], span, l->x);
+      z[k] = slope_dot(s, body, j, l->x);
+      sw_joins_row(s, body, j, k);
     }
   }
+  sw_joins_add_give(s, S, m);
   const size_t fewer = sw_dense_eliminate(S, m, z, SW_DENSE_IN_ORDER);
   for (k = 0; k < m; k++)
     for (size_t i = 0; i < n; i++) l->x[i] -= z[k] * l->spans[n * k + i];
@@ -202,10 +209,9 @@ static void keep_gains(sw_system *s) {
   for (size_t b = 0; b < s->body_count; b++) {
     sw_body *body = &s->bodies[b];
     for (size_t j = 0; body->bridged && body->has_twist && j < body->plan->span_count; j++)
-      body->twist_gain[j] =
-          body->field.twist_stiffness[j] *
-          slope_dot(s->bridges, body, s->bridges->first[b], &body->plan->spans[j], s->bridges->x);
+      body->twist_gain[j] = body->field.twist_stiffness[j] * slope_dot(s, body, j, s->bridges->x);
   }
+  sw_joins_gain(s);
 }
 
 /* --- solution ------------------------------------------------------------------- */

@@ -5,6 +5,7 @@
 #include "base/each.h"
 #include "base/interrupt.h"
 #include "system/assemble.h"
+#include "system/join_twist.h"
 #include "system/spin.h"
 #include "system/strain.h"
 #include "system/system.h"
@@ -72,6 +73,7 @@ sw_status sw_system_acceleration(sw_system *s, double t, const double *x, const 
                                  double *a, sw_error *err) {
   if (sw_interrupted()) return SW_EINTR;
   SW_TRY(sw_system_place_holds(s, t, NULL, NULL, a, err));
+  sw_joins_twist(s, x);
   SW_ITEMS(sw_body, body, s->bodies, s->body_count) {
     sw_field *f = &body->field;
     f->want = SW_WANT_FORCE;

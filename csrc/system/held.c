@@ -4,6 +4,7 @@
 
 #include "solve/band3.h"
 #include "system/assemble.h"
+#include "system/join_twist.h"
 #include "system/rail.h"
 #include "system/spin.h"
 #include "system/stage_parts.h"
@@ -74,5 +75,6 @@ void sw_held_react(sw_system *s, sw_held_node *h) {
   else
     update_reaction(h, b, s->delta);
   if (b->has_twist) sw_twist_react(h, b);
+  sw_join_twist_react(s, h);
   if (b->spin_block) sw_spin_react(h, b);
 }

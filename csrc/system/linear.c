@@ -14,7 +14,7 @@
 #include "solve/blocks.h"
 #include "system/assemble.h"
 #include "system/bridge.h"
-#include "system/join.h"
+#include "system/join_twist.h"
 #include "system/spin.h"
 #include "system/system.h"
 #include "system/twist.h"
@@ -26,6 +26,7 @@ sw_status sw_system_linearise(sw_system *s, double time, sw_error *err) {
   if (c->begin_stage) SW_TRY(c->begin_stage(c->user, s, time, 0, err));
   memset(s->velocity, 0, 3 * s->nodes * sizeof *s->velocity);
   sw_system_begin_step(s);
+  sw_joins_twist(s, s->x);
   for (size_t b = 0; b < s->body_count; b++)
     SW_TRY(sw_body_evaluate(s, &s->bodies[b], time, HUGE_VAL, s->x, s->velocity, 1, 0, err));
   sw_bridges_begin(s);

@@ -14,7 +14,7 @@
 #include "system/assemble.h"
 #include "system/bridge.h"
 #include "system/factors.h"
-#include "system/join.h"
+#include "system/join_twist.h"
 #include "system/part.h"
 #include "system/rail.h"
 #include "system/spin.h"
@@ -92,6 +92,7 @@ static sw_status assemble_and_solve(sw_system *s, const sw_stage *stage, const s
   int velocity = 0;
   SW_PART_EACH(s, b) velocity |= s->bodies[b].needs_velocity;
   if (velocity) stage_velocity(s, stage, statics);
+  if (!sw_part_is_single(s)) sw_joins_twist(s, stage->y);
   SW_PART_EACH(s, b)
   SW_TRY(sw_body_evaluate(s, &s->bodies[b], stage->time, stage->hbar, stage->y, s->velocity,
                           statics, report->iterations, err));

@@ -69,6 +69,13 @@ static sw_status new_arrays(sw_system *s, size_t hold_count) {
   for (size_t b = 0; b < s->body_count; b++)
     for (size_t i = 0; i < s->bodies[b].plan->nodes; i++)
       held += s->bodies[b].plan->held[i] != SW_FREE;
+  /* directors of joins follow those of holds */
+  size_t ends = hold_count;
+  for (size_t b = 0; b < s->body_count; b++) {
+    const sw_plan *p = s->bodies[b].plan;
+    for (size_t k = p->clamp_count; k < p->clamp_count + p->stops; k++)
+      if ((size_t)p->clamps[k].hold >= ends) ends = (size_t)p->clamps[k].hold + 1;
+  }
   s->hold_count = hold_count;
   s->state_size = 3 * s->freedoms + s->edges + s->span_count + 4 * hold_count;
   const size_t frames = s->state_size;
@@ -80,15 +87,15 @@ static sw_status new_arrays(sw_system *s, size_t hold_count) {
     s->follow_size = s->state_size - 3 * s->freedoms - s->edges;
   const size_t kept = sw_factors_room(s);
   SW_TRY(SW_ALLOC_ALL(
-      SW_ROOM(s->held, held), SW_ROOM(s->directors, 28 * hold_count),
-      SW_ROOM(s->hold_states, hold_count), SW_ROOM(s->loads, hold_count),
-      SW_ROOM(s->standing, hold_count), SW_ROOM(s->state, s->state_size),
+      SW_ROOM(s->held, held), SW_ROOM(s->directors, 28 * ends), SW_ROOM(s->hold_states, hold_count),
+      SW_ROOM(s->loads, hold_count), SW_ROOM(s->standing, hold_count),
+      SW_ROOM(s->state, s->state_size),
       {&s->work, 3 * s->freedoms + kept + 2 * s->edges + s->follow_size, sizeof *s->yhat}));
-  s->directors_now = s->directors + 6 * hold_count;
-  s->normals = s->directors + 12 * hold_count;
-  s->normals_now = s->directors + 18 * hold_count;
-  s->turns = s->directors + 24 * hold_count;
-  s->flows = s->directors + 27 * hold_count;
+  s->directors_now = s->directors + 6 * ends;
+  s->normals = s->directors + 12 * ends;
+  s->normals_now = s->directors + 18 * ends;
+  s->turns = s->directors + 24 * ends;
+  s->flows = s->directors + 27 * ends;
   sw_system_lay_out(s);
   s->yhat = s->work;
   s->delta = s->yhat + s->freedoms;

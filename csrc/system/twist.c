@@ -13,7 +13,7 @@
 #include "base/each.h"
 #include "base/simd.h"
 #include "solve/band3.h"
-#include "system/spin.h"
+#include "system/join.h"
 
 sw_status sw_system_enable_twist(sw_system *s, size_t body) {
   sw_body *b = &s->bodies[body];
@@ -41,7 +41,7 @@ static double hinge_change(sw_vec a0, sw_vec b0, sw_vec a, sw_vec b) {
   return -(triangle(a0, a, b) + triangle(a0, b, b0));
 }
 
-/* Returns the angle of a hold's turn about its director, beyond carrying the director along. */
+/* Returns the angle of a turn about its director, beyond carrying the director along. */
 static double own_turn(sw_quat before, sw_quat now, sw_vec local) {
   const sw_vec d0 = sw_rotate(before, local), d = sw_rotate(now, local);
   const sw_vec local_side = sw_perpendicular(sw_unit_or(local, sw_v(1, 0, 0)));
@@ -59,13 +59,19 @@ static sw_quat turn_of(const sw_system *s, int hold) {
   return (sw_quat){q[0], q[1], q[2], q[3]};
 }
 
-/* A clamp's director before and now, and its turn about the director in between. */
+/* Director of a clamp or join before and now, and its turn about the director in between. */
 typedef struct clamp_change {
   sw_vec before, now;
   double turn;
 } clamp_change;
 
 static clamp_change change_of(const sw_system *s, const sw_clamp_hinge *h) {
+  if ((size_t)h->hold >= s->hold_count) {
+    const sw_join_hub *hub;
+    const struct sw_join_arm *arm = sw_join_arm_at(s, h, &hub);
+    const double turn = hub->line ? 0.0 : own_turn(hub->before, hub->now, arm->rest);
+    return (clamp_change){arm->before, arm->now, turn};
+  }
   const size_t at = 3 * (2 * (size_t)h->hold + (h->side > 0 ? 1 : 0));
   const sw_vec local = sw_load(s->directors + at);
   const sw_quat before = turn_of(s, h->hold);
@@ -139,11 +145,16 @@ static double span_change(const sw_system *s, const sw_body *b, const sw_span *s
          hinge_change(sw_vec_across(old, last), right.before, sw_vec_across(now, last), right.now);
 }
 
+double sw_twist_change(const sw_system *s, const sw_body *b, size_t span, const double *x) {
+  return span_change(s, b, &b->plan->spans[span], x + 3 * b->first_node);
+}
+
 void sw_twist_measure(sw_system *s, sw_body *b) {
   for (size_t k = 0; k < b->plan->span_count; k++) {
+    b->field.twist_stiffness[k] = 0;
+    if (b->plan->stops) continue; /* see sw_joins_twist */
     b->twist_now[k] =
         s->twist[b->first_span + k] + span_change(s, b, &b->plan->spans[k], b->field.x);
-    b->field.twist_stiffness[k] = 0;
   }
   b->field.twist = b->twist_now;
 }
@@ -215,24 +226,4 @@ void sw_twist_react(sw_held_node *h, const sw_body *b) {
     if (i <= span->last) slope = sw_sub(slope, slope_at(b, i));
     h->reaction = sw_madd(h->reaction, slope, b->twist_gain[k]);
   }
-}
-
-/* Stores the holds' orientations, as last placed, for the state's twist. */
-static void take_turns(sw_system *s) {
-  for (size_t k = 0; k < s->hold_count; k++) {
-    const sw_quat q = s->hold_states[k].pose.q;
-    double *out = s->turn + 4 * k;
-    out[0] = q.w, out[1] = q.x, out[2] = q.y, out[3] = q.z;
-  }
-}
-
-void sw_system_follow(sw_system *s, const double *x) {
-  SW_ITEMS(sw_body, body, s->bodies, s->body_count) {
-    if (body->waits) continue;
-    if (body->spin_block) sw_spin_follow(s, body, x);
-    for (size_t k = 0; body->has_twist && k < body->plan->span_count; k++)
-      s->twist[body->first_span + k] +=
-          span_change(s, body, &body->plan->spans[k], x + 3 * body->first_node);
-  }
-  take_turns(s);
 }

@@ -9,6 +9,9 @@
 void sw_edge_directions(size_t first, size_t last, const double *x, double *tx, double *ty,
                         double *tz);
 
+/* Returns the change of a span's twist from the state to positions x (of the system). */
+double sw_twist_change(const sw_system *system, const sw_body *body, size_t span, const double *x);
+
 /* Computes the total twist of the body's spans with the field's present tangents. */
 void sw_twist_measure(sw_system *system, sw_body *body);
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reports joints that pass no twist where one wire in place of the joined ones would resist it:
- * between two holds that keep the wires' directions, which turn about the wires' axes against one
- * another, or where the wires leave a plane. A wire in a plane has no twist. */
+/* Reports joints that pass no twist (of wires with material frames) where one wire in place of the
+ * joined ones would resist it: between two holds that keep the wires' directions, which turn about
+ * the wires' axes against one another, or where the wires leave a plane. A wire in a plane has no
+ * twist. */
 #include "link/joint.h"
 
 #include <math.h>
@@ -87,6 +88,7 @@ static double turn_of(const sw_scene *s, const sw_hold *h) {
 static void watch(sw_scene *s, const sw_joint *j, const sw_joint_end *one,
                   const sw_joint_end *two) {
   arm a, b;
+  if (one->stop && two->stop) return; /* it passes twist */
   if (one->wire == two->wire || !find_arm(s, one, &a) || !find_arm(s, two, &b)) return;
   const double plane = out_of_plane(s, &a, &b);
   const double turn = fabs(remainder(turn_of(s, a.hold) - turn_of(s, b.hold), 2 * M_PI));

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reports rigid joints that have rolled about a wire that a hold keeps from rolling. A joint passes
- * no twist: wires that leave a trunk sideways swing about it freely, and stay behind when a hand
- * turns the trunk. A wire that passed twist would resist by GJ/L times the angle, where L is the
- * way to the hold. At no angle both are the same, whatever loads there are. */
+/* Reports rigid joints that have rolled about a wire that a hold keeps from rolling, where the
+ * joint passes no twist: of wires with material frames, or to wires that leave it nearly in line.
+ * Wires that leave such a trunk sideways swing about it freely, and stay behind when a hand turns
+ * the trunk. A wire that passed twist would resist by GJ/L times the angle, where L is the way to
+ * the hold. At no angle both are the same, whatever loads there are. */
 #include <math.h>
 #include <stdio.h>
 
@@ -95,23 +96,20 @@ static sw_vec carried(const sw_scene *s, const roll *r, sw_vec t) {
   return sw_carry_unit(v, at, t);
 }
 
-/* Finds the joint's hub by one of its nodes, and how it has turned since it was made; 0: none. */
-static int hub_turn(const sw_scene *s, const roll *r, sw_quat *q) {
-  const sw_system *system = sw_scene_system(s);
-  const struct sw_joins *all = system->joins;
+/* Finds the joint's hub by one of its nodes; NULL: there is none. */
+static const sw_join_hub *hub_of(const sw_scene *s, const roll *r) {
+  const struct sw_joins *all = sw_scene_system(s)->joins;
   for (size_t k = 0; all && k < all->hub_count; k++)
-    for (size_t a = 0; a < all->hubs[k].count; a++) {
-      if (all->hubs[k].arms[a].node != r->body->first_node + r->node) continue;
-      *q = sw_join_hub_turn(&all->hubs[k], system->x);
-      return 1;
-    }
-  return 0;
+    for (size_t a = 0; a < all->hubs[k].count; a++)
+      if (all->hubs[k].arms[a].node == r->body->first_node + r->node) return &all->hubs[k];
+  return NULL;
 }
 
-/* Finds the angle of the joint about the wire against the hold [rad]. */
+/* Finds the angle of the joint about the wire against the hold [rad]; 0: the joint passes twist. */
 static int angle_of(const sw_scene *s, const sw_joint_end *e, const roll *r, double *out) {
-  sw_quat q;
-  if (!hub_turn(s, r, &q)) return 0;
+  const sw_join_hub *hub = hub_of(s, r);
+  if (!hub || (e->stop && !hub->line)) return 0;
+  const sw_quat q = sw_join_hub_turn(hub, sw_scene_system(s)->x);
   const sw_vec t = sw_rotate(q, e->rest), u = sw_rotate(q, r->aside), v = carried(s, r, t);
   *out = atan2(sw_dot(sw_cross(v, u), t), sw_dot(v, u));
   return 1;

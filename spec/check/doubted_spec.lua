@@ -142,7 +142,7 @@ describe("an event doubts", function()
     scene:force{ kind = "damping", mass = 2, stiffness = 2e-3 }
     local function wire(name, from)
       return scene:wire{ name = name, cable = "GXL 1.5", from = { from, 0, 0 }, to = { from + 0.2, 0, 0 },
-        segments = 8 }
+        segments = 8, rolls = true } -- such a joint passes no twist
     end
     local a, b = wire("a", 0), wire("b", 0.2)
     scene:join{ name = "j", ends = { { a, s = 0.2 }, { b, s = 0 } } }

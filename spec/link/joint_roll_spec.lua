@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A joint passes no twist: a branch that leaves a held trunk sideways swings about it. An event says so.
+-- A joint of wires with material frames passes no twist: a branch that leaves a held trunk sideways swings
+-- about it. An event says so. A joint of straight round wires passes it (joint_console_spec).
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "physics.tools"
@@ -21,12 +22,12 @@ end
 local function harness(o)
   local scene = sw.scene{ gravity = o.weightless and { 0, 0, 0 } or nil }
   local trunk = scene:wire{ name = "trunk", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { LONG, 0, 0 },
-    segments = 20 }
+    segments = 20, rolls = not o.round }
   local angle, at = o.angle or math.pi / 2, o.middle and LONG / 2 or LONG
   local function branch(name, way)
     local along, across = ASIDE * math.cos(angle), way * ASIDE * math.sin(angle)
-    return scene:wire{ name = name, cable = "GXL 1.5", segments = 16, from = { at, 0, 0 },
-      to = { at + along, o.plane and 0 or across, o.plane and across or 0 } }
+    return scene:wire{ name = name, cable = "GXL 1.5", segments = 16, rolls = not o.round,
+      from = { at, 0, 0 }, to = { at + along, o.plane and 0 or across, o.plane and across or 0 } }
   end
   local b = branch("branch", 1)
   local ends = { { trunk, s = at }, { b, s = 0 } }
@@ -39,7 +40,7 @@ local function harness(o)
 end
 
 describe("a rigid joint", function()
-  it("tells of a branch that swings down about its trunk", function()
+  it("of straight round wires holds a branch like one wire", function()
     -- One wire of this cable with a corner of 5 mm as its rest shape has its end at -9.4 mm.
     local p = {}
     for i = 0, 20 do p[#p + 1] = { (LONG - 0.005) * i / 20, 0, 0 } end
@@ -53,7 +54,17 @@ describe("a rigid joint", function()
     one:clamp(w, { s = 0 })
     t.fine(one:settle())
     t.near(-9.4e-3, w:position(w.length)[3], 2e-4, "end of one wire [m]")
-    for _, o in ipairs{ {}, { middle = true }, { angle = 0.6 }, { swap = true } } do
+    for _, o in ipairs{ {}, { swap = true } } do
+      o.round = true
+      local scene, branch = harness(o)
+      assert.is_nil(event(t.fine(scene:settle())))
+      t.near(-9.53e-3, branch:position(branch.length)[3], 1e-5, "end of the branch [m]")
+    end
+  end)
+
+  it("tells of a branch that swings down about its trunk", function()
+    for _, o in ipairs{ {}, { middle = true }, { angle = 0.6 }, { swap = true },
+      { round = true, angle = 0.12 } } do -- nearly in line: round wires pass twist only to one another
       local scene, branch = harness(o)
       local result = t.fine(scene:settle())
       local e = event(result)
@@ -64,6 +75,18 @@ describe("a rigid joint", function()
       if not (o.angle or o.middle) then
         t.near(-0.085, branch:position(branch.length)[3], 5e-4, "end of the branch [m]")
       end
+    end
+  end)
+
+  it("tells of a hold at the joint itself, which keeps only the trunk from turning", function()
+    for _, width in ipairs{ 0, 0.02 } do
+      local scene, _, _, trunk = harness{ round = true, middle = true, free = true }
+      if width > 0 then
+        scene:grip(trunk, { s = LONG / 2, width = width })
+      else
+        scene:clamp(trunk, { s = LONG / 2 })
+      end
+      t.above(1.5, event(t.fine(scene:settle())).value, "angle told [rad]")
     end
   end)
 
