@@ -9,7 +9,7 @@ local sagged = require "softworld.calibration.sagged"
 
 local sag = { name = "sag" }
 
---- Standard deviation of the angles of a cantilever's picture and of its clamp, if no direction is given [rad].
+--- Standard deviation of the angles of a cantilever's picture and of its clamp without `directions` [rad].
 sag.LEVEL = math.rad(3)
 
 local WHAT = "sw.calibration: sag"
@@ -141,8 +141,8 @@ function sag.read(o, radius, mass)
   if level then refuse_mirrored(o, points) end
   local size = 9.81 * mass * o.length.value ^ 3
   local group = { name = "sag", sigma = o.sigma, unit = "m", values = {}, points = points, options = o,
-    length = o.length, level = level, turns = level and #points >= FREE and sag.LEVEL, source = ("sag of %d points"):format(#points),
-    EI = { size / SOFTEST, size / STIFFEST } }
+    length = o.length, level = level, turns = level and #points >= FREE and sag.LEVEL,
+    source = ("sag of %d points"):format(#points), EI = { size / SOFTEST, size / STIFFEST } }
   for k = 1, #points do group.values[k] = 0 end
   local key, kept
   -- Without a measured EA: no cable is stiffer in bending than a solid bar of its radius, EI = EA r^2 / 4.
