@@ -6,6 +6,7 @@ local build = require "softworld.scene.build"
 local core = require "softworld.core"
 local fixing = require "softworld.link.fixing"
 local number = require "softworld.output.number"
+local roundness = require "softworld.scene.roundness"
 local quantity = require "softworld.quantity"
 local rows = require "softworld.rows"
 
@@ -150,7 +151,7 @@ end
 local function sharpest(data)
   local least, name = math.huge, nil
   for _, o in ipairs(data.obstacles) do
-    local radius = o.radius
+    local radius = roundness.of(o)
     if type(radius) == "number" and radius > 0 and radius < least then least, name = radius, o.name end
   end
   return least, name
