@@ -48,9 +48,8 @@ local count = 0
 
 --- True if remarks are on.
 function remarks.wanted()
-  local sw = package.loaded["softworld"]
-  return package.loaded["softworld.host"] ~= nil
-    and not (type(sw) == "table" and rawget(sw, "remarks") == false)
+  local sw, host = package.loaded["softworld"], package.loaded["softworld.host"]
+  return host ~= nil and not (type(sw) == "table" and rawget(sw, "remarks") == false)
 end
 
 --- Writes a remark; softworld.program.lint and softworld.program.log replace this function.
