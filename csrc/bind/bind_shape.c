@@ -222,6 +222,12 @@ static int meth_sweep(lua_State *L) {
   return 2;
 }
 
+/* shape:roundness() -> radius that facets approximate, or 0 [m] */
+static int meth_roundness(lua_State *L) {
+  lua_pushnumber(L, sw_shape_roundness(check_shape(L)));
+  return 1;
+}
+
 /* shape:bounds() -> lowest and highest corner [m] */
 static int meth_bounds(lua_State *L) {
   const sw_bounds b = sw_shape_bounds(check_shape(L));
@@ -267,10 +273,10 @@ static int describe(lua_State *L) { return lsw_say(L, "shape: %s", sw_shape_kind
 
 static void close(lsw_handle *h) { sw_shape_release(h->object); }
 
-static const luaL_Reg methods[] = {
-    {"kind", meth_kind},   {"distance", meth_distance}, {"segment", meth_segment},
-    {"sweep", meth_sweep}, {"bounds", meth_bounds},     {"triangles", meth_triangles},
-    {NULL, NULL}};
+static const luaL_Reg methods[] = {{"kind", meth_kind},           {"distance", meth_distance},
+                                   {"segment", meth_segment},     {"sweep", meth_sweep},
+                                   {"bounds", meth_bounds},       {"roundness", meth_roundness},
+                                   {"triangles", meth_triangles}, {NULL, NULL}};
 
 const lsw_class lsw_class_shape = {.name = "shape",
                                    .size = sizeof(shape_handle),

@@ -164,8 +164,12 @@ static sw_status check_fed(const sw_scene *s, sw_error *err) {
   SW_EACH(wire, wire, s) SW_TRY(sw_scene_check_line(wire, "another number of segments", err));
   SW_EACH(hold, h, s)
     if (h->alive && sw_hold_passes(h))
-      return sw_fail(err, SW_EINVAL, "wire '%s' is fed by '%s': its segments cannot be changed",
-                     sw_scene_wire_in(s, h->wire)->name, h->name);
+      return sw_fail(
+          err, SW_EINVAL,
+          "wire '%s' is fed by '%s': its segments cannot be changed, so there are no error "
+          "bars and no model = 'auto'; choose the model, run with dt (or a tolerance "
+          "in m), and compare with another number of segments",
+          sw_scene_wire_in(s, h->wire)->name, h->name);
   for (size_t w = 0; w < sw_scene_wire_slots(s); w++)
     if (sw_scene_wire_in(s, w)->mesh.s[0] != 0)
       return sw_fail(err, SW_EINVAL, "wire '%s' has been fed: its segments cannot be changed",

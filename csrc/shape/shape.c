@@ -108,6 +108,10 @@ int sw_shape_has_edges(const sw_shape *shape) {
   return k->sharp && !(k->faceted && k->faceted(shape));
 }
 
+double sw_shape_roundness(const sw_shape *shape) {
+  return shape->class->roundness ? shape->class->roundness(shape) : 0.0;
+}
+
 double sw_shape_middle(const sw_shape *shape, sw_vec p, sw_vec *q, sw_vec *along) {
   return shape->class->middle ? shape->class->middle(shape, p, q, along) : 0.0;
 }

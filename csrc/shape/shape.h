@@ -151,6 +151,9 @@ int sw_shape_over_face(const sw_shape *shape, const sw_vec *p, size_t count);
 /* 1: the shape has edges and corners, and none of its edges approximate a round surface by small
  * faces. */
 int sw_shape_has_edges(const sw_shape *shape);
+/* Returns the radius of the round surface that facets of a mesh approximate, about [m]. 0: there is
+ * none. */
+double sw_shape_roundness(const sw_shape *shape);
 /* For a shape whose surface, or side, has a constant distance from a middle line: returns this
  * distance [m], with the line's place q nearest to p and its direction there (0 at a ball's centre)
  * [-]. 0: there is no such line, or p is beyond an end with another surface. */

@@ -89,21 +89,23 @@ static sw_status measure(sw_trimesh *mesh, const char *object, const double *ver
   return SW_OK;
 }
 
-/* Keeps the triangle unless it has no area. */
-static void keep_triangle(sw_trimesh *mesh, const int corner[3]) {
+/* Keeps the triangle unless it has no area. Returns 1 if it is kept. */
+static int keep_triangle(sw_trimesh *mesh, const int corner[3]) {
   sw_vec v[3];
   double longest2 = 0;
   for (int k = 0; k < 3; k++) v[k] = sw_trimesh_vertex(mesh, corner[k]);
   for (int k = 0; k < 3; k++) longest2 = fmax(longest2, sw_norm2(sw_sub(v[(k + 1) % 3], v[k])));
   const sw_vec n = sw_cross(sw_sub(v[1], v[0]), sw_sub(v[2], v[0]));
-  if (!(sw_norm(n) > flat_part * longest2)) return;
+  if (!(sw_norm(n) > flat_part * longest2)) return 0;
   memcpy(mesh->indices + 3 * mesh->triangle_count, corner, 3 * sizeof(int));
   sw_store(mesh->normals + 3 * mesh->triangle_count, sw_unit_or(n, sw_v(0, 0, 1)));
   mesh->triangle_count++;
+  return 1;
 }
 
+/* numbers: room for the kept triangles' numbers in the file. */
 static sw_status weld_all(sw_trimesh *mesh, welder *w, const double *vertices, size_t vertex_count,
-                          const int *indices, size_t triangle_count, int *number) {
+                          const int *indices, size_t triangle_count, int *number, int *numbers) {
   for (size_t i = 0; i <= w->mask; i++) w->head[i] = -1;
   for (size_t i = 0; i < vertex_count; i++) {
     if (sw_interrupted()) return SW_EINTR;
@@ -114,7 +116,7 @@ static sw_status weld_all(sw_trimesh *mesh, welder *w, const double *vertices, s
     if (sw_interrupted()) return SW_EINTR;
     const int *from = indices + 3 * i;
     const int corner[3] = {number[from[0]], number[from[1]], number[from[2]]};
-    keep_triangle(mesh, corner);
+    if (keep_triangle(mesh, corner)) numbers[mesh->triangle_count - 1] = (int)i;
   }
   return SW_OK;
 }
@@ -128,15 +130,16 @@ static sw_status clean(sw_trimesh *mesh, const char *object, const double *verti
   while (slots < 2 * vertex_count) slots *= 2;
   const double near = weld_part * mesh->size + 1e-300; /* above 0 even for a single point */
   welder w = {cells * near, near, mesh->bounds.min, NULL, NULL, slots - 1, NULL, 0};
-  int *number;
+  int *number, *numbers;
   sw_status status = SW_ALLOC_ALL(
       SW_ROOM(number, vertex_count), SW_ROOM(w.head, slots), SW_ROOM(w.next, vertex_count),
       SW_ROOM(mesh->vertices, 3 * vertex_count), SW_ROOM(mesh->indices, 3 * triangle_count),
-      SW_ROOM(mesh->normals, 3 * triangle_count));
+      SW_ROOM(mesh->normals, 3 * triangle_count), SW_ROOM(numbers, triangle_count));
   w.kept = mesh->vertices;
   if (status == SW_OK)
-    status = weld_all(mesh, &w, vertices, vertex_count, indices, triangle_count, number);
-  sw_free(number), sw_free(w.head), sw_free(w.next);
+    status = weld_all(mesh, &w, vertices, vertex_count, indices, triangle_count, number, numbers);
+  if (status == SW_OK) status = sw_trimesh_drop_repeats(mesh, object, numbers, err);
+  sw_free(numbers), sw_free(number), sw_free(w.head), sw_free(w.next);
   return status;
 }
 
@@ -206,6 +209,7 @@ sw_status sw_trimesh_build(sw_trimesh *mesh, const char *object, const double *v
                    triangle_count);
   if (status == SW_OK) status = build_tree(mesh);
   if (status == SW_OK) status = sw_trimesh_topology(mesh, object, err);
+  if (status == SW_OK) status = sw_trimesh_check_shells(mesh, object, err);
   if (status == SW_ENOMEM) return sw_fail(err, status, "%s: out of memory", object);
   return status;
 }

@@ -49,14 +49,19 @@ typedef struct sw_trimesh {
 } sw_trimesh;
 
 /* Builds a mesh from cleaned copies of the triangles: coinciding vertices are joined, triangles
- * without area are dropped. object is for error texts. */
+ * without area and copies of triangles are dropped. object is for error texts. */
 sw_status sw_trimesh_build(sw_trimesh *mesh, const char *object, const double *vertices,
                            size_t vertex_count, const int *indices, size_t triangle_count,
                            sw_error *err);
 void sw_trimesh_free(sw_trimesh *mesh);
 
-/* A part of the build. */
+/* Parts of the build. The first drops triangles that are there twice, and fails if one is there in
+ * both windings. numbers: the triangles' numbers in the file, counted from 0. */
+sw_status sw_trimesh_drop_repeats(sw_trimesh *mesh, const char *object, int *numbers,
+                                  sw_error *err);
 sw_status sw_trimesh_topology(sw_trimesh *mesh, const char *object, sw_error *err);
+/* Fails if a closed surface faces inwards, unless it bounds a cavity within another one. */
+sw_status sw_trimesh_check_shells(const sw_trimesh *mesh, const char *object, sw_error *err);
 
 /* Calls visit for every triangle in leaves whose box, widened by reach on all sides, meets the
  * segment a-b. */

@@ -148,6 +148,7 @@ sw_status sw_step_observe(sw_scene *s, sw_error *err) {
 sw_status sw_ladder_record(sw_ladder *p, double h, sw_error *err) {
   SW_TRY(sw_step_observe(p->s, err));
   sw_slip_tell(p->s, h);
+  SW_TRY(sw_slip_check(p->s, err));
   if (sw_ledger_close(p->s) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "out of memory for the energy of scene '%s'",
                    sw_scene_name(p->s));

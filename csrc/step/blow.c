@@ -150,9 +150,10 @@ static void tell(sw_scene *s, double h, const char *why) {
   const double jolt = jolt_of(s, 0), part = part_for(s, jolt, h);
   if (!(jolt > 0) || !(h > 1.01 * part)) return;
   sw_scene_tell(s, "coarse", "", NAN, jolt,
-                "a blow of %.3g times its wire's weight is spread over a step of %.3g ms, because "
+                "a blow of %.3g times its wire's %s is spread over a step of %.3g ms, because "
                 "%s: peaks may be wrong; run again with dt = %.2g s and compare the peaks",
-                jolt, 1e3 * h, why, part);
+                jolt, sw_norm(sw_scene_gravity(s)) > 0 ? "weight" : "EI/length^2", 1e3 * h, why,
+                part);
 }
 
 int sw_blow_begins(sw_scene *s, double h) {

@@ -204,6 +204,26 @@ static void tell_runaway(sw_scene *s, sw_hold *h, const sw_scene_wire *wire, con
                 sw_scene_time(s), f->push, fabs(f->push));
 }
 
+/* A wire that runs away and has this speed, over RUNAWAY, and this length, over the drawn one,
+ * stops the run: it would grow and slow down the run until steps collapse [-]. */
+static const double LOST_SPEED = 5.0, LOST_LENGTH = 10.0;
+
+sw_status sw_slip_check(const sw_scene *s, sw_error *err) {
+  SW_EACH(hold, h, s) {
+    const sw_slip *f = sw_slip_of(h);
+    if (!f || !isfinite(f->push) || !(f->speed > LOST_SPEED * RUNAWAY)) continue;
+    const sw_scene_wire *w = sw_scene_wire_in(s, h->wire);
+    const double length = w->mesh.s[w->mesh.n - 1] - w->mesh.s[0];
+    if (!(length > LOST_LENGTH * w->drawing.length * w->mesh.scale)) continue;
+    return sw_fail(err, SW_ELIMIT,
+                   "feed '%s' pays out wire '%s' at %.3g m/s and has made it %.3g m long: nothing "
+                   "holds back its force of %.4g N. Above 0 it pushes wire out; a brake is a "
+                   ":force_limit(%.4g) at speed 0",
+                   h->name, w->name, f->speed, length, f->push, fabs(f->push));
+  }
+  return SW_OK;
+}
+
 void sw_slip_tell(sw_scene *s, double step) {
   SW_EACH(hold, h, s) {
     const sw_slip *f = sw_slip_of(h);

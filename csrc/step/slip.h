@@ -16,5 +16,7 @@ double sw_slip_scale(const sw_scene *scene, const sw_hold *hold, double want);
 /* Logs an event for each feed whose recorded force at the end of a step of this size is not the one
  * that it obeys [s]. */
 void sw_slip_tell(sw_scene *scene, double step);
+/* SW_ELIMIT: a feed whose force nothing holds back has made its wire far longer than drawn. */
+sw_status sw_slip_check(const sw_scene *s, sw_error *err);
 
 #endif

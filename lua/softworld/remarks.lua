@@ -6,6 +6,7 @@
 local core = require "softworld.core"
 local checks = require "softworld.checks"
 local place = require "softworld.place"
+local roundness = require "softworld.scene.roundness"
 local units = require "softworld.units"
 local vec = require "softworld.vec"
 
@@ -47,9 +48,8 @@ local count = 0
 
 --- True if remarks are on.
 function remarks.wanted()
-  local sw = package.loaded["softworld"]
-  return package.loaded["softworld.host"] ~= nil
-    and not (type(sw) == "table" and rawget(sw, "remarks") == false)
+  local sw, host = package.loaded["softworld"], package.loaded["softworld.host"]
+  return host ~= nil and not (type(sw) == "table" and rawget(sw, "remarks") == false)
 end
 
 --- Writes a remark; softworld.program.lint and softworld.program.log replace this function.
@@ -288,13 +288,13 @@ function remarks.name(what, name)
     (name:gsub("%c", "?"))))
 end
 
-local round = { cylinder = true, capsule = true }
+local round = { cylinder = true, capsule = true, mesh = true, hull = true }
 
 -- Remarks on edges too long for a peg's radius. A wire goes round a peg as a polygon: with edges as long as
 -- the radius the capstan pull is right to 5 % (mu 0.3, half a turn), with half of that to 1 %
 -- (spec/contact/capstan_spec).
 local function look_round(wire, obstacle)
-  local radius = round[obstacle.shape] and obstacle.radius
+  local radius = round[obstacle.shape] and roundness.of(obstacle)
   if type(radius) ~= "number" or not wire.edge or wire.edge <= radius + wire.radius then return end
   tell("round", ("wire '%s': its edges of %.3g mm are longer than the radius of '%s', %.3g mm, so the wire "
     .. "goes round it as a polygon, and its pull may be wrong by 5 %% or more; segments = %d makes edges "

@@ -3,6 +3,7 @@
 local here = debug.getinfo(1, "S").source:match "^@(.*)/[^/]*$" or "spec/host"
 local program = dofile(here .. "/program.lua")
 local script = program.script
+local tools = require "spec.shape.tools"
 
 local start = 'local sw = require "softworld" local s = sw.scene{}\n'
 local good = "E = 50e6, density = 1500, radius = 0.0025, from = {0, 0, 0.1}, to = {1, 0, 0.1}"
@@ -66,6 +67,9 @@ describe("remarks", function()
       .. "'peg', 10 mm, so the wire goes round it as a polygon" },
     { "s:obstacle{ name = 'peg', shape = 'capsule', radius = 0.01, length = 1, at = {0.5, 0, -3} } "
       .. wire(good .. ", segments = 20"), "segments = 200 makes edges half as long as the radius" },
+    { "s:obstacle{ name = 'peg', shape = 'mesh', format = 'obj', at = {0.5, 0, -3}, data = "
+      .. ("%q"):format(tools.obj(tools.ball(0.01, 40, 40))):gsub("\\\n", "\\n") .. " } "
+      .. wire(good .. ", segments = 20"), "its edges of 50 mm are longer than the radius of 'peg', 10" },
   }
   for _, case in ipairs(cases) do
     it("appear for " .. case[1], function()

@@ -31,6 +31,49 @@ describe("a feed whose force nothing holds back", function()
     assert.truthy(e.text:find(":force_limit(4)", 1, true), e.text)
   end)
 
+  -- The wire grew to thousands of segments, each step slower, until "steps have collapsed".
+  it("ends the run, with the same words, when it has made the wire ten times as long", function()
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = scene:wire{ name = "w", cable = "FLRY-B 0.5", segments = 20, from = { 0, 0, 0 },
+      to = { 0.2, 0, 0.001 } }
+    local feed = scene:feed(wire, { s = 0, name = "brake", force = 4 })
+    local run = scene:run{ duration = 0.5, dt = 0.005 }
+    assert.is_false(run.ok)
+    assert.truthy(run.reason:find("feed 'brake' pays out wire 'w' at ", 1, true), run.reason)
+    assert.truthy(run.reason:find("nothing holds back its force of 4 N", 1, true), run.reason)
+    t.below(3, wire.length, "length [m]")
+    assert.is_true(feed.held)
+  end)
+
+  it("tells no weight of a blow where there is no gravity", function()
+    local count = 0
+    for _, from in ipairs{ 0.05, 0.1, 0.15 } do
+      local scene = sw.scene{ gravity = { 0, 0, 0 } }
+      scene:obstacle{ shape = "box", size = { 0.02, 0.4, 0.4 }, at = { 0.2, 0, 0 }, friction = 0.3 }
+      local wire = scene:wire{ cable = "FLRY-B 0.5", segments = 20, from = { 0, 0, 0 }, to = { from, 0, 0 } }
+      scene:feed(wire, { s = 0, force = 4 })
+      for _, e in ipairs(scene:run{ duration = 0.05, dt = 0.01 }.events) do
+        local unit = e.text:match "^a blow of %S+ times its wire's (%S+)"
+        if unit then
+          assert.are.equal("EI/length^2", unit)
+          count = count + 1
+        end
+      end
+    end
+    t.above(0, count, "blows")
+  end)
+
+  it("lets no error bars be computed, and the error says what to do", function()
+    local scene = sw.scene{}
+    local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.3, 0, 0 } }
+    scene:feed(wire, { s = 0, name = "spool" })
+    assert.error_matches(function()
+      scene:run{ duration = 0.1, model = "auto", tolerance = { max_tension = 1 } }
+    end, "wire 'w' is fed by 'spool': its segments cannot be changed, so there are no error bars and no "
+      .. "model = 'auto'; choose the model, run with dt %(or a tolerance in m%), and compare with another "
+      .. "number of segments")
+  end)
+
   it("is not told where the wire holds back, or where the drive is a brake", function()
     assert.is_nil((driven{ force = -4, duration = 0.1 }))
     assert.is_nil((driven{ limit = 4, duration = 0.1 }))

@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- scene:advise: rules of thumb with their numbers, without running anything.
 local sw = require "softworld"
+local tools = require "spec.shape.tools"
 
 local function cantilever(more)
   local scene = sw.scene { name = "s" }
@@ -33,6 +34,18 @@ describe("scene:advise", function()
     local a = scene:advise { tolerance = 0.02 }
     assert.equal(math.ceil(3 * 0.5 / (0.01 + w.radius)), a.segments.w)
     assert.truthy(tostring(a):find("edges of a third of the radius of 'peg'", 1, true))
+  end)
+
+  it("chooses edges by the radius of a mesh whose facets are round", function()
+    local scene, w = cantilever()
+    scene:obstacle { name = "cube", shape = "mesh", data = tools.obj(tools.box_triangles(0.1, 0.1, 0.1)),
+      format = "obj", at = { 0, 0, 2 } }
+    assert.falsy(scene:advise {}.segments_why.w:find("radius", 1, true))
+    scene:obstacle { name = "peg", shape = "mesh", data = tools.obj(tools.ball(0.01, 40, 40)),
+      format = "obj", at = { 0, 0, 1 } }
+    local a = scene:advise { tolerance = 0.02 }
+    assert.is_near(3 * 0.5 / (0.01 + w.radius), a.segments.w, 2)
+    assert.equal("edges of a third of the radius of 'peg'", a.segments_why.w)
   end)
 
   it("runs nothing and changes nothing", function()

@@ -73,6 +73,24 @@ describe("an order that replaces another", function()
     has(texts[4], "obstacle 'ball': the motion at ")
   end)
 
+  it("is told: a motion that replaces that of a Lua function, whose end is not known", function()
+    local scene, wire = made()
+    local motion = { points = { { 0, 0, 0 }, { 0, 0, 0.01 } }, relative = true, duration = 0.1 }
+    local hold, ball = scene:clamp(wire, { name = "end", s = 0.3 }),
+      scene:obstacle{ name = "ball", shape = "sphere", radius = 0.01, at = { 0, 0, 1 } }
+    for _, object in ipairs{ hold, ball } do
+      local at = object:pose()
+      object:follow(function() return at end)
+      object:follow(motion)
+    end
+    local texts = told(scene:run{ duration = 0.2, dt = 0.01 }, "replaced")
+    table.sort(texts)
+    assert.equal(2, #texts)
+    has(texts[1], "hold 'end': the motion at ")
+    has(texts[1], "replaces the one under way; outside a process no call waits")
+    has(texts[2], "obstacle 'ball': the motion at ")
+  end)
+
   it("is not told in one process, nor after restoring an earlier time", function()
     local scene, wire, hand = made()
     hand:grasp(wire, { s = 0 })

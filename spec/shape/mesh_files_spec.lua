@@ -115,6 +115,15 @@ describe("mesh file", function()
       format = "gltf" })
   end)
 
+  it("tells the radius that its facets approximate", function()
+    for _, n in ipairs { 12, 24, 60 } do
+      local radius = tools.mesh(tools.ball(0.03, n, 2 * n)):roundness()
+      assert.is_true(math.abs(radius / 0.03 - 1) < 0.03, radius)
+    end
+    assert.equal(0, tools.mesh(points, triangles):roundness())
+    assert.equal(0, core.shape{ shape = "sphere", radius = 1 }:roundness())
+  end)
+
   it("may be large", function()
     local p, t = tools.ball(0.5, 100, 200)
     local shape, random = tools.mesh(p, t), tools.random(63)

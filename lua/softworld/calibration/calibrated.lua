@@ -98,6 +98,32 @@ local function add_hints(own)
   add_weight(own)
 end
 
+local TURNED = math.rad(0.5) -- least angle that is told [rad]
+
+-- Adds what a cantilever without `directions` has for level.
+local function add_level(own)
+  local group, p, said = own.model.sag, own.fit.parameters, own.said
+  if not group or not group.level then return end
+  if not group.turns then
+    said[#said + 1] = "sag: directions was not given, and points are few: the picture and the clamp count as "
+      .. "exactly level"
+    return
+  end
+  local angle = p.turn.value + p.tilt.value
+  said[#said + 1] = ("sag: directions was not given: the picture and the clamp count as level within %.2g "
+    .. "degrees each%s; if both are level, directions = { { 1, 0 } } gives a narrower interval of EI"):format(
+    math.deg(group.turns), math.abs(angle) > TURNED
+      and (", and their angles, fitted, add up to %.2g degrees"):format(math.deg(angle)) or "")
+end
+
+-- True for the remark that the angles of picture and clamp, or EI and one of them, are hard to distinguish:
+-- the interval of EI has that in it.
+local function is_of_angles(own, text)
+  local group = own.model.sag
+  return group and group.turns and text:find("distinguish", 1, true)
+    and (text:find("tilt", 1, true) or text:find("turn", 1, true))
+end
+
 -- Adds the remarks of the fit, without those on intervals that were replaced.
 local function add_fit(own)
   local stale = {}
@@ -107,7 +133,7 @@ local function add_fit(own)
     end
   end
   for _, text in ipairs(own.fit.remarks) do
-    if not stale[text] then own.said[#own.said + 1] = text end
+    if not stale[text] and not is_of_angles(own, text) then own.said[#own.said + 1] = text end
   end
 end
 
@@ -116,6 +142,7 @@ end
 function calibrated.new(own)
   own.parameters = own.fit.parameters
   add_hints(own)
+  add_level(own)
   doubts.add(own)
   add_fit(own)
   return sealed.new(Calibration, own)
@@ -153,6 +180,10 @@ local function sag_curves(own)
   for name, q in pairs(own.parameters) do p[name] = q.value end
   local line, points = {}, { x = {}, y = {} }
   line.x, line.y = sagged.line(group.curve(p))
+  for k = 1, group.turns and #line.x or 0 do
+    local at = group.about({ line.x[k], line.y[k] }, p.turn)
+    line.x[k], line.y[k] = at[1], at[2]
+  end
   for k, at in ipairs(group.points) do points.x[k], points.y[k] = at[1], at[2] end
   return line, points, "x [m]", "z [m]"
 end

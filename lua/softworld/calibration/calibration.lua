@@ -83,6 +83,15 @@ local function add_known(model, name, known)
     predict = function(p) return { p[name] } end })
 end
 
+-- Adds the angles of a cantilever's picture and clamp against level, each known within sag.LEVEL.
+local function add_angles(model)
+  for _, name in ipairs { "turn", "tilt" } do
+    model.parameters[name] = { -WIDE * sag.LEVEL, WIDE * sag.LEVEL, start = 0, unit = "rad" }
+    table.insert(model.groups, { name = "level_" .. name, sigma = sag.LEVEL, unit = "rad", values = { 0 },
+      predict = function(p) return { p[name] } end })
+  end
+end
+
 local function add_EI(model, o)
   if model.sag then
     if o.EI ~= nil then fail("give EI or sag, not both: the sag determines EI") end
@@ -138,6 +147,7 @@ local function new_model(o, diameter, mass)
     add_known(model, "mass_per_length", mass)
     add_known(model, "length", model.sag.length)
     model.sag.EA_measured = model.pull ~= nil
+    if model.sag.turns then add_angles(model) end
     if not model.pull then model.constants.EA = entry.EA(o.like, mass.value) end
   end
   return model
@@ -148,7 +158,7 @@ end
 -- Returns the parameters that a group depends on.
 local function of_group(model, group)
   local names = {}
-  if group == model.sag then names.EI = true end
+  if group == model.sag then names.EI, names.turn = true, group.turns or nil end -- they do not tell the tilt
   if group == model.pull or group == model.plates then
     names[group.stiffness], names[group.offset] = true, true
   end

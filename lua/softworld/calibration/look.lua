@@ -10,6 +10,8 @@ local TELLS = 0.5       -- least change of all points over their sigma, between 
 local FINE = 1e-6       -- sigma over the wire's length if none is given [-]
 local SIGMAS, SHARE = 6, 0.002 -- least height above the chord: in sigma, and over the wire's length [-]
 local NEARLY = 0.98     -- of that height: nearest computed wire [-]
+local TURN = 0.01       -- of a picture, for differences [rad]
+local TURNED = 3        -- angle to which a picture may be turned upwards, in its standard deviation [-]
 local STEEP = 0.1       -- horizontal part of a chord below which nothing is above it [-]
 
 local function fail(text, ...) error((WHAT .. ": " .. text):format(...), 0) end
@@ -27,8 +29,14 @@ local function add(scan, EI)
     scan.why = scan.why or list
     return false
   end
-  local sum = 0
-  for k, r in ipairs(list) do sum = sum + (r / (sigma_of(group, k) or 1)) ^ 2 end
+  local sum, along, lever = 0, 0, 0
+  local turned = group.turns and group.predict(setmetatable({ EI = EI, turn = TURN }, { __index = scan.p }))
+  for k, r in ipairs(list) do
+    local sigma = sigma_of(group, k) or 1
+    local rate = turned and (turned[k] - r) / sigma or 0
+    sum, along, lever = sum + (r / sigma) ^ 2, along + rate * r / sigma, lever + rate ^ 2
+  end
+  if lever > 0 then sum = math.max(0, sum - along ^ 2 / lever) end -- the picture turned to fit best
   scan.lists[#scan.lists + 1] = list
   if sum < scan.least then scan.least, scan.best = sum, EI end
   return sum > FAR * scan.least + (group.sigma and FAR ^ 2 or 0)
@@ -66,8 +74,9 @@ local function highest(group, lists)
   local o, worst, most = group.options, nil, 0
   for k, point in ipairs(group.points) do
     local high, up = above(o, point)
+    local turned = (group.turns or 0) * TURNED * math.abs(point[1] - o.from[1]) -- height by a turned picture
     local least = math.max(SHARE * group.length.value, SIGMAS * (sigma_of(group, k) or 0), most)
-    if high and high > least then
+    if high and high - turned > least then
       local nearest = math.huge
       for _, list in ipairs(lists) do nearest = math.min(nearest, up * list[k]) end
       if nearest >= NEARLY * high then worst, most = k, high end

@@ -10,9 +10,14 @@ local sagged = require "softworld.calibration.sagged"
 
 local sag = { name = "sag" }
 
+--- Standard deviation of the angles of a cantilever's picture and of its clamp without `directions` [rad].
+sag.LEVEL = math.rad(3)
+
 local WHAT = "sw.calibration: sag"
 local LEAST, MOST = fitdata.LEAST_SIGMA, fitdata.MOST_SIGMA
 local FARTHEST = 1.05 -- farthest point from the wire's start over its length
+local FREE = 4 -- least number of points with which the angles of a cantilever are fitted
+local BEHIND = 0.05 -- mean distance of points behind a cantilever's clamp, over its length [-]
 local SOFTEST, STIFFEST = 1e5, 1e-3 -- range of weight length^3 / EI that is searched [-]
 
 sag.rows = rows.list{
@@ -64,6 +69,12 @@ local function directions(o)
   return list
 end
 
+-- Returns a vector turned by an angle, anticlockwise [rad].
+local function turned(d, angle)
+  local c, s = math.cos(angle), math.sin(angle)
+  return { d[1] * c - d[2] * s, d[1] * s + d[2] * c }
+end
+
 local function ends(o)
   o.from = pair("from", o.from == nil and { 0, 0 } or o.from, " [m]")
   if o.ends == "cantilever" then
@@ -113,17 +124,29 @@ local function read_points(o)
   return list
 end
 
+-- Raises an error if the points of a cantilever that points along x lie on its other side.
+local function refuse_mirrored(o, points)
+  local ahead = 0
+  for _, p in ipairs(points) do ahead = ahead + (p[1] - o.from[1]) / #points end
+  if ahead > -BEHIND * o.length.value then return end
+  fail("the points lie at x < %.4g m, behind the clamp, from which the wire points along x; is x mirrored? A "
+    .. "wire that points along -x has directions = { { -1, 0 } }", o.from[1])
+end
+
 --- Reads the sag: a group { name =, sigma =, unit =, values = zeros (distances of the points from the wire),
 -- predict(p) -> list, source =, EI = its range, points =, length =, curve(p) }; EA_measured is to be set if
--- EA is measured too. radius [m], mass [kg/m].
+-- EA is measured too; turns: the angles p.turn of the picture and
+-- p.tilt of the clamp count, and have this standard deviation [rad]. radius [m], mass [kg/m].
 function sag.read(o, radius, mass)
+  local level = o.ends == "cantilever" and o.directions == nil
   ends(o)
   o.radius = radius
   local points = read_points(o)
+  if level then refuse_mirrored(o, points) end
   local size = 9.81 * mass * o.length.value ^ 3
   local group = { name = "sag", sigma = o.sigma, unit = "m", values = {}, points = points, options = o,
-    length = o.length, source = ("sag of %d points"):format(#points),
-    EI = { size / SOFTEST, size / STIFFEST } }
+    length = o.length, level = level, turns = level and #points >= FREE and sag.LEVEL,
+    source = ("sag of %d points"):format(#points), EI = { size / SOFTEST, size / STIFFEST } }
   for k = 1, #points do group.values[k] = 0 end
   local key, kept
   -- Without a measured EA: no cable is stiffer in bending than a solid bar of its radius, EI = EA r^2 / 4.
@@ -132,16 +155,25 @@ function sag.read(o, radius, mass)
   end
   --- Returns the stations of the wire; the last ones are kept, because GJ and the like do not change them.
   function group.curve(p)
-    local now = ("%a %a %a %a"):format(p.EI, p.EA, p.mass_per_length, p.length)
+    local tilt = group.turns and p.tilt or 0
+    local now = ("%a %a %a %a %a"):format(p.EI, p.EA, p.mass_per_length, p.length, tilt)
     if now ~= key then
       local at = setmetatable({ length = p.length }, { __index = o })
+      if group.turns then at.directions = { turned(o.directions[1], tilt) } end
       key, kept = now, sagged.curve(at, p.EI, EA_of(p), p.mass_per_length)
     end
     return kept
   end
+  --- Returns a place of the picture turned about the wire's start, anticlockwise [rad].
+  function group.about(at, angle)
+    local d = turned({ at[1] - o.from[1], at[2] - o.from[2] }, angle)
+    return { o.from[1] + d[1], o.from[2] + d[2] }
+  end
   function group.predict(p)
     local curve, beside = group.curve(p), {}
-    for k, point in ipairs(points) do beside[k] = sagged.beside(curve, point) end
+    for k, point in ipairs(points) do
+      beside[k] = sagged.beside(curve, group.turns and group.about(point, -p.turn) or point)
+    end
     return beside
   end
   return group

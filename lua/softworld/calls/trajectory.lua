@@ -30,6 +30,8 @@ rows.calls{
   { "shape:segment", "a, b, reach", "places where a segment is near the shape, nearest first", "a list" },
   { "shape:sweep", "a0, b0, a1, b1, margin", "where a moving segment first meets the shape",
     "share of the motion, touch; or nil" },
+  { "shape:roundness", "", "radius of the round surface that facets of a mesh approximate; 0: there is none",
+    "m" },
   { "shape:bounds", "", "corners of the box around the shape", "lowest, highest corner [m]" },
   { "shape:triangles", "around", "triangles of its surface, for pictures",
     "flat vertices [m], indices from 1" },

@@ -5,7 +5,9 @@
 local build = require "softworld.scene.build"
 local core = require "softworld.core"
 local fixing = require "softworld.link.fixing"
+local narrow = require "softworld.link.narrow"
 local number = require "softworld.output.number"
+local roundness = require "softworld.scene.roundness"
 local quantity = require "softworld.quantity"
 local rows = require "softworld.rows"
 
@@ -150,16 +152,27 @@ end
 local function sharpest(data)
   local least, name = math.huge, nil
   for _, o in ipairs(data.obstacles) do
-    local radius = o.radius
+    local radius = roundness.of(o)
     if type(radius) == "number" and radius > 0 and radius < least then least, name = radius, o.name end
   end
   return least, name
 end
 
+-- Returns the least number of edges for the obstacles and channels that a wire may be bent by, and why.
+local function bent_by(scene, w, radius, name)
+  local length, thick = w.object.length, w.object.radius
+  local round = name and ROUND * length / (radius + thick) or 0
+  local edge, channel = narrow.edge(scene, thick)
+  if length / edge > round then
+    return length / edge, ("edges that pass the corners of '%s' without jamming"):format(channel)
+  end
+  return round, name and ("edges of a third of the radius of '%s'"):format(name)
+end
+
 -- Returns the number of edges for a wire, and why; never more than a wire can have.
-local function edges_of(bow, round, share, name)
+local function edges_of(bow, round, share, bent)
   local wanted = math.max(FEWEST, bow, round)
-  local why = round > math.max(FEWEST, bow) and ("edges of a third of the radius of '%s'"):format(name)
+  local why = round > math.max(FEWEST, bow) and bent
     or ("for one bow with an error of %.3g %%"):format(100 * share)
   if wanted <= MOST then return math.ceil(wanted), why end
   return math.ceil(MOST), ("the most there can be; %.3g would be needed %s%s"):format(wanted,
@@ -171,8 +184,8 @@ local function mesh_of(scene, share, a)
   local radius, name = sharpest(data)
   a.segments, a.segments_why = {}, {}
   for _, w in ipairs(data.wires) do
-    local round = name and ROUND * w.object.length / (radius + w.object.radius) or 0
-    local n, why = edges_of((BOW / share) ^ 0.5, round, share, name)
+    local round, bent = bent_by(scene, w, radius, name)
+    local n, why = edges_of((BOW / share) ^ 0.5, round, share, bent)
     a.segments[w.name], a.segments_why[w.name] = n, why
     nodes, given = nodes + n + 1, given + core.segments(w.object) + 1
   end

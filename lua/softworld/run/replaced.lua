@@ -24,7 +24,7 @@ end
 --- Tells that an order replaces one that was to end at a time [s], if it has not ended; true: it has not, and
 -- its end is not known. what: "gripper 'hand'"; order: "move".
 function replaced.tell(scene, name, what, order, ends)
-  local known = ends and ends ~= true
+  local known = ends and ends ~= true and ends < math.huge -- a Lua function has no end
   if not ends or known and not is_later(ends, scene) or not counts(scene) then return end
   local at = place.of_caller()
   told.tell(scene, { kind = "replaced", object = name, value = known and ends - scene.time or nil,

@@ -117,6 +117,7 @@ function trust.job(scene, what, args)
   args.tolerance = nil
   job.most = take_levels(what, args)
   job.first, job.share = first_counts(scene)
+  coarsest.pass(job)
   for _, q in ipairs(job.quantities) do job.values[q.name] = {} end
   if check then require("softworld.check.bars").take(job, args) end
   return job
@@ -203,6 +204,12 @@ local function check_wires(job)
     .. "it before the run"):format(job.what, new.name), 0)
 end
 
+-- Forgets the values of all levels so far.
+local function forget(job, why)
+  job.known, job.failure = 0, why
+  for name in pairs(job.values) do job.values[name] = {} end
+end
+
 -- Computes level after level until the bars are short enough. Returns the last result.
 local function climb(job, compute)
   local first = math.min(job.begun or 0, job.most - 1) -- levels with known values
@@ -226,6 +233,12 @@ local function climb(job, compute)
         cpu = os.clock() - begun }
     end
     if result.ok then
+      local jammed = coarsest.is_jammed(result)
+      if job.jammed and not jammed and k < job.most then -- the coarser edges show nothing
+        forget(job, "a wire jams or tears on it")
+        good = 0
+      end
+      job.jammed = jammed
       local most = estimate.HOPED ^ (job.most - k)
       job.known = good
       local met, vain = judge(job, result, most)
@@ -233,8 +246,8 @@ local function climb(job, compute)
       good, bad, job.finest, job.known = good + 1, 0, k, good + 1
       if good >= coarsest.LEAST and (met or vain) then break end
     else
-      good, bad, job.known, job.failure = 0, bad + 1, 0, result.reason
-      for name in pairs(job.values) do job.values[name] = {} end
+      good, bad = 0, bad + 1
+      forget(job, result.reason)
       if bad == failures then break end
     end
   end
