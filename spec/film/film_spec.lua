@@ -96,7 +96,7 @@ describe("frames", function()
     assert.is_true(stride >= 4)
     -- a frame: 41 nodes, or two more, of 3 + 9 floats
     assert.is_true(count * 41 * 12 * 4 < 60e3 and count >= 3)
-    for i = 2, count do
+    for i = 2, count - 1 do -- the last one is that of the end
       -- steps of 5 ms end where the process continues; a frame is stored at the first step that reaches its
       -- time
       assert.near(0.005 * stride, scene:frame(i).t - scene:frame(i - 1).t, 0.005)
