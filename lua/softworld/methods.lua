@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Checks that methods are called on an object of their class, with no more arguments than their rows tell. A
--- call with a dot, or on another object, raises a clear error instead of failing somewhere inside the library.
--- Methods written in C check this themselves.
+--- Checks that methods are called on an object of their class, with no more arguments than their rows tell.
+-- A call with a dot, or on another object, raises a clear error instead of failing somewhere inside the
+-- library. Methods written in C check this themselves.
 -- @module softworld.methods
 local checks = require "softworld.checks"
 local core = require "softworld.core"

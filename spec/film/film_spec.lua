@@ -41,7 +41,9 @@ describe("frames", function()
     local arc = film.track(film.read((core.film(scene, 0, 1e9, true))), "value", 0, 8).frames
     arc = arc[#arc]
     assert.equal(#arc, #values.tension)
-    for i, s in pairs{ [1] = 0, [#arc] = wire.length } do assert.near(wire:tension(s), values.tension[i], 1e-6) end
+    for i, s in pairs{ [1] = 0, [#arc] = wire.length } do
+      assert.near(wire:tension(s), values.tension[i], 1e-6)
+    end
     for i = 2, #arc - 1 do
       local s = arc[i]
       -- arc lengths are rounded to 0.6 m / 2^20, which is 4e-5 of an edge

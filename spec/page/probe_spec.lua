@@ -32,7 +32,8 @@ describe("the page's probe", function()
   -- Returns place, tension, curvature of the page.
   local function probed(name, s)
     return table.unpack(page:run([[
-      const a = player.view.actors.find((a) => a.kind === "wire" && a.name === arguments[0]), s = arguments[1];
+      const a = player.view.actors.find((a) => a.kind === "wire" && a.name === arguments[0]);
+      const s = arguments[1];
       return [a.place(s).point.toArray(), a.value(0, s), a.value(1, s)];]], name, s))
   end
 

@@ -299,7 +299,7 @@ describe("an argument that a method does not take", function()
     assert.same(ball:force(), ball:force(nil))
   end)
 
-  it("is refused by methods of studies, checks and films, by tables too, and by readings at a place", function()
+  it("is refused by methods of studies, checks and runs, and by readings at a place", function()
     local scene, wire = made()
     local study = sw.study{ name = "refusing", parameters = { x = { 0, 1 }, y = { 0, 1 } }, workers = 0,
       evaluate = function(p) return { a = p.x, b = 1 - p.x } end }
@@ -309,7 +309,9 @@ describe("an argument that a method does not take", function()
       ["study:pareto takes ({ results, ... }), got a table too"] = function()
         study:pareto({ "a", "b" }, { evaluations = 100 })
       end,
-      ["study:sweep takes ({...}), got a table too"] = function() study:sweep({ count = 4 }, { seed = 2 }) end,
+      ["study:sweep takes ({...}), got a table too"] = function()
+        study:sweep({ count = 4 }, { seed = 2 })
+      end,
       ["study:minimise takes (result, {...}), got a table too"] = function()
         study:minimise("a", { evaluations = 8 }, { method = "simplex" })
       end,
