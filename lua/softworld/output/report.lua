@@ -185,7 +185,7 @@ end
 -- Returns a run's description without what depends on time: film, events, numbers.
 local function outline_of(page, run)
   return json.object{ name = run.name, ok = run.ok, reason = run.reason, time = run.time,
-    start = run.start, steps = run.steps, wall = run.wall, unmet = run.unmet, model = run.model,
+    start = run.start, steps = run.steps, cpu = run.cpu, unmet = run.unmet, model = run.model,
     gravity = run.gravity,
     wires = run.wires, particles = particles_of(page, run), grips = run.grips, holds = run.holds,
     obstacles = obstacles_of(page, run), zones = zones_of(page, run) }
