@@ -83,6 +83,15 @@ describe("words", function()
     view:close()
   end)
 
+  it("say of a gripper that its scene is closed", function()
+    local scene, wire = wired "closing"
+    local gripper = scene:gripper{ name = "g" }
+    assert.equal("gripper 'g' (open)", tostring(gripper))
+    gripper:grasp(wire, { s = 0.1 })
+    scene:close()
+    assert.equal("gripper 'g' (its scene is closed)", tostring(gripper))
+  end)
+
   it("say what describe lacks of a scene from a file", function()
     local scene, wire = wired "kept"
     scene:clamp(wire, { s = 0, name = "c" })
