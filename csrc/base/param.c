@@ -158,6 +158,8 @@ static const struct {
 #undef SW_OTHER
 };
 
+enum { SW_SHORTEST_BEGIN = 4 }; /* shortest word that is taken for the beginning of a name [B] */
+
 static int is_gap(char c) { return c == '_' || c == '-' || c == ' '; }
 
 /* 1 if the words are the same without regard to case and gaps. */
@@ -185,9 +187,29 @@ static const char *name_of_other(const char *word, const char *const *names, siz
   return NULL;
 }
 
+/* Returns the shortest name that begins with this word, without regard to case and gaps, or NULL.
+ */
+static const char *name_begun(const char *word, const char *const *names, size_t stride,
+                              size_t count) {
+  const char *found = NULL;
+  if (strlen(word) < SW_SHORTEST_BEGIN) return NULL;
+  for (size_t i = 0; i < count; i++) {
+    const char *name = name_at(names, stride, i), *b = name, *a = word;
+    for (; *a; b += *b != 0) {
+      while (is_gap(*a)) a++;
+      while (is_gap(*b)) b++;
+      if (!*a || tolower((unsigned char)*a) != tolower((unsigned char)*b)) break;
+      a++;
+    }
+    if (!*a && (!found || strlen(name) < strlen(found))) found = name;
+  }
+  return found;
+}
+
 const char *sw_nearest_name(const char *word, const char *const *names, size_t stride,
                             size_t count) {
   const char *nearest = name_of_other(word, names, stride, count);
+  if (!nearest) nearest = name_begun(word, names, stride, count);
   if (nearest) return nearest;
   const int length = (int)strlen(word);
   int limit = length <= 3 ? 1 : length <= 6 ? 2 : length / 3; /* largest distance of a typo [-] */

@@ -165,6 +165,34 @@ static int mod_frame_now(lua_State *L) {
   return failed ? lua_error(L) : 1;
 }
 
+/* core.close_frames(scene): adds the frame of a run's end. */
+static int mod_close_frames(lua_State *L) {
+  sw_scene *scene = lsw_check_scene(L);
+  lua_settop(L, 1);
+  LSW_DO(L, sw_scene_readable, scene);
+  LSW_DO_FORCES(L, sw_scene_close_frames, scene);
+  return 0;
+}
+
+/* core.add_between(scene, t [s]) -> number of a frame added last, or nothing: see frames.h. The
+ * caller drops it with core.drop_frames(scene, number of frames that stay). */
+static int mod_add_between(lua_State *L) {
+  sw_scene *scene = lsw_check_scene(L);
+  int added;
+  const double t = lsw_number(L, 2, "add_between: time", "s");
+  LSW_DO(L, sw_scene_add_between, scene, t, &added);
+  if (!added) return 0;
+  lua_pushinteger(L, (lua_Integer)sw_scene_frames(scene));
+  return 1;
+}
+
+static int mod_drop_frames(lua_State *L) {
+  sw_scene *scene = lsw_check_scene(L);
+  const lua_Integer stay = lsw_integer(L, 2, "drop_frames: number");
+  while ((lua_Integer)sw_scene_frames(scene) > stay && stay >= 0) sw_scene_drop_last_frame(scene);
+  return 0;
+}
+
 /* core.keep_frames(scene [, memory [B]]): sets the memory limit of frames. */
 static int mod_keep_frames(lua_State *L) {
   const double memory =
@@ -337,10 +365,18 @@ static int mod_frames_press(lua_State *L) {
   return 1;
 }
 
-const luaL_Reg lsw_module_frames[] = {
-    {"frame_now", mod_frame_now},           {"frame_times", mod_frame_times},
-    {"frame_range", mod_frame_range},       {"keep_frames", mod_keep_frames},
-    {"frames_thinned", mod_frames_thinned}, {"frames_press", mod_frames_press},
-    {"frames_sweep", mod_frames_sweep},     {"frames_apart", mod_frames_apart},
-    {"frame_contact", mod_frame_contact},   {"frames_flat", mod_frames_flat},
-    {"frames_lever", mod_frames_lever},     {NULL, NULL}};
+const luaL_Reg lsw_module_frames[] = {{"frame_now", mod_frame_now},
+                                      {"frame_times", mod_frame_times},
+                                      {"frame_range", mod_frame_range},
+                                      {"keep_frames", mod_keep_frames},
+                                      {"frames_thinned", mod_frames_thinned},
+                                      {"frames_press", mod_frames_press},
+                                      {"frames_sweep", mod_frames_sweep},
+                                      {"frames_apart", mod_frames_apart},
+                                      {"frame_contact", mod_frame_contact},
+                                      {"frames_flat", mod_frames_flat},
+                                      {"frames_lever", mod_frames_lever},
+                                      {"close_frames", mod_close_frames},
+                                      {"add_between", mod_add_between},
+                                      {"drop_frames", mod_drop_frames},
+                                      {NULL, NULL}};

@@ -27,8 +27,13 @@ static int call_function(lua_State *L) {
   const unsigned interrupts = sw_interrupt_count();
   lua_call(L, 1, 1);
   lsw_stop_since(L, interrupts); /* f may have caught the error */
-  if (lua_type(L, -1) != LUA_TNUMBER)
-    return luaL_error(L, "tune.minimise: f must return a number, got %s", luaL_typename(L, -1));
+  if (lua_type(L, -1) != LUA_TNUMBER) {
+    lua_Debug f;
+    lua_pushvalue(L, 1);
+    lua_getinfo(L, ">S", &f);
+    return luaL_error(L, "tune.minimise: f (%s:%d) must return a number, got %s", f.short_src,
+                      f.linedefined, luaL_typename(L, -1));
+  }
   c->value = lua_tonumber(L, -1);
   return 0;
 }

@@ -109,6 +109,12 @@ void *lsw_check(lua_State *L, int index, const lsw_class *c) {
   return h;
 }
 
+void lsw_only(lua_State *L, const lsw_class *c, int most, const char *arguments) {
+  if (lua_isnoneornil(L, most + 1)) return;
+  const char *method = method_name(L, c), *got = lsw_describe(L, most + 1);
+  luaL_error(L, "%s:%s takes (%s), got %s too", c->name, method ? method : "?", arguments, got);
+}
+
 /* --- life cycle ----------------------------------------------------------- */
 
 static const lsw_class *class_of(lua_State *L) { return lua_touserdata(L, lua_upvalueindex(1)); }

@@ -83,6 +83,10 @@ static inline void sw_body_interval(const sw_mesh *m, const sw_hold_args *a, dou
 void sw_line_at(const sw_scene *scene, const sw_scene_wire *wire, const sw_body *body, double s,
                 sw_point_state *out);
 
+/* Interpolates values of edges at a place, linearly between their middles, and beyond the first and
+ * the last one. */
+double sw_line_between_middles(const sw_plan *plan, const double *values, double s);
+
 /* Makes enough edges between all holds of a line, which stay where they are (line.c). SW_ENOMEM. */
 sw_status sw_line_refine(sw_scene *scene, size_t wire);
 

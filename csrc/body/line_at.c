@@ -69,8 +69,7 @@ static void node_state(const sw_system *s, const sw_body *b, size_t node, size_t
   }
 }
 
-/* Interpolates values of edges at a place, linearly between their middles. */
-static double between_middles(const sw_plan *p, const double *T, double at) {
+double sw_line_between_middles(const sw_plan *p, const double *T, double at) {
   double fraction;
   const size_t e = sw_plan_locate(p, at, &fraction);
   if (p->edges == 1) return T[0];
@@ -84,7 +83,7 @@ static double between_middles(const sw_plan *p, const double *T, double at) {
 static double spin_at(const sw_system *s, const sw_body *b, double at) {
   if (!b->roll_block) return 0.0;
   const double *rate = s->v + 3 * s->nodes + b->first_roll;
-  return between_middles(b->plan, rate, at);
+  return sw_line_between_middles(b->plan, rate, at);
 }
 
 /* Returns the torque of hinge `number` in the plan's list, with clamps after nodes. */
@@ -142,14 +141,14 @@ void sw_line_at(const sw_scene *s, const sw_scene_wire *w, const sw_body *b, dou
   out->velocity = sw_lerp(sw_load(v), sw_load(v + 3), f);
   out->tangent = sw_unit_or(sw_lerp(t0, t1, f), t0);
   out->curvature = k0 + f * (k1 - k0);
-  out->elastic = between_middles(b->plan, system->tension + b->first_edge, at);
-  out->tension = between_middles(b->plan, sw_system_pull(system, b), at);
+  out->elastic = sw_line_between_middles(b->plan, system->tension + b->first_edge, at);
+  out->tension = sw_line_between_middles(b->plan, sw_system_pull(system, b), at);
   out->spin = spin_at(system, b, at);
   if (b->spin_block) {
     k0 = node_flexure(system, b, e, e);
     k1 = node_flexure(system, b, e + 1, e);
   }
-  const double axial = between_middles(b->plan, sw_system_elastic(system, b), at);
+  const double axial = sw_line_between_middles(b->plan, sw_system_elastic(system, b), at);
   const double bent = (k0 + f * (k1 - k0)) * w->beam.radius;
   out->strain = axial / w->beam.EA + bent;
   out->least_strain = axial / w->beam.EA - bent;

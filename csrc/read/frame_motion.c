@@ -3,6 +3,7 @@
 #include "base/alloc.h"
 #include "base/segments.h"
 #include "read/frames.h"
+#include "read/kept_frames.h"
 #include "scene/parts.h"
 #include "system/join.h"
 
@@ -69,7 +70,10 @@ void sw_scene_frames_sweep(const sw_scene *s, double start, size_t w, sw_swept *
 
 double sw_scene_frames_acceleration(const sw_scene *s, double start, size_t w, size_t stride) {
   double most = -1;
-  for (size_t f = 2 * stride; f < sw_scene_frames(s); f++) {
+  /* the frame of a run's end may come so soon after another one that rounding rules the difference
+   */
+  const size_t count = sw_scene_frames(s) - (size_t)sw_frames_closed(sw_scene_frames_of(s));
+  for (size_t f = 2 * stride; f < count; f++) {
     const size_t g = f - stride, e = g - stride;
     const double a = sw_scene_frame_time(s, e), b = sw_scene_frame_time(s, g);
     const double second = sw_scene_frame_time(s, f) - b, first = b - a;

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "body/body.h"
 #include "body/section.h"
 #include "body/side.h"
 #include "body/spin.h"
@@ -28,20 +29,20 @@ static double fibre_stress(const sw_beam *beam, double T, double bent) {
 
 static void line_values(const sw_system *s, const sw_body *b, float *out) {
   const sw_plan *p = b->plan;
-  const double *T = sw_system_elastic(s, b);
   const int turns = b->spin_block || b->has_twist, curved = p->beam.curved;
-  double before = T[0];
+  const double *T = sw_system_pull(s, b);
+  for (size_t i = 0; i < p->nodes; i++)
+    out[SW_FRAME_VALUES * i + SW_FRAME_TENSION] = (float)sw_line_between_middles(p, T, p->s[i]);
+  T = sw_system_elastic(s, b); /* takes the room of the other ones */
   for (size_t i = 0; i < p->nodes; i++, out += SW_FRAME_VALUES) {
-    const double after = i < p->edges ? T[i] : before, mean = 0.5 * (before + after);
+    const double mean = sw_line_between_middles(p, T, p->s[i]);
     const int inner = i > 0 && i + 1 < p->nodes && p->hinge[i] > 0;
     const double bent = inner ? quick_angle(sw_scene_hinge_chord(&b->field, i)) / p->hinge[i] : 0.0;
-    out[SW_FRAME_TENSION] = (float)mean;
     out[SW_FRAME_CURVATURE] = (float)bent;
     out[SW_FRAME_TWIST] = turns ? (float)sw_scene_torque(s, b, p->s[i]) : 0.0f;
     out[SW_FRAME_STRESS] =
         (float)fibre_stress(&p->beam, mean, inner && curved ? sw_scene_flexure(s, b, i) : bent);
     out[SW_FRAME_ARC] = (float)(p->s[i] - p->s[0]);
-    before = after;
   }
 }
 

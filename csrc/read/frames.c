@@ -44,16 +44,20 @@ void sw_frames_free(sw_frames *f) {
   *f = (sw_frames){0};
 }
 
+sw_status sw_frame_copy(const sw_frame *from, sw_frame *to) {
+  *to = *from;
+  to->data = sw_alloc(from->size + 1, sizeof *to->data); /* never of no size */
+  if (!to->data) return SW_ENOMEM;
+  memcpy(to->data, from->data, from->size * sizeof *to->data);
+  return SW_OK;
+}
+
 sw_status sw_frames_copy(const sw_frames *from, sw_frames *to) {
   *to = *from;
   to->count = 0, to->capacity = from->count;
-  to->list = sw_alloc(from->count + 1, sizeof *to->list); /* never of no size */
-  for (size_t i = 0; to->list && i < from->count; i++) {
-    sw_frame *f = &to->list[i];
-    *f = from->list[i];
-    f->data = sw_alloc(f->size + 1, sizeof *f->data);
-    if (!f->data) break;
-    memcpy(f->data, from->list[i].data, f->size * sizeof *f->data);
+  to->list = sw_alloc(from->count + 1, sizeof *to->list);
+  while (to->list && to->count < from->count) {
+    if (sw_frame_copy(&from->list[to->count], &to->list[to->count]) != SW_OK) break;
     to->count++;
   }
   if (to->list && to->count == from->count) return SW_OK;
@@ -75,9 +79,7 @@ sw_status sw_scene_keep_frames(sw_scene *s, double memory, sw_error *err) {
 
 size_t sw_scene_frames_thinned(const sw_scene *s) { return sw_scene_frames_of(s)->stride; }
 
-static double bytes_of(const sw_frame *f) {
-  return (double)(f->size * sizeof *f->data + sizeof *f);
-}
+double sw_frame_bytes(const sw_frame *f) { return (double)(f->size * sizeof *f->data + sizeof *f); }
 
 /* Drops every second frame. The last one stays when their number is odd; the next one is due two
  * old strides later. */
@@ -89,7 +91,7 @@ static void thin(sw_scene *s) {
       all->list[kept++] = all->list[i];
       continue;
     }
-    all->bytes -= bytes_of(&all->list[i]);
+    all->bytes -= sw_frame_bytes(&all->list[i]);
     sw_free(all->list[i].data);
   }
   all->count = kept;
@@ -98,8 +100,22 @@ static void thin(sw_scene *s) {
 
 void sw_scene_drop_last_frame(sw_scene *s) {
   sw_frames *all = sw_scene_frames_of(s);
-  all->bytes -= bytes_of(&all->list[--all->count]);
+  all->bytes -= sw_frame_bytes(&all->list[--all->count]);
   sw_free(all->list[all->count].data);
+}
+
+int sw_frames_closed(const sw_frames *f) { return f->count && f->list[f->count - 1].closing; }
+
+void sw_scene_reopen_frames(sw_scene *s) {
+  if (sw_frames_closed(sw_scene_frames_of(s))) sw_scene_drop_last_frame(s);
+}
+
+sw_status sw_scene_reclose_frames(sw_scene *s, const sw_frame *end) {
+  sw_frames *all = sw_scene_frames_of(s);
+  SW_TRY(SW_GROW(all->list, all->capacity, all->count + 1));
+  SW_TRY(sw_frame_copy(end, &all->list[all->count]));
+  all->bytes += sw_frame_bytes(&all->list[all->count++]);
+  return SW_OK;
 }
 
 /* 1 if the frame belongs to the scene's past. Frames of a run from another state may be later, or
@@ -245,7 +261,7 @@ static sw_status add_frame(sw_scene *s, sw_error *err) {
     return status;
   }
   all->list[all->count++] = f;
-  all->bytes += bytes_of(&f);
+  all->bytes += sw_frame_bytes(&f);
   return SW_OK;
 }
 
@@ -258,10 +274,20 @@ sw_status sw_scene_frame_now(sw_scene *s, sw_error *err) {
   return add_frame(s, err);
 }
 
+sw_status sw_scene_close_frames(sw_scene *s, sw_error *err) {
+  sw_frames *all = sw_scene_frames_of(s);
+  if (!all->count || all->list[all->count - 1].time >= sw_scene_time(s)) return SW_OK;
+  sw_scene_reopen_frames(s);
+  SW_TRY(sw_scene_frame_now(s, err));
+  all->list[all->count - 1].closing = 1;
+  return SW_OK;
+}
+
 sw_status sw_scene_store_frame(sw_scene *s, sw_error *err) {
   sw_frames *all = sw_scene_frames_of(s);
   SW_TRY(add_frame(s, err));
   const sw_frame f = all->list[all->count - 1];
-  if (all->count % 2 && all->count > LEAST && all->bytes + 2 * bytes_of(&f) > all->memory) thin(s);
+  if (all->count % 2 && all->count > LEAST && all->bytes + 2 * sw_frame_bytes(&f) > all->memory)
+    thin(s);
   return SW_OK;
 }

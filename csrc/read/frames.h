@@ -17,10 +17,17 @@ sw_status sw_scene_keep_frames(sw_scene *scene, double memory, sw_error *err);
 /* Returns the stride of the kept frames: 1, or a power of 2 after thinning [-]. */
 size_t sw_scene_frames_thinned(const sw_scene *scene);
 
+/* Adds a frame of a run's end, unless there are no frames or the last one is of this time. A run
+ * that goes on drops it, and files do not keep it. SW_EBUSY inside a step. */
+sw_status sw_scene_close_frames(sw_scene *scene, sw_error *err);
+
 /* Adds a frame of the present state after all others, for callers that drop it at once: dropping it
  * restores the frames as they were. SW_EBUSY inside a step. */
 sw_status sw_scene_frame_now(sw_scene *scene, sw_error *err);
 void sw_scene_drop_last_frame(sw_scene *scene);
+/* Adds, for such callers too, a frame at time t [s] between two frames. added = 0: no frames are
+ * before and after t, or a wire has another mesh in the later one. */
+sw_status sw_scene_add_between(sw_scene *scene, double t, int *added, sw_error *err);
 
 /* Returns the node positions of wire number w in that frame [m]; count = nodes, 0 if the wire had
  * been removed. NULL if it did not exist. */

@@ -230,7 +230,7 @@ void sw_tape_rule(sw_tape *t, sw_scene_rule *x) {
 }
 
 void sw_tape_frame(sw_tape *t, const sw_scene *s, sw_frame *x) {
-  SW_TAPE_STRUCT(t, sw_frame, 80);
+  SW_TAPE_STRUCT(t, sw_frame, 88); /* a frame on a tape is no closing one */
   size_t size = 0;
   DOUBLE(time), SIZE(wires), SIZE(obstacles), SIZE(holds), SIZE(tools);
   for (int k = 0; k < SW_FRAME_ENERGIES; k++) DOUBLE(energy[k]);

@@ -23,6 +23,7 @@ struct sw_snapshot {
   double time; /* [s] */
   size_t build, holds, obstacles, tools, forces, joins, rules, zones, frames, frame_stride;
   uint32_t *force; /* (forces) generations of living forces; 0 for others */
+  sw_frame end;    /* copy of the frame of a run's end; without data: there was none */
   sw_frames kept;  /* copies of the frames, if it keeps any */
   int keeps;       /* 0: restoring only drops later frames */
 };
@@ -56,6 +57,7 @@ void sw_snapshot_free(sw_snapshot *p) {
   unlink_snapshot(p);
   sw_tape_free(&p->tape);
   sw_free(p->force);
+  sw_free(p->end.data);
   sw_frames_free(&p->kept);
   sw_free(p);
 }
@@ -94,12 +96,14 @@ sw_status sw_scene_snapshot(sw_scene *s, sw_snapshot **out, sw_error *err) {
   p->zones = s->zones.count;
   p->holds = s->hold_count, p->obstacles = s->obstacle_count, p->tools = s->tool_count;
   p->forces = s->force_count, p->joins = s->join_count, p->rules = s->rules.count;
-  p->frames = s->frames.count, p->frame_stride = s->frames.stride;
+  const size_t closed = (size_t)sw_frames_closed(&s->frames);
+  p->frames = s->frames.count - closed, p->frame_stride = s->frames.stride;
   for (size_t k = 0; k < s->force_count; k++)
     if (s->forces[k].alive) force[k] = s->forces[k].generation;
   p->tape = sw_tape_at_home(size_of(s), NULL);
   sw_tape_scene(&p->tape, s, &built, &live);
-  if (!sw_tape_good(&p->tape)) {
+  if (!sw_tape_good(&p->tape) ||
+      (closed && sw_frame_copy(&s->frames.list[p->frames], &p->end) != SW_OK)) {
     sw_snapshot_free(p);
     return sw_fail(err, SW_ENOMEM, "snapshot: out of memory");
   }
@@ -190,6 +194,10 @@ sw_status sw_scene_restore(sw_scene *s, const sw_snapshot *p, sw_error *err) {
   if (status == SW_ENOMEM) return sw_fail(err, status, "restore: out of memory");
   SW_TRY(status);
   s->diverged = 0;
-  if (!p->keeps) sw_scene_frames_back_to(s, p->frames, p->frame_stride);
+  if (p->keeps) return SW_OK;
+  sw_scene_reopen_frames(s);
+  sw_scene_frames_back_to(s, p->frames, p->frame_stride);
+  if (p->end.data && sw_scene_reclose_frames(s, &p->end) != SW_OK)
+    return sw_fail(err, SW_ENOMEM, "restore: out of memory");
   return SW_OK;
 }

@@ -75,10 +75,14 @@ static void tape_kept(sw_tape *t, sw_scene *s) {
 }
 
 /* Only on tapes that leave the process. A restored scene keeps its frames and only drops later
- * ones. */
+ * ones. A frame of a run's end stays behind. */
 static void tape_frames(sw_tape *t, sw_scene *s) {
+  const int closed = !sw_tape_reads(t) && sw_frames_closed(&s->frames);
+  const double left_out = closed ? sw_frame_bytes(&s->frames.list[s->frames.count - 1]) : 0;
+  s->frames.count -= (size_t)closed, s->frames.bytes -= left_out;
   LIST(frames.list, frames.count, frames.capacity, sw_tape_frame(t, s, &s->frames.list[k]));
   sw_tape_size(t, &s->frames.stride), sw_tape_double(t, &s->frames.bytes);
+  s->frames.count += (size_t)closed, s->frames.bytes += left_out;
   sw_tape_expect(t, s->frames.stride >= 1 && s->frames.stride < 1u << 30 && s->frames.bytes >= 0,
                  "frames");
 }

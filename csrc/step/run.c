@@ -146,6 +146,7 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   sw_error why = {""}, ignored;
   *report = (sw_run_report){.smallest_dt = HUGE_VAL, .time = sw_scene_time(s)};
   SW_TRY(prepare(s, args, until, err));
+  if (isfinite(args->frame)) sw_scene_reopen_frames(s);
   const sw_counters before = sw_scene_system(s)->counters;
   sw_ladder p = {.s = s,
                  .made_at = NAN,

@@ -79,7 +79,7 @@ rows.later(sw, "softworld.calibration.calibration", "calibration")
 rows.later(sw, "softworld.check.compare", "compare")
 rows.told("softworld.calls.scene softworld.calls.wire softworld.calls.obstacle softworld.calls.hold "
   .. "softworld.calls.trajectory") -- rows of the core's own calls
-require("softworld.calls.counts").install(made)
+require("softworld.calls.counts").install()
 record.install(made)
 
 for kind, class in pairs(made) do methods.guard_table(kind, class) end

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Checks that methods are called on an object of their class. A call with a dot, or on another object,
--- raises a clear error instead of failing somewhere inside the library. Methods written in C check this
--- themselves.
+--- Checks that methods are called on an object of their class, with no more arguments than their rows tell.
+-- A call with a dot, or on another object, raises a clear error instead of failing somewhere inside the
+-- library. Methods written in C check this themselves.
 -- @module softworld.methods
 local checks = require "softworld.checks"
 local core = require "softworld.core"
@@ -41,19 +41,30 @@ local function described(value)
   return type(kind) == "string" and kind or "table"
 end
 
+-- Returns a method that checks its object and how many arguments it gets.
+local function guarded(kind, class, name, method, is)
+  local most, call -- learnt at the first call with arguments; false: any number
+  -- The tail call keeps error levels the same as without this wrapper.
+  return function(self, ...)
+    if not is(self) then
+      error(("%s:%s is a method: call it with a colon (%s expected, got %s)"):format(kind, name, kind,
+        described(self)), 2)
+    end
+    if select("#", ...) > 0 then
+      local counts = require "softworld.calls.counts"
+      if most == nil then most, call = counts.of(kind, class, name) end
+      if most and select("#", ...) > most then counts.check(self, call, most, ...) end
+    end
+    return method(self, ...)
+  end
+end
+
 --- Guards the Lua functions of a class. is(value) is true for an object of the class.
 function methods.guard(kind, class, is)
   for name, method in next, class do
     if type(name) == "string" and name:sub(1, 2) ~= "__" and type(method) == "function"
       and debug.getinfo(method, "S").what == "Lua" then
-      -- The tail call keeps error levels the same as without this wrapper.
-      class[name] = function(self, ...)
-        if not is(self) then
-          error(("%s:%s is a method: call it with a colon (%s expected, got %s)"):format(kind, name, kind,
-            described(self)), 2)
-        end
-        return method(self, ...)
-      end
+      class[name] = guarded(kind, class, name, method, is)
     end
   end
 end

@@ -189,18 +189,28 @@ end
 -- --- methods whose module is read late ------------------------------------------------------
 
 local late = {} -- modules with rows, in the order of registration
+local later = {} -- class -> name of a method -> its module
+local told = {} -- modules that describe objects of the core
 
 --- Adds methods to a class that live in a module (a table of functions) loaded at the first call.
 function rows.later(class, module, names)
   late[#late + 1] = module
+  later[class] = later[class] or {}
   for name in names:gmatch "%S+" do
+    later[class][name] = module
     class[name] = function(...) return require(module)[name](...) end
   end
 end
 
 --- Registers modules that only describe objects of the core by rows.
 function rows.told(modules)
-  for module in modules:gmatch "%S+" do late[#late + 1] = module end
+  for module in modules:gmatch "%S+" do late[#late + 1], told[#told + 1] = module, module end
+end
+
+--- Loads the module that may have the row of a method.
+function rows.load_for(class, name)
+  local module = later[class] and later[class][name]
+  for _, one in ipairs(module and { module } or told) do require(one) end
 end
 
 --- Loads the registered modules, for help, completion and checks. They may register more.

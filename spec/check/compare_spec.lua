@@ -84,6 +84,23 @@ describe("sw.compare", function()
     assert.equal("same", named(sw.compare(a, far, { tolerance = 0.5 }), "v").status)
   end)
 
+  -- A wire that stays straight has an infinite bend radius.
+  it("never counts infinity as a finite number, nor NaN as anything", function()
+    local inf, nan = math.huge, 0 / 0
+    for _, case in ipairs{ { inf, 1, "changed" }, { 1, inf, "changed" }, { inf, inf, "same" },
+      { -inf, inf, "changed" }, { -inf, -inf, "same" }, { nan, nan, "changed" }, { nan, 1, "changed" },
+      { inf, nan, "changed" } } do
+      local x, y, status = table.unpack(case)
+      local a, b = run:check{ checks = { own("v", x) } }, run:check{ checks = { own("v", y) } }
+      for _, comparison in ipairs{ sw.compare(a, b), sw.compare(a:json(folder .. "/inf.json"), b),
+        sw.compare(a, b, { tolerance = 1 }) } do
+        local row = named(comparison, "v")
+        assert.same({ status, status == "same" }, { row.status, comparison.same }, ("%g, %g"):format(x, y))
+        assert.is_nil(row.change)
+      end
+    end
+  end)
+
   it("says that a value is the same by the tolerance alone, and shows both values", function()
     local a, b = run:check{ checks = { own("v", 0.999) } }, run:check{ checks = { own("v", 1.001) } }
     local comparison = sw.compare(a, b, { tolerance = 0.01 })

@@ -30,6 +30,19 @@ describe("run:report", function()
     end
   end)
 
+  -- A list of four points is as long as a rotation.
+  it("takes hulls of any number of points", function()
+    for _, more in ipairs{ {}, { { 0.1, 0.1, 0.1 } } } do
+      local scene = sw.scene{ name = "hull" }
+      local points = { { 0, 0, 0 }, { 0.1, 0, 0 }, { 0, 0.1, 0 }, { 0, 0, 0.1 } }
+      table.move(more, 1, #more, #points + 1, points)
+      scene:obstacle{ name = "hull", shape = "hull", points = points }
+      scene:wire{ cable = "GXL 1.5", from = { 0, 0, 0.2 }, to = { 0.3, 0, 0.2 } }
+      local path = folder .. "/hull.html"
+      assert.equal(path, scene:run{ dt = 0.005, duration = 0.05 }:report(path))
+    end
+  end)
+
   it("marks slips and other events of grippers", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = scene:wire{ cable = "GXL 1.5", from = { 0, 0, 0.1 }, to = { 0.3, 0, 0.1 }, segments = 12 }

@@ -317,6 +317,43 @@ describe("an argument that a method does not take", function()
     assert.same(ball:force(), ball:force(nil))
   end)
 
+  it("is refused by methods of studies, checks and runs, and by readings at a place", function()
+    local scene, wire = made()
+    local study = sw.study{ name = "refusing", parameters = { x = { 0, 1 }, y = { 0, 1 } }, workers = 0,
+      evaluate = function(p) return { a = p.x, b = 1 - p.x } end }
+    local run = scene:run{ duration = 0.05 }
+    local check = run:check{}
+    for text, call in pairs{
+      ["study:pareto takes ({ results, ... }), got a table too"] = function()
+        study:pareto({ "a", "b" }, { evaluations = 100 })
+      end,
+      ["study:sweep takes ({...}), got a table too"] = function()
+        study:sweep({ count = 4 }, { seed = 2 })
+      end,
+      ["study:minimise takes (result, {...}), got a table too"] = function()
+        study:minimise("a", { evaluations = 8 }, { method = "simplex" })
+      end,
+      ["study:table takes no arguments, got 1"] = function() study:table(1) end,
+      ["study:run takes ({...}), got 1 too"] = function() study:run({ workers = 0 }, 1) end,
+      ["scene:run takes ({ duration =, dt =, ... }), got a table too"] = function()
+        scene:run({ duration = 0.1 }, { dt = 1 })
+      end,
+      ["scene:settle takes ({ tolerance = }), got a table too"] = function() scene:settle({}, {}) end,
+      ["run:check takes ({...}), got a table too"] = function() run:check({}, {}) end,
+      ["run:obj takes (path, {...}), got 1 too"] = function() run:obj("x.obj", {}, 1) end,
+      ["check:row takes (name), got 'x' too"] = function() check:row("events", "x") end,
+      ["wire:position takes (s), got string 'x' too"] = function() wire:position(0.1, "x") end,
+      ["wire:tension takes (s), got number 0.2 too"] = function() wire:tension(0.1, 0.2) end,
+      ["wire:stress takes (s), got table too"] = function() wire:stress(0.1, {}) end } do
+      local fine, why = pcall(call)
+      assert.is_false(fine, text)
+      has(why, "ignored_spec.lua:")
+      has(why, text)
+    end
+    assert.equal(0, study.computed)
+    assert.same(wire:position(0.1), wire:position(0.1, nil))
+  end)
+
   it("is refused in a process, with the line of the call", function()
     for text, call in pairs{
       ["p:wait takes (seconds), got 2 too"] = function(p) p:wait(0.1, 2) end,

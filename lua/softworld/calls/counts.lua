@@ -5,11 +5,12 @@
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
+local place = require "softworld.place"
 local rows = require "softworld.rows"
 
 local counts = {}
 
--- Methods of the core that take no arguments, by class. Those that take some stay as they are: they are
+-- Methods of the core in C that take no arguments, by class. Those that take some stay as they are: they are
 -- called often.
 local bare = {
   scene = "energy contacts penetration touches stable_dt frame_count clear_frames snapshot names",
@@ -22,8 +23,8 @@ local own = checks.set "channel:force channel:close channel:open scene:tie"
 
 -- Returns how many arguments a call takes, from its arguments in words; nil: any number.
 local function count_of(arguments)
-  if not arguments or arguments:find("...", 1, true) and not arguments:find "{%.%.%.}" then return nil end
-  local plain = arguments:gsub("%b{}", "t"):gsub("%b()", "")
+  local plain = arguments and arguments:gsub("%b{}", "t"):gsub("%b()", "")
+  if not plain or plain:find("...", 1, true) then return nil end
   if plain == "" then return 0 end
   return select(2, plain:gsub(",", "")) + 1
 end
@@ -42,52 +43,48 @@ local function has_more(most, ...)
   return false
 end
 
--- Returns a method that checks the count. method: of this library, or of the core without arguments.
-local function counted(call, most, method)
-  if debug.getinfo(method, "S").what == "C" then
-    return function(self, ...)
-      if has_more(0, ...) and core.exists(self) then build.call(3, refuse, call, 0, ...) end
-      return build.call(3, method, self)
-    end
+--- Returns how many arguments a method takes, or false if this is not known, and its row. Its module may not
+-- be loaded yet.
+function counts.of(kind, class, verb)
+  local name = ("%s:%s"):format(kind == "process" and "p" or kind, verb) -- scripts call it p
+  if own[name] then return false end
+  if not rows.all[name] then rows.load_for(class, verb) end
+  local call = rows.all[name]
+  return call and count_of(call.arguments) or false, call
+end
+
+--- Raises an error, at the place of the call, for arguments beyond the first `most`. A closed object says so
+-- itself. The library may give its own methods more than scripts may. Call it from the method itself.
+function counts.check(self, call, most, ...)
+  if not has_more(most, ...) or core.type(self) and not core.exists(self) then return end
+  local level = 3
+  local caller = debug.getinfo(level, "S")
+  while caller and caller.what == "C" do -- pcall
+    level = level + 1
+    caller = debug.getinfo(level, "S")
   end
+  if not (caller and place.is_ours(caller.source)) then build.call(4, refuse, call, most, ...) end
+end
+
+-- Returns a method of the core that refuses all arguments.
+local function without(call, method)
   return function(self, ...)
-    local there = not core.type(self) or core.exists(self) -- else the method says that it is closed
-    if there and has_more(most, ...) then build.call(3, refuse, call, most, ...) end
-    return method(self, ...)
+    if has_more(0, ...) and core.exists(self) then build.call(3, refuse, call, 0, ...) end
+    return build.call(3, method, self)
   end
 end
 
-local function install(class, verb, call, most)
-  local method = class and rawget(class, verb)
-  if type(method) == "function" then class[verb] = counted(call, most, method) end
-end
-
--- Installs the check of a call with a row, if its method is of this library and takes a known number.
-local function install_row(class, name, call)
-  local verb = name:match ":([%a_]+)$"
-  local most = not own[name] and count_of(call.arguments) or nil
-  local method = class and rawget(class, verb)
-  if most and method and debug.getinfo(method, "S").what ~= "C" then install(class, verb, call, most) end
-end
-
---- Installs the checks of a class whose objects have this name in the rows.
-function counts.of(kind, class)
-  for name, call in pairs(rows.all) do
-    if name:match "^([%a_]+):" == kind then install_row(class, name, call) end
-  end
-end
-
---- Installs the checks. made: classes of objects made in Lua, by name.
-function counts.install(made)
+--- Installs the checks of the core's methods without arguments; those of this library's methods are in
+-- softworld.methods.
+function counts.install()
   for kind, verbs in pairs(bare) do
     for verb in verbs:gmatch "%S+" do
-      install(core.class[kind], verb, { name = ("%s:%s"):format(kind, verb) }, 0)
+      local class = core.class[kind]
+      local method = class and rawget(class, verb)
+      if type(method) == "function" and debug.getinfo(method, "S").what == "C" then
+        class[verb] = without({ name = ("%s:%s"):format(kind, verb) }, method)
+      end
     end
-  end
-  for name, call in pairs(rows.all) do
-    local kind, verb = name:match "^([%a_]+):([%a_]+)$"
-    local is_bare = bare[kind] and (" " .. bare[kind] .. " "):find(" " .. verb .. " ", 1, true)
-    if kind and not is_bare then install_row(made[kind] or core.class[kind], name, call) end
   end
 end
 

@@ -126,12 +126,13 @@ end
 
 -- --- what has changed ------------------------------------------------------------------------------
 
-local function equal(x, y) return x == y or x ~= x and y ~= y and x ~= nil and y ~= nil end
+local function is_finite(x) return x ~= nil and x - x == 0 end
 
--- True if the known ranges of the two values do not overlap.
+-- True if the known ranges of the two values do not overlap. A value that is not a number, and an infinite
+-- one beside a finite one, are apart whatever their errors are.
 local function apart(a, b, tolerance)
-  if equal(a.value, b.value) then return false end
-  if not (a.value and b.value) or a.value ~= a.value or b.value ~= b.value then return true end
+  if a.value == b.value then return false end
+  if not (is_finite(a.value) and is_finite(b.value)) then return true end
   if math.abs(b.value - a.value) <= tolerance * math.max(math.abs(a.value), math.abs(b.value)) then
     return false
   end
@@ -161,12 +162,12 @@ local function both(a, b, tolerance)
   local changed = apart(a, b, tolerance)
   row.status = changed and "changed" or "same"
   row.tolerated = not changed and apart(a, b, 0) or nil -- the same by the tolerance alone
-  if a.value and b.value and a.value - a.value == 0 and b.value - b.value == 0 then
+  if is_finite(a.value) and is_finite(b.value) then
     row.change = b.value - a.value
     row.share = a.value ~= 0 and row.change / math.abs(a.value) or nil
   end
   row.verdict_changed = a.verdict ~= b.verdict
-  row.limit_changed = not equal(a.limit, b.limit) or a.side ~= b.side
+  row.limit_changed = a.limit ~= b.limit or a.side ~= b.side
   row.better = better(a, b, changed or row.limit_changed)
   return row
 end

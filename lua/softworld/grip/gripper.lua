@@ -344,6 +344,7 @@ function Gripper.__names()
 end
 
 function Gripper:__tostring()
+  if not core.exists(self.scene) then return ("gripper '%s' (its scene is closed)"):format(self.name) end
   local doing = "open"
   local names = {}
   for i, grip in ipairs(self.grips) do names[i] = ("'%s'"):format(grip.wire.name) end

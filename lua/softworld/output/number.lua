@@ -56,6 +56,8 @@ function number.engineering(x, unit)
   local highest = scalable[unit]
   if not highest or math.type(x) == "integer" and x == 0 then return number.digits(x), unit end
   local power = power_of(x, highest)
+  local size = math.abs(x) / 10.0 ^ power
+  if power ~= 0 and (size < 1e-4 or size >= 1e6) then return number.digits(x), unit end -- "1.000e-18 pN"
   return number.digits(x / 10.0 ^ power), prefixes[power] .. unit
 end
 

@@ -81,11 +81,20 @@ local function shape_of(page, entry)
     blob = add_blob(page, core.deflate(bytes)) }
 end
 
+-- True for a list of up to four numbers: a size, a direction, a turn; points are lists of lists.
+local function is_short(value)
+  if type(value) ~= "table" or #value > 4 then return false end
+  for _, x in ipairs(value) do
+    if type(x) ~= "number" then return false end
+  end
+  return true
+end
+
 -- Adds a shape to the page; equal shapes are added once.
 local function add_shape(page, entry)
   local key = {}
   for name, value in pairs(entry) do
-    if type(value) == "table" and #value <= 4 then value = table.concat(value, " ") end
+    if is_short(value) then value = table.concat(value, " ") end
     if name ~= "name" and name ~= "at" and name ~= "rotation" then
       key[#key + 1] = ("%s=%s"):format(name, tostring(value))
     end
@@ -176,7 +185,7 @@ end
 -- Returns a run's description without what depends on time: film, events, numbers.
 local function outline_of(page, run)
   return json.object{ name = run.name, ok = run.ok, reason = run.reason, time = run.time,
-    start = run.start, steps = run.steps, wall = run.wall, unmet = run.unmet, model = run.model,
+    start = run.start, steps = run.steps, cpu = run.cpu, unmet = run.unmet, model = run.model,
     gravity = run.gravity,
     wires = run.wires, particles = particles_of(page, run), grips = run.grips, holds = run.holds,
     obstacles = obstacles_of(page, run), zones = zones_of(page, run) }

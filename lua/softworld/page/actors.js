@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is to be seen on the stage, and of it what bends: wires and objects of particles.
 import * as THREE from "three";
-import { ARC, FORCE } from "./model.js";
+import { ARC, CURVATURE, FORCE } from "./model.js";
 import { RUNS, linear } from "./colours.js";
 import { Tube, Skin } from "./tubes.js";
 
@@ -41,6 +41,29 @@ export class Actor {
     this.there = there;
     this.group.visible = there && !hidden.has(this.id);
   }
+}
+
+const node = (x, i) => new THREE.Vector3(x[3 * i], x[3 * i + 1], x[3 * i + 2]);
+
+/** The length that bends at a clamp, of its edge and the next one [m]; csrc/state/plan.c has the same. */
+function clampLength(first, second) {
+  const b = first / second;
+  return b < 0.45 ? first / 2 : (0.5 * b - 1 / (12 * b)) * second;
+}
+
+/** The direction of a line of nodes at one of them; csrc/body/line_at.c has the same. A bend at an end is that
+ *  of a clamp, which goes on as the next one. */
+function directionAt(i, x, arc, count, curvature) {
+  const edge = (e) => node(x, e + 1).sub(node(x, e)).normalize(), long = (e) => arc[e + 1] - arc[e];
+  if (count < 3) return edge(0);
+  if (i > 0 && i + 1 < count) return edge(i - 1).multiplyScalar(long(i)).addScaledVector(edge(i), long(i - 1)).normalize();
+  const [e, inner] = i === 0 ? [0, 1] : [count - 2, count - 3];
+  const own = edge(e), bend = own.clone().sub(edge(inner)), k = curvature ? curvature[i] : 0;
+  if (!(k > 0)) return own.addScaledVector(bend, (0.5 * long(e)) / (long(e) + long(inner))).normalize();
+  const across = bend.addScaledVector(own, -bend.dot(own));
+  if (!(across.length() > 1e-9)) return own;
+  const angle = k * clampLength(long(e), long(inner));
+  return own.multiplyScalar(Math.cos(angle)).addScaledVector(across.normalize(), Math.sin(angle));
 }
 
 /** A wire: a tube around its nodes, or the surface of a mesh. */
@@ -109,7 +132,13 @@ export class Wire extends Actor {
       if (arc[middle] <= s) low = middle; else high = middle;
     }
     const f = Math.min(1, Math.max(0, (s - arc[low]) / (arc[high] - arc[low] || 1)));
-    const point = new THREE.Vector3(...[0, 1, 2].map((c) => x[3 * low + c] + (x[3 * high + c] - x[3 * low + c]) * f));
+    const [a, b] = [node(x, low), node(x, high)];
+    if (this.surface !== this.tube) return { point: a.lerp(b, f), node: low, share: f };
+    // the run's own curve: a cubic through both nodes with their directions
+    const curved = this.reader.read(this.run.film.get("value", this.index, CURVATURE), this.at);
+    const l = a.distanceTo(b), g = 1 - f, along = (i) => directionAt(i, x, arc, this.count, curved);
+    const point = a.multiplyScalar((1 + 2 * f) * g * g).addScaledVector(along(low), l * f * g * g)
+      .addScaledVector(b, f * f * (3 - 2 * f)).addScaledVector(along(high), -l * f * f * g);
     return { point, node: low, share: f };
   }
 

@@ -12,7 +12,7 @@ export const QUANTITIES = [
   { key: "stress", channel: 4, label: "Stress", unit: "Pa", noise: 1e-3 },
   { key: "pressed", channel: 0, kind: "pressed", label: "Surface contact", unit: "N", noise: 1e-9 }, // at the points of a mesh
 ];
-export const FORCE = 5, ARC = 8;
+export const CURVATURE = 1, FORCE = 5, ARC = 8;
 
 async function readSeries(given) {
   if (!given) return null;

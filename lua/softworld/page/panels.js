@@ -245,8 +245,8 @@ export function resultsPanel(host, data, state) {
       host.append(box);
       continue;
     }
-    box.append(h("p.hint", {}, [run.reason, format(run.time, "s"), run.steps ? `${run.steps} steps` : null,
-      run.wall !== undefined ? `${format(run.wall, "s")} of computing` : null].filter(Boolean).join(" · ")));
+    box.append(h("p.hint", {}, [run.reason, format(run.time, "s"), run.steps ? `${run.steps} step${run.steps === 1 ? "" : "s"}` : null,
+      run.cpu !== undefined ? `${format(run.cpu, "s")} of computing` : null].filter(Boolean).join(" · ")));
     if (run.unmet) box.append(h("p.warning", {}, run.unmet));
     const body = h("tbody");
     for (const row of run.summary || []) {

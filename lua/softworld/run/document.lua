@@ -48,6 +48,7 @@ local function draw(self, doc, wires, numbers)
     doc.frames[i] = self.scene:frame(numbers and numbers[i] or i)
     doc.frames[i].number = numbers and numbers[i] or i
   end
+  table.sort(doc.frames, function(a, b) return a.t < b.t end) -- those between others have the last numbers
   drawn.add(self.scene, doc)
   add_fixings(self.scene, doc)
 end

@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Writes runs: tables, charts, pictures, files for ParaView. Methods of Run, see softworld.run.run.
 -- @module softworld.run.files
+local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local counted = require "softworld.output.number".count
@@ -71,6 +72,18 @@ function runfiles.check_camera(given, what)
     error(("%s: camera must be 'auto' or a table, got %s"):format(what, checks.got(given)), 0)
   end
   camera:read(given, what .. ": camera", what .. ": camera.")
+end
+
+--- Adds frames at times between two stored ones, until the returned value is closed; `numbers`: of these.
+-- A wire that has another mesh in the later frame has nothing between: there the nearest frame is drawn, with
+-- its own time.
+function runfiles.between(self, times)
+  local count, numbers = self.scene:frame_count(), {}
+  local made = setmetatable({ numbers = numbers }, { __close = function()
+    if core.exists(self.scene) then core.drop_frames(self.scene, count) end
+  end })
+  for _, t in ipairs(times or {}) do numbers[#numbers + 1] = core.add_between(self.scene, t) end
+  return made
 end
 
 --- Raises an error unless the run has been at these times [s]; nil: no times. The nearest frame would be
@@ -210,6 +223,7 @@ function Run:pictures(options)
   runfiles.check_camera(o.camera, "run:pictures")
   readable(self, "frames", true)
   runfiles.check_times(self, o.times, "run:pictures")
+  local _ <close> = runfiles.between(self, o.times) -- among all frames
   o.run = runfiles.pictured(self)
   return require("softworld.output.povray").strip(o)
 end

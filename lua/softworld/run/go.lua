@@ -4,6 +4,7 @@
 local core = require "softworld.core"
 local advice = require "softworld.run.advice"
 local build = require "softworld.scene.build"
+local checks = require "softworld.checks"
 local document = require "softworld.run.document"
 local holding = require "softworld.check.holding"
 local kept = require "softworld.run.kept"
@@ -120,6 +121,13 @@ local function begin(scene, args)
   return data, total
 end
 
+-- Stores the frame of the end. The scene's Lua functions have been asked at this time before; what they raise
+-- now is no fault of the run.
+local function close_frames(scene)
+  local fine, why = pcall(core.close_frames, scene)
+  if not fine and checks.is_interrupt(why) then error(why, 0) end
+end
+
 -- Returns: 1. whether it ended without an error, 2. the reason or the error, 3. see drive.
 local function drive_shown(scene, args, total, level, hindrance)
   local bar <close> = working.bar(args, scene, level)
@@ -135,6 +143,7 @@ local function drive_shown(scene, args, total, level, hindrance)
   data.running, data.saving = nil, nil
   if fine and total.ok then bar:finish() elseif fine then bar:fail(reason) end
   observe.finish(scene, fine and total.ok, reason)
+  if fine and total.ok and args.frames ~= false then close_frames(scene) end
   return fine, reason, cut
 end
 

@@ -149,10 +149,12 @@ local function times_of(self, times, o)
   return list
 end
 
-local function moments(self, times, wanted)
+local function joined(a, b) return table.move(b, 1, #b, #a + 1, a) end
+
+local function moments(self, times, wanted, between)
   local numbers = {}
   for k, t in ipairs(wanted) do numbers[k] = nearest(times, t) end
-  local doc = runfiles.moments(self, numbers_of(self, times, numbers))
+  local doc = runfiles.moments(self, joined(numbers_of(self, times, numbers), between.numbers))
   function doc.range(quantity) return core.frame_range(self.scene, quantity) end
   return doc
 end
@@ -212,7 +214,8 @@ local function picture_of_run(self, args)
   local times = core.frame_times(self.scene)
   o.times, o.t, o.count = times_of(self, times, o), nil, nil
   runfiles.check_captions(o, "run:picture", math.max(1, #o.times))
-  return draw(moments(self, times, o.times), o)
+  local between <close> = runfiles.between(self, o.times)
+  return draw(moments(self, times, o.times, between), o)
 end
 
 --- scene:picture{ path =, technique =, colour =, camera =, ... }
@@ -285,7 +288,10 @@ local function of_one(kind, list)
     runfiles.check_times(self, { o.t }, "run:" .. kind)
     local times, numbers = core.frame_times(self.scene), {}
     o.t = o.t or times[#times] or 0
-    if #times > 0 then numbers = numbers_of(self, times, { nearest(times, o.t) }) end
+    local between <close> = runfiles.between(self, { o.t })
+    if #times > 0 then
+      numbers = joined(numbers_of(self, times, { nearest(times, o.t) }), between.numbers)
+    end
     return require("softworld.output.triangles").write(exchanged(self, numbers), path, kind, o)
   end)
 end

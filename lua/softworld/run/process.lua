@@ -19,7 +19,6 @@ local blame = require "softworld.scene.blame"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local conditions = require "softworld.run.conditions"
-local counts = require "softworld.calls.counts"
 local remarks = require "softworld.remarks"
 local sealed = require "softworld.sealed"
 local stages = require "softworld.run.stages"
@@ -378,7 +377,6 @@ function process.is_at(scene, mark)
   return count == 0
 end
 
-counts.of("p", Process)
 methods.guard_table("process", Process)
 
 return process

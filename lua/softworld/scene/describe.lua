@@ -13,7 +13,8 @@ local describe = {}
 rows.calls{
   { "scene:describe", "", "the parts of the scene, as a plain table without objects and functions",
     "name, time [s], gravity [m/s2], and lists: wires, particles, obstacles, holds, forces, joins, fixings, "
-      .. "grippers; each item has name or kind, given (values of the script) and now (present values)",
+      .. "grippers; each item has name or kind, given (values of the script) and now (present values); "
+      .. "lacks: what a file that the scene was read from does not tell",
     example = "for _, w in ipairs(scene:describe().wires) do print(w.name, w.now.length) end" },
 }
 
@@ -130,6 +131,17 @@ local function grippers_of(data, given)
   return list
 end
 
+local LACKS = "forces, and given, wire and kind of all that was read from a file, which does not keep them"
+
+-- Returns what is not known of a scene whose objects are from a file.
+local function lacking(data, given)
+  for _, list in ipairs{ data.wires, data.particles } do
+    for _, entry in ipairs(list) do
+      if core.exists(entry.object) and not given[entry.object] then return LACKS end
+    end
+  end
+end
+
 local function of_scene(scene)
   if core.type(scene) ~= "scene" then error("scene:describe is a method: call it with a colon", 0) end
   local data = build.data(scene)
@@ -139,7 +151,7 @@ local function of_scene(scene)
     particles = list_of(data.particles, given, of_particles),
     obstacles = obstacles_of(data, given), holds = list_of(data.holds, given, of_hold),
     forces = forces_of(forces, given), joins = list_of(data.joins, given, function() return {} end),
-    fixings = fixings_of(scene, given), grippers = grippers_of(data, given) }
+    fixings = fixings_of(scene, given), grippers = grippers_of(data, given), lacks = lacking(data, given) }
 end
 
 --- scene:describe(): see help "scene:describe".

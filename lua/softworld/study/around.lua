@@ -122,11 +122,12 @@ local function value_at(self, key)
   return record and record.results and judge.value(self.own, self.result, record)
 end
 
---- Returns the noise at the best place: { mean =, error = standard error, deviation =, repeats =, failed =,
--- broken = }, or nil with fewer than two repeats.
+--- Returns the noise at the best place: { checked =, mean =, error = standard error, deviation =, repeats =,
+-- failed =, broken = }; nil if the place has given the same value again. checked = false: it was not computed
+-- again.
 function around:noise()
   local values, n = {}, 0
-  local noise = { repeats = 0, failed = 0, broken = 0 }
+  local noise = { checked = self.got["again 1"] ~= nil, repeats = 0, failed = 0, broken = 0 }
   while self.got["again " .. n + 1] do
     n = n + 1
     local record = self.got["again " .. n]
@@ -136,7 +137,8 @@ function around:noise()
       if not judge.pass(self.own, record) then noise.broken = noise.broken + 1 end
     end
   end
-  if n < 2 then return nil end
+  if n == 0 then return noise end
+  if n == 1 and values[1] == judge.value(self.own, self.result, self.best) then return nil end
   local sum, square = 0, 0
   for _, v in ipairs(values) do sum = sum + v end
   noise.repeats, noise.mean = n, #values > 0 and sum / #values or nil

@@ -26,8 +26,22 @@ local function levels_of(own)
   return levels
 end
 
+-- With integers and choices searches come to the same places again and again. Unless values are noisy, these
+-- are computed once. o.total: number of all places, if they are finite; o.complete: the evaluations suffice
+-- for all of them, and a search that finds no end computes those that it has left out.
+local function begin_known(own, o)
+  local total, discrete = 1, false
+  for _, count in ipairs(levels_of(own)) do
+    total, discrete = count and total and total * count, discrete or count
+  end
+  if not discrete or o.noise then return end
+  o.known, o.total = {}, total
+  o.complete = total and total <= o.evaluations - around.reserve(own, o)
+end
+
 local function begin(own, o, method)
   local runs, side = {}, method.starts and o.starts or 1
+  begin_known(own, o)
   for k, places in ipairs(design.starts(own.parameters, side)) do
     local problem = { n = #own.parameters, start = places, number = k, starts = o.starts, noise = o.noise,
       seed = core.checksum(("%d %d"):format(own.seed, k)), step = o.step, tolerance = o.tolerance,
@@ -47,6 +61,14 @@ end
 -- Returns the source of evaluations: starts take turns; after them come the surroundings of the best place.
 local function source_of(own, result, o, runs)
   local found, highest, list = nil, 0, {}
+  local rest, searched, left -- values that the search has left out; its highest number; how many are open
+  local function next_left()
+    rest, searched, left = rest or turns.unknown(own, o, levels_of(own)), searched or highest, left or 0
+    local values = rest()
+    if not values then return nil end
+    highest, left = highest + 1, left + 1
+    return highest, values
+  end
   local function next_one()
     if found then return found:next() end
     local number, values = turns.next(own, o, runs)
@@ -55,6 +77,10 @@ local function source_of(own, result, o, runs)
       return number, values
     end
     if turns.wait(runs) then return nil end
+    if searched or o.complete and not turns.some_ok(runs) then
+      number, values = next_left()
+      if number or left > 0 then return number, values end
+    end
     local center = o.noise and runs[1].search.center and runs[1].search:center()
     found = around.begin(own, result, o, list, highest, center)
     o.found = found
@@ -64,8 +90,12 @@ local function source_of(own, result, o, runs)
     if not own.by_name[result] then judge.has(record, result, "study:minimise") end
     list[#list + 1] = record
     if found then return found:done(record) end
-    local outcome = outcome_of(own, result, record)
-    local run = turns.hear(runs, o, record.number, outcome)
+    local outcome, run = outcome_of(own, result, record), runs[1]
+    if searched and record.number > searched then left = left - 1
+    else
+      run = turns.hear(runs, o, record.number, outcome)
+    end
+    turns.know(runs, o, record.values, outcome)
     if not outcome.failed and outcome.broken <= 0 then run.least = math.min(run.least, outcome.value) end
   end
   return { next = next_one, done = done }

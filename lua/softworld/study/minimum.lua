@@ -102,7 +102,7 @@ end
 local Found = { __name = "minimum" }
 local unknown = checks.fields("minimum", "name best value error ok reason method why evaluations failed "
   .. "failures at_bound at_limit room noise flat starts")
-local MAY_LACK = checks.set "error why noise flat"
+local MAY_LACK = checks.set "error why noise flat unchecked"
 
 function Found.__index(f, key)
   if not MAY_LACK[key] then return unknown(f, key) end
@@ -111,6 +111,7 @@ end
 local function add_noise(lines, f)
   local n = f.noise
   if not n then return end
+  if not n.checked then lines[#lines + 1] = "  noise: not checked, because " .. f.unchecked end
   if n.mean and n.deviation ~= 0 then
     lines[#lines + 1] = ("  noisy: the mean of %s there is %.6g%s"):format(
       counted(n.repeats - n.failed, "more evaluation"), n.mean,
@@ -229,6 +230,7 @@ function minimum.of(own, result, list, runs, o)
     failures = failures_of(own, list), at_bound = at_bound, at_limit = at_limit(own, best), room = room,
     starts = starts_of(runs), order = order }
   if o.found then f.noise, f.flat = noise, o.found:flat() end
+  f.unchecked = o.around and "no evaluation was left for it" or "around = false"
   return setmetatable(f, Found)
 end
 

@@ -274,7 +274,10 @@ function output.csv(own, path)
     local row = output.row(own, record)
     for _, name in ipairs(names) do
       local value = row[name]
-      columns[name][k] = value == nil and "" or type(value) == "boolean" and (value and 1 or 0) or value
+      if type(value) == "boolean" then
+        value = own.by_name[name] and tostring(value) or value and 1 or 0 -- a choice, or pass
+      end
+      columns[name][k] = value == nil and "" or value
     end
   end
   return csv.write(path, names, columns)

@@ -83,6 +83,9 @@ local function check_range(what, low, high, unit)
     fail("%s: the range %.9g to %.9g%s is %s; the lowest must be below the highest", what, low, high, unit,
       low == high and "one value" or "reversed")
   end
+  if high - low == math.huge then
+    fail("%s: the range %.9g to %.9g%s is wider than the largest number, 1.8e308", what, low, high, unit)
+  end
 end
 
 local function read_range(what, given)
@@ -176,7 +179,9 @@ end
 
 --- Returns the place of a value in a range.
 function parameters.place(p, value)
-  if p.log then return math.log(value / p.low) / math.log(p.high / p.low) end
+  if p.log then -- not of quotients, which may be beyond the largest number
+    return (math.log(value) - math.log(p.low)) / (math.log(p.high) - math.log(p.low))
+  end
   return (value - p.low) / (p.high - p.low)
 end
 

@@ -19,19 +19,37 @@ local function refill(run, each)
     run.search:tell(run.outcomes, run.places)
   end
   local places, why, ok = run.search:ask()
-  if places and run.asked + #places > each then places, why = nil, "evaluations used up" end
+  if places and run.asked + #places > each then
+    places, why = nil, run.reused and "it came back to places that are known" or "evaluations used up"
+  end
   run.places, run.outcomes, run.next, run.before = places, {}, 1, run.asked
   if not places then run.ended, run.ok = why, ok or false end
 end
 
--- Returns the next place of a run: number, values; nil if it waits or has ended.
+-- Gives the run the outcome of its evaluation k.
+local function give(run, k, outcome)
+  run.told = run.told + 1
+  run.outcomes[k - run.before] = outcome
+end
+
+-- Returns the next place of a run: number, values; nil if it waits or has ended. With o.known a place that is
+-- known already is not computed again.
 local function next_of(own, o, run)
-  if run.ended then return nil end
-  refill(run, o.each)
-  local place = run.places and run.places[run.next]
-  if not place then return nil end
-  run.next, run.asked = run.next + 1, run.asked + 1
-  return (run.asked - 1) * o.side + run.number, parameters.all_at(own.parameters, place)
+  while not run.ended do
+    refill(run, o.each)
+    local place = run.places and run.places[run.next]
+    if not place then return nil end
+    local values = parameters.all_at(own.parameters, place)
+    local known = o.known and o.known[parameters.word(values)]
+    if known == "asked" then return nil end -- it will be known
+    run.next, run.asked = run.next + 1, run.asked + 1
+    if not known then
+      if o.known then o.known[parameters.word(values)] = "asked" end
+      return (run.asked - 1) * o.side + run.number, values
+    end
+    run.reused = true
+    give(run, run.asked, known)
+  end
 end
 
 --- Returns the next evaluation of any run: number, values; nil if all wait or have ended. o: side = number of
@@ -56,13 +74,45 @@ function turns.wait(runs)
   return false
 end
 
+--- True if a run has found what it looks for.
+function turns.some_ok(runs)
+  for _, run in ipairs(runs) do
+    if run.ok then return true end
+  end
+  return false
+end
+
 --- Takes the outcome of an evaluation; returns its run.
 function turns.hear(runs, o, number, outcome)
   local run = runs[(number - 1) % o.side + 1]
-  local k = (number - run.number) // o.side + 1
-  run.told = run.told + 1
-  run.outcomes[k - run.before] = outcome
+  give(run, (number - run.number) // o.side + 1, outcome)
   return run
+end
+
+--- Returns an iterator over the values that are not known yet, of parameters with o.total values together.
+function turns.unknown(own, o, levels)
+  local at = 0
+  return function()
+    while at < o.total do
+      local rest, place = at, {}
+      for i, count in ipairs(levels) do
+        place[i], rest = (rest % count + 0.5) / count, rest // count
+      end
+      at = at + 1
+      local values = parameters.all_at(own.parameters, place)
+      if not o.known[parameters.word(values)] then return values end
+    end
+  end
+end
+
+--- Keeps the outcome of values. Once all values of all parameters are known (o.total), all runs end.
+function turns.know(runs, o, values, outcome)
+  if not o.known then return end
+  o.known[parameters.word(values)] = outcome
+  o.count = (o.count or 0) + 1
+  if o.count ~= o.total then return end
+  local why = o.total == 1 and "the only value is known" or ("all %d values are known"):format(o.total)
+  for _, run in ipairs(runs) do run.ended, run.ok = why, true end
 end
 
 return turns

@@ -111,12 +111,24 @@ end
 
 local function name_of(scene) return scene.name end
 
+-- Checks the arguments of a call for a scene that has a view, which keeps its port.
+local function check_again(own, args)
+  local given = new:read(args == nil and {} or args)
+  if given.port and given.port ~= 0 and given.port ~= own.port then
+    error(("scene:view: port = %d: the view of this scene is open, at port %d"):format(given.port, own.port),
+      0)
+  end
+end
+
 --- scene:view{ port =, open = }: see help "scene:view".
 function view.view(scene, args)
   if core.type(scene) ~= "scene" then error("scene:view is a method: call it with a colon", 2) end
   build.call(3, name_of, scene) -- raises if the scene is closed
   unread.used()
-  if of_scene(scene) then return of_scene(scene) end
+  if of_scene(scene) then
+    build.call(3, check_again, fields(of_scene(scene)), args)
+    return of_scene(scene)
+  end
   return build.call(3, serve, scene, args)
 end
 

@@ -63,7 +63,8 @@ function work.refused(own, message)
 end
 
 local function touched(own, object, words)
-  pcall(own.scene.tell, own.scene, { kind = "hand", object = object, text = words })
+  -- not by pcall itself: the call would be taken for one of a script, which gets a remark between runs
+  pcall(function() own.scene:tell{ kind = "hand", object = object, text = words } end)
 end
 
 local function back(own, m)
