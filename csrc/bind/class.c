@@ -109,7 +109,7 @@ void *lsw_check(lua_State *L, int index, const lsw_class *c) {
   return h;
 }
 
-void lsw_only(lua_State *L, const lsw_class *c, int most, const char *arguments) {
+void lsw_at_most(lua_State *L, const lsw_class *c, int most, const char *arguments) {
   if (lua_isnoneornil(L, most + 1)) return;
   const char *method = method_name(L, c), *got = lsw_describe(L, most + 1);
   luaL_error(L, "%s:%s takes (%s), got %s too", c->name, method ? method : "?", arguments, got);

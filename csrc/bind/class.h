@@ -53,7 +53,7 @@ const lsw_class *lsw_class_of(lua_State *L, int index);
 const char *lsw_describe(lua_State *L, int index);
 /* Raises an error if the running method of the class has got more than `most` values, itself
  * included. arguments: what it takes, in words. */
-void lsw_only(lua_State *L, const lsw_class *c, int most, const char *arguments);
+void lsw_at_most(lua_State *L, const lsw_class *c, int most, const char *arguments);
 
 /* Makes the metatables of all classes in classes.def. Pushes a table of their
  * method tables by class name; Lua files add methods to these. */
