@@ -209,8 +209,8 @@ static const char *name_begun(const char *word, const char *const *names, size_t
 const char *sw_nearest_name(const char *word, const char *const *names, size_t stride,
                             size_t count) {
   const char *nearest = name_of_other(word, names, stride, count);
-  if (!nearest) nearest = name_begun(word, names, stride, count);
   if (nearest) return nearest;
+  const char *begun = name_begun(word, names, stride, count);
   const int length = (int)strlen(word);
   int limit = length <= 3 ? 1 : length <= 6 ? 2 : length / 3; /* largest distance of a typo [-] */
   for (size_t i = 0; i < count; i++) {
@@ -218,5 +218,5 @@ const char *sw_nearest_name(const char *word, const char *const *names, size_t s
     const int distance = edit_distance(word, name);
     if (distance <= limit) nearest = name, limit = distance - 1;
   }
-  return nearest;
+  return begun && limit > 0 ? begun : nearest; /* unless one letter is wrong */
 }

@@ -31,8 +31,8 @@ static int call_function(lua_State *L) {
     lua_Debug f;
     lua_pushvalue(L, 1);
     lua_getinfo(L, ">S", &f);
-    return luaL_error(L, "tune.minimise: f (%s:%d) must return a number, got %s", f.short_src,
-                      f.linedefined, luaL_typename(L, -1));
+    return luaL_error(L, "tune.minimise: f must return a number, got %s (f begins at %s:%d)",
+                      luaL_typename(L, -1), f.short_src, f.linedefined);
   }
   c->value = lua_tonumber(L, -1);
   return 0;

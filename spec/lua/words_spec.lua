@@ -67,7 +67,7 @@ describe("words", function()
   end)
 
   it("name the line of a function that returns no number", function()
-    fails("words_spec.lua:71) must return a number, got nil", sw.tune.minimise, { from = 0, to = 1,
+    fails("words_spec.lua:71)", sw.tune.minimise, { from = 0, to = 1,
       f = function() end })
   end)
 
