@@ -172,7 +172,8 @@ describe("example", function()
 
   -- Taut: the torque is GJ times the twist per length. With 20 cm of slack the cable has coiled up: tension
   -- and torque are related as in a plectoneme of radius r, T = (B/r^2) sin^4 a (1/2 + 1/cos 2a), M = 2 B
-  -- sin^3 a cos a / (r cos 2a); friction keeps the tension off this value by a quarter.
+  -- sin^3 a cos a / (r cos 2a); it is 4 % below that. With a friction of 0.1, which takes the common turn of
+  -- the strands for sliding (event `together`), it was a quarter below.
   it("10: a twisted cable kinks when it is given slack", function()
     local out = example "10_kink"
     near(3e-4 * 12 * math.pi, after(out, "taut: torque"), 1e-4, "torque")
@@ -192,7 +193,7 @@ describe("example", function()
       local M = 2 * B * math.sin(a) ^ 3 * math.cos(a) / (r * math.cos(2 * a))
       if M < last[3] then low = a else high = a end
     end
-    near(B / r ^ 2 * math.sin(low) ^ 4 * (0.5 + 1 / math.cos(2 * low)), last[2], 0.35, "pull")
+    near(B / r ^ 2 * math.sin(low) ^ 4 * (0.5 + 1 / math.cos(2 * low)), last[2], 0.1, "pull")
   end)
 
   -- Case 11b of the reference data: tube of inner radius 0.7 R between plates without friction, plane
