@@ -174,6 +174,12 @@ static int mod_close_frames(lua_State *L) {
   return 0;
 }
 
+/* core.frames_closed(scene) -> whether the last frame is that of a run's end */
+static int mod_frames_closed(lua_State *L) {
+  lua_pushboolean(L, sw_scene_frames_closed(lsw_check_scene(L)));
+  return 1;
+}
+
 /* core.add_between(scene, t [s]) -> number of a frame added last, or nothing: see frames.h. The
  * caller drops it with core.drop_frames(scene, number of frames that stay). */
 static int mod_add_between(lua_State *L) {
@@ -365,18 +371,12 @@ static int mod_frames_press(lua_State *L) {
   return 1;
 }
 
-const luaL_Reg lsw_module_frames[] = {{"frame_now", mod_frame_now},
-                                      {"frame_times", mod_frame_times},
-                                      {"frame_range", mod_frame_range},
-                                      {"keep_frames", mod_keep_frames},
-                                      {"frames_thinned", mod_frames_thinned},
-                                      {"frames_press", mod_frames_press},
-                                      {"frames_sweep", mod_frames_sweep},
-                                      {"frames_apart", mod_frames_apart},
-                                      {"frame_contact", mod_frame_contact},
-                                      {"frames_flat", mod_frames_flat},
-                                      {"frames_lever", mod_frames_lever},
-                                      {"close_frames", mod_close_frames},
-                                      {"add_between", mod_add_between},
-                                      {"drop_frames", mod_drop_frames},
-                                      {NULL, NULL}};
+const luaL_Reg lsw_module_frames[] = {
+    {"frame_now", mod_frame_now},           {"frame_times", mod_frame_times},
+    {"frame_range", mod_frame_range},       {"keep_frames", mod_keep_frames},
+    {"frames_thinned", mod_frames_thinned}, {"frames_press", mod_frames_press},
+    {"frames_sweep", mod_frames_sweep},     {"frames_apart", mod_frames_apart},
+    {"frame_contact", mod_frame_contact},   {"frames_flat", mod_frames_flat},
+    {"frames_lever", mod_frames_lever},     {"close_frames", mod_close_frames},
+    {"frames_closed", mod_frames_closed},   {"add_between", mod_add_between},
+    {"drop_frames", mod_drop_frames},       {NULL, NULL}};

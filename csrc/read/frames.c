@@ -106,6 +106,8 @@ void sw_scene_drop_last_frame(sw_scene *s) {
 
 int sw_frames_closed(const sw_frames *f) { return f->count && f->list[f->count - 1].closing; }
 
+int sw_scene_frames_closed(const sw_scene *s) { return sw_frames_closed(sw_scene_frames_of(s)); }
+
 void sw_scene_reopen_frames(sw_scene *s) {
   if (sw_frames_closed(sw_scene_frames_of(s))) sw_scene_drop_last_frame(s);
 }

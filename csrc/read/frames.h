@@ -20,6 +20,8 @@ size_t sw_scene_frames_thinned(const sw_scene *scene);
 /* Adds a frame of a run's end, unless there are no frames or the last one is of this time. A run
  * that goes on drops it, and files do not keep it. SW_EBUSY inside a step. */
 sw_status sw_scene_close_frames(sw_scene *scene, sw_error *err);
+/* 1 if the last frame is such a one. */
+int sw_scene_frames_closed(const sw_scene *scene);
 
 /* Adds a frame of the present state after all others, for callers that drop it at once: dropping it
  * restores the frames as they were. SW_EBUSY inside a step. */

@@ -75,7 +75,7 @@ static void tape_kept(sw_tape *t, sw_scene *s) {
 }
 
 /* Only on tapes that leave the process. A restored scene keeps its frames and only drops later
- * ones. A frame of a run's end stays behind. */
+ * ones. A frame of a run's end stays behind: it is made anew (lua/softworld/scene/save.lua). */
 static void tape_frames(sw_tape *t, sw_scene *s) {
   const int closed = !sw_tape_reads(t) && sw_frames_closed(&s->frames);
   const double left_out = closed ? sw_frame_bytes(&s->frames.list[s->frames.count - 1]) : 0;
