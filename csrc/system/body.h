@@ -78,8 +78,12 @@ typedef struct sw_body {
   int web_slow;       /* 1: such iterations were too slow in this step */
   int bridged;        /* its matrix is part of the bridges' matrix (system/bridge.h) */
   int coupled;        /* in this stage: SW_JOINED, SW_TOUCHING, both, or 0 (system/part.h) */
-  int waits;          /* 1: it rests and is not solved in this step (system/wait.h) */
-  int stops;          /* 1: it came to rest in the step accepted last */
+  struct {            /* work space of watch/together.c */
+    double sum, most; /* [N] */
+    size_t with;      /* the other body */
+  } together;
+  int waits;      /* 1: it rests and is not solved in this step (system/wait.h) */
+  int stops;      /* 1: it came to rest in the step accepted last */
   double watched; /* until then its friction is watched as after a sudden stop of a drive; 0: not
                      watched (step/left.c) [s] */
   int weighed;    /* 1: the next three are known while it waits */

@@ -108,7 +108,7 @@ sw_status sw_scene_look_for_buckling(sw_scene *scene, sw_error *err);
  * buckled. */
 void sw_scene_watch_unbent(sw_scene *scene, size_t wire);
 /* Reports friction between lines that turn together. */
-void sw_scene_watch_together(sw_scene *scene, size_t wire);
+void sw_scene_watch_together(sw_scene *scene);
 /* The run ended: reports wires that still stay straight under such a push. Call it after
  * sw_scene_look_for_buckling. */
 void sw_scene_end_unbent(sw_scene *scene);
