@@ -154,11 +154,35 @@ static sw_vec stretch(const sw_meet *t, const sw_met *met) {
   return stiff ? sw_press_stretch(&t->press, &met->kept, 0) : met->kept.elastic;
 }
 
+/* An end that touches with its tip has no surface along the other wire: where the square of the
+ * cosine between edge and surface is below this, the lever falls with it [-]. */
+static const double OBLIQUE = 0.5;
+
+void sw_meet_set_levers(const sw_system *s, sw_meet *t, const double *y) {
+  const sw_vec n = t->press.normal;
+  const double near = sw_dot(n, sw_bows_apart(y, t->bow)) / t->reach; /* less than 1 when pressed */
+  for (int k = 0; k < 2; k++) {
+    const sw_body *b = &s->bodies[t->of.body[k]];
+    const sw_vec edge = sw_bow_along(y, &t->bow[k]);
+    const sw_vec beside = sw_madd(edge, n, -sw_dot(edge, n));
+    const double length2 = sw_larger(sw_norm2(beside), OBLIQUE * sw_norm2(edge));
+    if (b->plan->web || !(length2 > 0)) continue; /* a mesh's surface has particles */
+    t->lever[k] = sw_scale(beside, near * b->plan->beam.radius / length2);
+  }
+}
+
+sw_vec sw_meet_passes(const sw_meet *t, const double *v) {
+  sw_vec u = sw_bows_apart(v, t->bow);
+  for (int k = 0; k < 2 && sw_meet_turns(t); k++)
+    u = sw_madd(u, t->lever[k], sw_dot(t->press.normal, sw_bow_along(v, &t->bow[k])));
+  return u;
+}
+
 static void begin_friction(const sw_mutual *m, const sw_system *s, const double *y, sw_meet *t,
                            const sw_met *met, const sw_meet *last) {
   sw_press *press = &t->press;
   const int pressed = met && met->kept.normal_force > 0, went_on = last && last->press.active;
-  sw_vec u = sw_sub(sw_bows_apart(y, t->bow), sw_bows_apart(s->x, t->bow));
+  sw_vec u = sw_sub(sw_meet_passes(t, y), sw_meet_passes(t, s->x));
   if (pressed)
     u = sw_add(u, carry(stretch(t, met), met->normal, press->normal));
   else if (!press->active)
@@ -186,6 +210,7 @@ void sw_meet_add(sw_mutual *m, const sw_system *s, const double *y, sw_meet *t, 
   if (!(sw_norm2(t->square) > 0)) t->square = normal;
   press->k = t->stiffer = stiffness_of(m, t, met, last);
   press->soft = softness(m, s, t, met);
+  if (sw_mutual_rule(m, t->of.body)->friction > 0) sw_meet_set_levers(s, t, y);
   forgive(m, s, met, t);
   press->gap += t->forgiven;
   press->gap_after = press->gap;
@@ -302,7 +327,7 @@ static double scale_of(const sw_mutual *m, const sw_meet *t) {
 typedef enum verdict { GOES_ON, ALL_BUT_FRICTION, AGREES } verdict;
 
 static verdict update(const sw_mutual *m, sw_meet *t, const double *delta, double scale) {
-  const sw_vec shift = sw_bows_apart(delta, t->bow);
+  const sw_vec shift = sw_meet_passes(t, delta);
   const double friction = sw_mutual_rule(m, t->of.body)->friction;
   const int agrees = sw_press_update(&t->press, friction, shift, scale);
   for (int i = 0; i < 2; i++) sw_press_weigh(&t->press, friction, &m->rubbing[t->of.body[i]]);
@@ -354,10 +379,18 @@ static double share_of(sw_mutual *m, sw_contact *contact, sw_system *s) {
   w->count = 0, w->work = sw_bridges_work(s);
   if (contact) sw_contact_add_ways(contact, s, w);
   SW_ITEMS(sw_meet, t, m->touches, m->touch_count) {
-    sw_ways_add(w, &t->press, sw_mutual_rule(m, t->of.body)->friction,
-                sw_bows_apart(s->delta, t->bow));
+    sw_ways_add(w, &t->press, sw_mutual_rule(m, t->of.body)->friction, sw_meet_passes(t, s->delta));
   }
   return sw_ways_share(w, RISES * pow(FALLS, solves - 1));
+}
+
+/* Sets how the turns of both wires move their surfaces at a place. */
+static void set_turns(sw_spot *spot, const sw_meet *t) {
+  int i = 0;
+  if (!(spot->turns = sw_meet_turns(t))) return;
+  for (int side = 0; side < 2; side++)
+    for (uint32_t k = 0; k < t->bow[side].spot.count; k++)
+      spot->lever[i++] = sw_scale(t->lever[side], t->bow[side].slope[k]);
 }
 
 double sw_mutual_refine(sw_mutual *m, sw_contact *contact, sw_system *s) {
@@ -367,8 +400,9 @@ double sw_mutual_refine(sw_mutual *m, sw_contact *contact, sw_system *s) {
   SW_ITEMS(sw_meet, t, m->touches, m->touch_count) {
     const double friction = sw_mutual_rule(m, t->of.body)->friction;
     const sw_spot spot = {.press = &t->press, .friction = friction, .scale = scale_of(m, t)};
-    sw_spots_add(&m->spots, s, spot, &t->bow[0].spot, t->of.body[0], &t->bow[1].spot,
-                 t->of.body[1]);
+    sw_spot *added = sw_spots_add(&m->spots, s, spot, &t->bow[0].spot, t->of.body[0],
+                                  &t->bow[1].spot, t->of.body[1]);
+    if (added) set_turns(added, t);
   }
   sw_spots_follow(&m->spots, s);
   return share_of(m, contact, s);

@@ -33,6 +33,8 @@ typedef struct sw_meet {
   sw_bow bow[2];   /* the same places as means of nodes */
   int slides[2];   /* 1: the place follows the nearest points */
   double firm[2];  /* how firmly a sliding place stays in the middle of each segment [-] */
+  sw_vec lever[2]; /* tangent of each wire over its edge, times the radius: how far the turn of the
+                    * wire moves its surface along it [-] */
   int flies;       /* 1: an overlap here may come from flight of the wires in the prediction */
   int turns;       /* 1: the linearisation includes the turn of its normal */
   int far;         /* 1: too far from its last place for a known force */
@@ -172,6 +174,17 @@ int sw_ends_order(const sw_ends *p, const sw_ends *q);
 int sw_ends_held(const sw_system *system, const sw_ends *e);
 /* Largest relative speed between nodes of both things [m/s]. */
 double sw_ends_speed(const sw_system *system, const sw_ends *e);
+
+/* Sets the levers of a touch at positions y, when its places and its normal are known. */
+void sw_meet_set_levers(const sw_system *system, sw_meet *touch, const double *y);
+/* 1: friction acts at the wires' surfaces. */
+static inline int sw_meet_turns(const sw_meet *t) {
+  return sw_norm2(t->lever[0]) > 0 || sw_norm2(t->lever[1]) > 0;
+}
+/* Velocity or shift of the first wire's surface relative to the second one, at velocities or shifts
+ * v of the nodes: u + sum lever (n . dx), where u is that of the axes and dx that of the edges.
+ * Along the normal it is that of the axes. */
+sw_vec sw_meet_passes(const sw_meet *touch, const double *v);
 
 /* Returns a new touch, all zero, not in the list yet; NULL: out of memory. */
 sw_meet *sw_meet_new(sw_mutual *mutual);

@@ -4,7 +4,12 @@
  * with sliding nearest points, the distance d has the second derivative (1/d) [ w_i w_j (I - n n')
  * - g_i' Q^-1 g_j ] between nodes i and j, where w are the weights of the touch (negative on the
  * second segment), Q the second derivatives of |r|^2/2 with respect to the places along the wires,
- * and g its mixed ones. The normal force N adds -N times that. */
+ * and g its mixed ones. The normal force N adds -N times that.
+ *
+ * Friction acts at the surfaces. An edge that turns moves its surface along itself, so node i moves
+ * the surface by G_i = w_i I + slope_i lever n', with the lever of meet.h, and takes the force G_i'
+ * f: a share of it and a couple across the edge. Angular momentum is kept, and wires that turn like
+ * one body do not rub (spec/contact/together_spec). */
 #include "mutual/meet.h"
 #include "solve/band3.h"
 #include "touch/load.h"
@@ -20,12 +25,14 @@ typedef struct blocks {
   int n, from[2], count[2];
   double w[MOST];     /* shares of the distance: negative on wire two [-] */
   double slope[MOST]; /* derivatives of these by the place along their own wire [-] */
+  sw_vec turn[MOST];  /* shift of the surface over the node's shift along the normal [-] */
   double k[MOST * MOST][9];
 } blocks;
 
 static double *block(blocks *b, int i, int j) { return b->k[i * b->n + j]; }
 
-static void begin(blocks *b, const sw_bow bow[2]) {
+static void begin(blocks *b, const sw_meet *t) {
+  const sw_bow *bow = t->bow;
   b->n = 0;
   for (int side = 0; side < 2; side++) {
     const double sign = side == 0 ? 1.0 : -1.0;
@@ -33,6 +40,7 @@ static void begin(blocks *b, const sw_bow bow[2]) {
     for (int i = 0; i < b->count[side]; i++, b->n++) {
       b->w[b->n] = sign * bow[side].spot.w[i];
       b->slope[b->n] = sign * bow[side].slope[i];
+      b->turn[b->n] = sw_scale(t->lever[side], bow[side].slope[i]);
     }
   }
 }
@@ -42,7 +50,7 @@ static int side_of(const blocks *b, int i) { return i >= b->from[1]; }
 /* 0 for a node on which the touch has no effect: the other node of a segment touched at one
  * node. */
 static int takes_part(const blocks *b, const int slides[2], int i) {
-  return b->w[i] != 0 || slides[side_of(b, i)];
+  return b->w[i] != 0 || slides[side_of(b, i)] || sw_norm2(b->turn[i]) > 0;
 }
 
 static void take_law(blocks *b, const double K[6]) {
@@ -51,6 +59,23 @@ static void take_law(blocks *b, const double K[6]) {
   for (int i = 0; i < b->n; i++)
     for (int j = i; j < b->n; j++)
       for (int m = 0; m < 9; m++) block(b, i, j)[m] = b->w[i] * b->w[j] * full[m];
+}
+
+static sw_vec times(const double K[6], sw_vec v) {
+  return sw_v(K[0] * v.x + K[1] * v.y + K[2] * v.z, K[1] * v.x + K[3] * v.y + K[4] * v.z,
+              K[2] * v.x + K[4] * v.y + K[5] * v.z);
+}
+
+/* Adds what the turns of the edges add to G_i' K G_j. */
+static void take_turns(blocks *b, const double K[6], sw_vec n) {
+  sw_vec stiff[MOST];
+  for (int i = 0; i < b->n; i++) stiff[i] = times(K, b->turn[i]);
+  for (int i = 0; i < b->n; i++)
+    for (int j = i; j < b->n; j++) {
+      sw_add_outer(block(b, i, j), stiff[j], n, b->w[i]);
+      sw_add_outer(block(b, i, j), n, stiff[i], b->w[j]);
+      sw_add_outer(block(b, i, j), n, n, sw_dot(b->turn[i], stiff[j]));
+    }
 }
 
 /* Sliding of the places along the wires: second derivatives of half the squared distance. */
@@ -100,6 +125,18 @@ static void add_turning(blocks *out, const places *at, sw_vec n, double d, doubl
     }
 }
 
+/* Adds the couples of friction across both edges. */
+static void add_couples(sw_system *s, const sw_meet *t, sw_vec force) {
+  for (int side = 0; side < 2; side++) {
+    const sw_mean *at = &t->bow[side].spot;
+    sw_body *body = &s->bodies[t->of.body[side]];
+    const double couple = sw_dot(t->lever[side], force);
+    for (uint32_t i = 0; i < at->count; i++)
+      sw_accumulate(body->field.force + 3 * (at->node[i] - body->first_node),
+                    sw_scale(t->press.normal, couple * t->bow[side].slope[i]));
+  }
+}
+
 static void add_to_rows(sw_body *body, const sw_mean *at, blocks *b, int side) {
   const int from = b->from[side], count = b->count[side];
   for (int i = 0; i < count; i++) {
@@ -142,11 +179,14 @@ sw_status sw_meet_push(sw_system *s, const sw_meet *t, const double *y, sw_vec f
                        const double *K) {
   sw_body *one = &s->bodies[t->of.body[0]], *two = &s->bodies[t->of.body[1]];
   blocks b;
+  const int turns = sw_meet_turns(t);
   sw_load_force(one, &t->bow[0].spot, force);
   sw_load_force(two, &t->bow[1].spot, sw_neg(force));
+  if (turns) add_couples(s, t, force);
   if (!K) return SW_OK;
-  begin(&b, t->bow);
+  begin(&b, t);
   take_law(&b, K);
+  if (turns) take_turns(&b, K, t->press.normal);
   const double d = t->press.gap - t->forgiven + t->reach;
   if (d > WELL_APART * t->reach && !t->barred && t->turns) {
     const places at = places_of(t, y, d);

@@ -52,13 +52,25 @@ static int is_had(const sw_pairs *p, const sw_pair *k, const double at[2]) {
   return 0;
 }
 
+/* Returns the bow of a chord's place. At a node between two edges its derivatives are those of
+ * both: the wire turns there as much as both do, and with swapped ends as much. */
+static sw_bow chord_bow(const sw_system *s, uint32_t body, uint32_t e, double at, int is_node) {
+  const sw_body *b = &s->bodies[body];
+  const uint32_t node = at > 0.5 ? e + 1 : e;
+  const int ends = node == b->first_node || node + 1 == b->first_node + b->plan->nodes;
+  if (!is_node || ends) return sw_bow_chord(e, at);
+  return (sw_bow){{3, {node - 1, node, node + 1}, {0, 1, 0}}, {-0.5, 0, 0.5}};
+}
+
 /* Adds the touch at given places, unless the wires are apart there. A crossing of smooth wires is
  * on their curves, and a place at a joint counts once. */
 static sw_status touch_at(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
                           sw_meet_kind kind, const double at[2], const int slides[2]) {
   const int curved = k->smooth && kind == SW_CROSSING;
-  const sw_bow bow[2] = {curved ? sw_pair_bow(s, k, 0, at[0]) : sw_bow_chord(k->one, at[0]),
-                         curved ? sw_pair_bow(s, k, 1, at[1]) : sw_bow_chord(k->two, at[1])};
+  const sw_bow bow[2] = {curved ? sw_pair_bow(s, k, 0, at[0])
+                                : chord_bow(s, k->body[0], k->one, at[0], kind == SW_NODE_OF_ONE),
+                         curved ? sw_pair_bow(s, k, 1, at[1])
+                                : chord_bow(s, k->body[1], k->two, at[1], kind == SW_NODE_OF_TWO)};
   const sw_vec d = sw_bows_apart(y, bow);
   sw_vec normal = curved ? sw_pair_normal(y, bow, slides) : d;
   double distance = curved ? sw_dot(normal, d) : sw_norm(d);

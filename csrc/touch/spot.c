@@ -29,17 +29,21 @@ static void add_place(sw_spot *spot, const sw_body *b, const sw_mean *at, double
   }
 }
 
-void sw_spots_add(sw_spots *g, const sw_system *s, sw_spot spot, const sw_mean *one,
-                  size_t body_one, const sw_mean *two, size_t body_two) {
-  if (!sw_press_slides(spot.press, spot.friction)) return;
+sw_spot *sw_spots_add(sw_spots *g, const sw_system *s, sw_spot spot, const sw_mean *one,
+                      size_t body_one, const sw_mean *two, size_t body_two) {
+  if (!sw_press_slides(spot.press, spot.friction)) return NULL;
   add_place(&spot, &s->bodies[body_one], one, 1.0);
   if (two) add_place(&spot, &s->bodies[body_two], two, -1.0);
-  if (SW_GROW(g->list, g->capacity, g->count + 1) == SW_OK) g->list[g->count++] = spot;
+  if (SW_GROW(g->list, g->capacity, g->count + 1) != SW_OK) return NULL;
+  g->list[g->count] = spot;
+  return &g->list[g->count++];
 }
 
 static sw_vec shift_of(const sw_spot *t, const double *delta) {
   sw_vec sum = sw_v(0, 0, 0);
   for (int i = 0; i < t->count; i++) sum = sw_madd(sum, sw_vec_at(delta, t->node[i]), t->weight[i]);
+  for (int i = 0; i < t->count && t->turns; i++)
+    sum = sw_madd(sum, t->lever[i], sw_dot(t->press->normal, sw_vec_at(delta, t->node[i])));
   return sum;
 }
 
@@ -53,7 +57,8 @@ static int lags(const sw_spots *g, const double *delta) {
 
 static void push(sw_system *s, const sw_spot *t, sw_vec f, double *more) {
   for (int i = 0; i < t->count; i++) {
-    const sw_vec part = sw_scale(f, t->weight[i]);
+    sw_vec part = sw_scale(f, t->weight[i]);
+    if (t->turns) part = sw_madd(part, t->press->normal, sw_dot(t->lever[i], f));
     if (t->held[i])
       sw_system_push_held(s, t->node[i], part);
     else
