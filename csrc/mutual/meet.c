@@ -178,11 +178,48 @@ sw_vec sw_meet_passes(const sw_meet *t, const double *v) {
   return u;
 }
 
-static void begin_friction(const sw_mutual *m, const sw_system *s, const double *y, sw_meet *t,
+/* Returns the turn of a wire's edges about themselves at a place, or 0 if it is not known [rad]. */
+static double turn_at(sw_mutual *m, const sw_system *s, const double *y, const sw_meet *t,
+                      int side) {
+  const uint32_t body = t->of.body[side];
+  const sw_body *b = &s->bodies[body];
+  char *turned = &m->turned[body];
+  if (*turned == 0) {
+    *turned = 2;
+    if (SW_GROW(m->turns, m->turns_capacity, s->nodes) != SW_OK) return 0;
+    if (sw_system_turns(s, b, y, m->turns + b->first_node)) *turned = 1;
+  }
+  if (*turned == 2) return 0;
+  const size_t last = b->first_node + b->plan->edges - 1, e = t->of.node[side];
+  const double here = m->turns[e < last ? e : last];
+  if (t->bow[side].spot.count < 3) return here;
+  const size_t i = t->bow[side].spot.node[1];
+  return 0.5 * (m->turns[i - 1] + m->turns[i]);
+}
+
+/* Wires that roll on each other do not rub across: their turns about themselves move the surfaces.
+ * Takes from the way u of the axes across what the turns undo of it. The turns follow from holds
+ * and shape; friction does not turn the wires. So turns never make a way or reverse it: it would be
+ * work that no hold does. */
+static sw_vec less_rolled(sw_mutual *m, const sw_system *s, const double *y, const sw_meet *t,
+                          sw_vec u) {
+  sw_vec rolled = {0, 0, 0};
+  for (int k = 0; k < 2; k++) {
+    const double radius = s->bodies[t->of.body[k]].plan->beam.radius;
+    if (!(sw_norm2(t->lever[k]) > 0)) return u;
+    const sw_vec along = sw_unit_or(t->lever[k], sw_v(0, 0, 0));
+    rolled = sw_madd(rolled, sw_cross(along, t->press.normal), -radius * turn_at(m, s, y, t, k));
+  }
+  const double undone = -sw_dot(u, rolled), most = sw_norm2(rolled);
+  return undone > 0 ? sw_madd(u, rolled, sw_smaller(1.0, undone / most)) : u;
+}
+
+static void begin_friction(sw_mutual *m, const sw_system *s, const double *y, sw_meet *t,
                            const sw_met *met, const sw_meet *last) {
   sw_press *press = &t->press;
   const int pressed = met && met->kept.normal_force > 0, went_on = last && last->press.active;
   sw_vec u = sw_sub(sw_meet_passes(t, y), sw_meet_passes(t, s->x));
+  if (sw_meet_turns(t)) u = less_rolled(m, s, y, t, u);
   if (pressed)
     u = sw_add(u, carry(stretch(t, met), met->normal, press->normal));
   else if (!press->active)

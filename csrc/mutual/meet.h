@@ -132,6 +132,9 @@ struct sw_mutual {
   int calm;        /* 1: the last update moved no pressing touch far */
   double *base;    /* (bodies) stiffness for each body's forces [N/m] */
   double *largest; /* (bodies) largest normal force that friction uses [N] */
+  double *turns;   /* (edges) what sw_system_turns gives at this evaluation [rad] */
+  size_t turns_capacity;
+  char *turned; /* (bodies) 1: the body's turns are there; 2: it has none; 0: not asked for */
   sw_rubbing *rubbing;     /* (bodies) friction of each body's touches, after an update */
   double rate2;            /* stiffness per mass [1/s2] */
   double fall;             /* fall by gravity in the step, with a reserve [m] */

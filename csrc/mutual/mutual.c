@@ -16,7 +16,8 @@ sw_status sw_mutual_start(sw_mutual *m, const sw_finder *finder, const sw_pair_r
   m->finder = finder;
   m->bodies = bodies;
   SW_TRY(SW_ALLOC_ALL(SW_ROOM(m->rules, bodies * bodies), SW_ROOM(m->base, 2 * bodies),
-                      SW_ROOM(m->rubbing, bodies), SW_ROOM(m->still.kept, bodies)));
+                      SW_ROOM(m->rubbing, bodies), SW_ROOM(m->turned, bodies),
+                      SW_ROOM(m->still.kept, bodies)));
   m->largest = m->base + bodies;
   memcpy(m->rules, rules, bodies * bodies * sizeof *rules);
   return SW_OK;
@@ -31,8 +32,8 @@ void sw_mutual_free(sw_mutual *m) {
   if (!m) return;
   m->finder->free(m);
   sw_spots_free(&m->spots);
-  SW_FREE_ALL(m->grid, m->rules, m->base, m->rubbing, m->touches, m->last, m->hits, m->memory,
-              m->next_memory, m->ways.list);
+  SW_FREE_ALL(m->turns, m->turned, m->grid, m->rules, m->base, m->rubbing, m->touches, m->last,
+              m->hits, m->memory, m->next_memory, m->ways.list);
   sw_meets_free(&m->still);
   sw_free(m);
 }
@@ -150,6 +151,7 @@ static sw_status push(const sw_mutual *m, sw_system *s, sw_meet *t, const double
 sw_status sw_mutual_eval(sw_mutual *m, sw_system *s, const double *y, unsigned want,
                          sw_error *err) {
   turn_over(m);
+  memset(m->turned, 0, m->bodies);
   sw_status status = m->finder->find(m, s, y);
   sw_mutual_soften(m);
   for (size_t i = 0; i < m->touch_count && status == SW_OK; i++)

@@ -37,7 +37,7 @@ static double triangle(sw_vec a, sw_vec b, sw_vec c) {
   return 2.0 * atan2(sw_dot(a, sw_cross(b, c)), 1.0 + sw_dot(a, b) + sw_dot(b, c) + sw_dot(c, a));
 }
 
-static double hinge_change(sw_vec a0, sw_vec b0, sw_vec a, sw_vec b) {
+double sw_hinge_change(sw_vec a0, sw_vec b0, sw_vec a, sw_vec b) {
   return -(triangle(a0, a, b) + triangle(a0, b, b0));
 }
 
@@ -59,23 +59,17 @@ static sw_quat turn_of(const sw_system *s, int hold) {
   return (sw_quat){q[0], q[1], q[2], q[3]};
 }
 
-/* Director of a clamp or join before and now, and its turn about the director in between. */
-typedef struct clamp_change {
-  sw_vec before, now;
-  double turn;
-} clamp_change;
-
-static clamp_change change_of(const sw_system *s, const sw_clamp_hinge *h) {
+sw_clamp_change sw_clamp_change_of(const sw_system *s, const sw_clamp_hinge *h) {
   if ((size_t)h->hold >= s->hold_count) {
     const sw_join_hub *hub;
     const struct sw_join_arm *arm = sw_join_arm_at(s, h, &hub);
     const double turn = hub->line ? 0.0 : own_turn(hub->before, hub->now, arm->rest);
-    return (clamp_change){arm->before, arm->now, turn};
+    return (sw_clamp_change){arm->before, arm->now, turn};
   }
   const size_t at = 3 * (2 * (size_t)h->hold + (h->side > 0 ? 1 : 0));
   const sw_vec local = sw_load(s->directors + at);
   const sw_quat before = turn_of(s, h->hold);
-  clamp_change c = {.before = sw_rotate(before, local), .now = sw_load(s->directors_now + at)};
+  sw_clamp_change c = {.before = sw_rotate(before, local), .now = sw_load(s->directors_now + at)};
   c.turn = own_turn(before, s->hold_states[h->hold].pose.q, local);
   return c;
 }
@@ -133,16 +127,17 @@ static double span_change(const sw_system *s, const sw_body *b, const sw_span *s
   sw_edge_directions(first, last, s->x + 3 * b->first_node, old[0], old[1], old[2]);
   sw_edge_directions(first, last, x, now[0], now[1], now[2]);
   const long large = small_areas(first, last, old[0], old[1], old[2], now[0], now[1], now[2], area);
-  const clamp_change left = change_of(s, &b->plan->clamps[span->left]);
-  const clamp_change right = change_of(s, &b->plan->clamps[span->right]);
+  const sw_clamp_change left = sw_clamp_change_of(s, &b->plan->clamps[span->left]);
+  const sw_clamp_change right = sw_clamp_change_of(s, &b->plan->clamps[span->right]);
   double sum = right.turn - left.turn;
-  sum += hinge_change(left.before, sw_vec_across(old, first), left.now, sw_vec_across(now, first));
+  sum +=
+      sw_hinge_change(left.before, sw_vec_across(old, first), left.now, sw_vec_across(now, first));
   for (size_t i = first + 1; i <= last; i++)
-    sum += large ? hinge_change(sw_vec_across(old, i - 1), sw_vec_across(old, i),
-                                sw_vec_across(now, i - 1), sw_vec_across(now, i))
+    sum += large ? sw_hinge_change(sw_vec_across(old, i - 1), sw_vec_across(old, i),
+                                   sw_vec_across(now, i - 1), sw_vec_across(now, i))
                  : -area[i];
-  return sum +
-         hinge_change(sw_vec_across(old, last), right.before, sw_vec_across(now, last), right.now);
+  return sum + sw_hinge_change(sw_vec_across(old, last), right.before, sw_vec_across(now, last),
+                               right.now);
 }
 
 double sw_twist_change(const sw_system *s, const sw_body *b, size_t span, const double *x) {

@@ -5,6 +5,17 @@
 
 #include "system/system.h"
 
+/* Director of a clamp or join before and now, and its turn about the director in between. */
+typedef struct sw_clamp_change {
+  sw_vec before, now;
+  double turn; /* [rad] */
+} sw_clamp_change;
+sw_clamp_change sw_clamp_change_of(const sw_system *system, const sw_clamp_hinge *clamp);
+
+/* Returns the change of a hinge's twist where its tangents go from (a0, b0) to (a, b) and carry the
+ * edges along without a turn about themselves [rad]. */
+double sw_hinge_change(sw_vec a0, sw_vec b0, sw_vec a, sw_vec b);
+
 /* Computes the unit vectors of edges first to last, with nodes at x. */
 void sw_edge_directions(size_t first, size_t last, const double *x, double *tx, double *ty,
                         double *tz);
