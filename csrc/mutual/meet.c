@@ -12,12 +12,6 @@
 
 /* --- one touch ------------------------------------------------------------------- */
 
-/* Carries a tangential vector at normal `from` to normal `to`. */
-static sw_vec carry(sw_vec v, sw_vec from, sw_vec to) {
-  const double share = sw_dot(to, v) / sw_larger(1.0 + sw_dot(from, to), 1e-12);
-  return sw_madd(v, sw_add(from, to), -share);
-}
-
 /* Share of a place that moves with free nodes [-]; *held: position of its held part [m]. */
 static double free_share(const sw_system *s, const sw_meet *t, int side, sw_vec *held) {
   const sw_body *b = &s->bodies[t->of.body[side]];
@@ -127,14 +121,6 @@ static int is_far(const sw_mutual *m, const sw_meet *t, const sw_meet *last, int
   return last->stage == m->stage && sw_norm(last->press.shift) > NEAR_SHIFT * t->reach;
 }
 
-/* Normal force of a touch without memory: computed from its depth, but zero if the depth may come
- * from the prediction, which would give thousands of weights [N]. Friction then starts at zero.
- * Enough friction to stop the lighter wire would throw about the wires of a bundle that only fall
- * on each other. */
-static double first_force(const sw_meet *t) {
-  return t->flies ? 0.0 : sw_larger(0.0, -t->press.gap) * t->press.k;
-}
-
 /* As `soft` of sw_press. Wires along each other have many touches and share their friction. */
 static double softness(const sw_mutual *m, const sw_system *s, const sw_meet *t,
                        const sw_met *met) {
@@ -145,92 +131,6 @@ static double softness(const sw_mutual *m, const sw_system *s, const sw_meet *t,
                                  sw_contact_usual_force(s, s->bodies[of[1]].plan));
   const double grip = sw_kept_grip(&met->kept, axial_of(s, t), usual);
   return grip > t->press.k ? t->press.k / grip : 0.0;
-}
-
-/* Displacement of friction's spring from the memory [m]. Where it becomes or was stiff, its force
- * stays. Otherwise its length: with its force a tight pair of cables would gain energy. */
-static sw_vec stretch(const sw_meet *t, const sw_met *met) {
-  const int stiff = t->press.soft > 0 || sw_kept_is_stiff(&met->kept);
-  return stiff ? sw_press_stretch(&t->press, &met->kept, 0) : met->kept.elastic;
-}
-
-/* An end that touches with its tip has no surface along the other wire: where the square of the
- * cosine between edge and surface is below this, the lever falls with it [-]. */
-static const double OBLIQUE = 0.5;
-
-void sw_meet_set_levers(const sw_system *s, sw_meet *t, const double *y) {
-  const sw_vec n = t->press.normal;
-  const double near = sw_dot(n, sw_bows_apart(y, t->bow)) / t->reach; /* less than 1 when pressed */
-  for (int k = 0; k < 2; k++) {
-    const sw_body *b = &s->bodies[t->of.body[k]];
-    const sw_vec edge = sw_bow_along(y, &t->bow[k]);
-    const sw_vec beside = sw_madd(edge, n, -sw_dot(edge, n));
-    const double length2 = sw_larger(sw_norm2(beside), OBLIQUE * sw_norm2(edge));
-    if (b->plan->web || !(length2 > 0)) continue; /* a mesh's surface has particles */
-    t->lever[k] = sw_scale(beside, near * b->plan->beam.radius / length2);
-  }
-}
-
-sw_vec sw_meet_passes(const sw_meet *t, const double *v) {
-  sw_vec u = sw_bows_apart(v, t->bow);
-  for (int k = 0; k < 2 && sw_meet_turns(t); k++)
-    u = sw_madd(u, t->lever[k], sw_dot(t->press.normal, sw_bow_along(v, &t->bow[k])));
-  return u;
-}
-
-/* Returns the turn of a wire's edges about themselves at a place, or 0 if it is not known [rad]. */
-static double turn_at(sw_mutual *m, const sw_system *s, const double *y, const sw_meet *t,
-                      int side) {
-  const uint32_t body = t->of.body[side];
-  const sw_body *b = &s->bodies[body];
-  char *turned = &m->turned[body];
-  if (*turned == 0) {
-    *turned = 2;
-    if (SW_GROW(m->turns, m->turns_capacity, s->nodes) != SW_OK) return 0;
-    if (sw_system_turns(s, b, y, m->turns + b->first_node)) *turned = 1;
-  }
-  if (*turned == 2) return 0;
-  const size_t last = b->first_node + b->plan->edges - 1, e = t->of.node[side];
-  const double here = m->turns[e < last ? e : last];
-  if (t->bow[side].spot.count < 3) return here;
-  const size_t i = t->bow[side].spot.node[1];
-  return 0.5 * (m->turns[i - 1] + m->turns[i]);
-}
-
-/* Wires that roll on each other do not rub across: their turns about themselves move the surfaces.
- * Takes from the way u of the axes across what the turns undo of it. The turns follow from holds
- * and shape; friction does not turn the wires. So turns never make a way or reverse it: it would be
- * work that no hold does. */
-static sw_vec less_rolled(sw_mutual *m, const sw_system *s, const double *y, const sw_meet *t,
-                          sw_vec u) {
-  sw_vec rolled = {0, 0, 0};
-  for (int k = 0; k < 2; k++) {
-    const double radius = s->bodies[t->of.body[k]].plan->beam.radius;
-    if (!(sw_norm2(t->lever[k]) > 0)) return u;
-    const sw_vec along = sw_unit_or(t->lever[k], sw_v(0, 0, 0));
-    rolled = sw_madd(rolled, sw_cross(along, t->press.normal), -radius * turn_at(m, s, y, t, k));
-  }
-  const double undone = -sw_dot(u, rolled), most = sw_norm2(rolled);
-  return undone > 0 ? sw_madd(u, rolled, sw_smaller(1.0, undone / most)) : u;
-}
-
-static void begin_friction(sw_mutual *m, const sw_system *s, const double *y, sw_meet *t,
-                           const sw_met *met, const sw_meet *last) {
-  sw_press *press = &t->press;
-  const int pressed = met && met->kept.normal_force > 0, went_on = last && last->press.active;
-  sw_vec u = sw_sub(sw_meet_passes(t, y), sw_meet_passes(t, s->x));
-  if (sw_meet_turns(t)) u = less_rolled(m, s, y, t, u);
-  if (pressed)
-    u = sw_add(u, carry(stretch(t, met), met->normal, press->normal));
-  else if (!press->active)
-    u = sw_v(0, 0, 0);
-  sw_press_aim(press, u, last ? &last->press : NULL, last && last->stage == m->stage, m->first);
-  if (last && m->updates > 0) press->reversals = last->press.reversals;
-  sw_press_resume(press, pressed ? &met->kept : NULL, last ? &last->press : NULL, went_on,
-                  first_force(t));
-  /* soft springs let touches creep; in such a solve sticking touches slide too */
-  if (m->soft && pressed && press->active) press->sliding = met->kept.sliding;
-  sw_press_begin(press, sw_mutual_rule(m, t->of.body)->friction, went_on || pressed, HUGE_VAL);
 }
 
 sw_meet *sw_meet_new(sw_mutual *m) {
@@ -247,7 +147,6 @@ void sw_meet_add(sw_mutual *m, const sw_system *s, const double *y, sw_meet *t, 
   if (!(sw_norm2(t->square) > 0)) t->square = normal;
   press->k = t->stiffer = stiffness_of(m, t, met, last);
   press->soft = softness(m, s, t, met);
-  if (sw_mutual_rule(m, t->of.body)->friction > 0) sw_meet_set_levers(s, t, y);
   forgive(m, s, met, t);
   press->gap += t->forgiven;
   press->gap_after = press->gap;
@@ -256,7 +155,7 @@ void sw_meet_add(sw_mutual *m, const sw_system *s, const double *y, sw_meet *t, 
   t->far = is_far(m, t, last, pressed);
   t->turns = !t->flies || (m->calm && !t->far);
   if (pressed && !last) press->active |= stays_near(m, t);
-  begin_friction(m, s, y, t, met, last);
+  sw_meet_begin_friction(m, s, y, t, met, last);
   m->touch_count++;
 }
 

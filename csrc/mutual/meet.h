@@ -178,8 +178,6 @@ int sw_ends_held(const sw_system *system, const sw_ends *e);
 /* Largest relative speed between nodes of both things [m/s]. */
 double sw_ends_speed(const sw_system *system, const sw_ends *e);
 
-/* Sets the levers of a touch at positions y, when its places and its normal are known. */
-void sw_meet_set_levers(const sw_system *system, sw_meet *touch, const double *y);
 /* 1: friction acts at the wires' surfaces. */
 static inline int sw_meet_turns(const sw_meet *t) {
   return sw_norm2(t->lever[0]) > 0 || sw_norm2(t->lever[1]) > 0;
@@ -188,6 +186,11 @@ static inline int sw_meet_turns(const sw_meet *t) {
  * v of the nodes: u + sum lever (n . dx), where u is that of the axes and dx that of the edges.
  * Along the normal it is that of the axes. */
 sw_vec sw_meet_passes(const sw_meet *touch, const double *v);
+
+/* Begins friction of a touch, from its memory or from the previous iterate (NULL: none), at
+ * positions y, when everything else of it is known. */
+void sw_meet_begin_friction(sw_mutual *mutual, const sw_system *system, const double *y, sw_meet *t,
+                            const sw_met *met, const sw_meet *last);
 
 /* Returns a new touch, all zero, not in the list yet; NULL: out of memory. */
 sw_meet *sw_meet_new(sw_mutual *mutual);

@@ -175,6 +175,8 @@ describe("an overhand knot with friction", function()
     -- 42 of 840 measured; 342 when friction was found by iterations, each with its own solve
     assert.is_true(row.rejected < 0.15 * row.steps, row.rejected .. " of " .. row.steps)
     local pull = tonumber(row.note:match "pull ([%d.e+-]+) N")
-    assert.is_true(math.abs(pull - 11.1) < 0.3, pull) -- 11.1 N at twice the step too
+    -- 10.4 N at 10 and 2 ms too, 10.7 N with 300 segments. The inside of a strand that goes round another
+    -- slides more slowly than its axis: 11.1 N when friction acted on the axes
+    assert.is_true(math.abs(pull - 10.5) < 0.3, pull)
   end)
 end)

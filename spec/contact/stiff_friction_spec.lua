@@ -15,7 +15,7 @@ local function swings(on, dt, o)
   local c, s = math.cos(o.turn or 0), math.sin(o.turn or 0)
   local function at(x, y, z) return { c * x - s * y, s * x + c * y, z } end
   scene:obstacle{ shape = "plane", friction = 0.5 }
-  if on == "cable" then
+  if on == "cable" then -- a swing rolls over a round cable: the clamp draws by more than that yields
     local under = scene:wire{ cable = "H07V-K 4", segments = 21, from = at(0, -0.12, r), to = at(0, 0.12, r) }
     scene:force{ kind = "damping", on = under, mass = 1.5, stiffness = 7e-4 }
     scene:wire_contact{ friction = MU }
@@ -27,8 +27,14 @@ local function swings(on, dt, o)
     to = at(0.0555, 0, 0.0132) }
   scene:force{ kind = "damping", on = wire, mass = 3.5, stiffness = 1.5e-3 }
   local clamp = scene:clamp(wire, { s = wire.length })
-  clamp:follow{ points = { { 0, 0, 0 }, at(-0.026, 0.021, -0.0079) }, relative = true, duration = 0.32,
-    law = "minimum-jerk", start = 0.02 }
+  local stop, times = at(-0.026, 0.021, -0.0079), { 0, 0.32 }
+  local points = { { 0, 0, 0 }, stop }
+  if on == "cable" then
+    for i, way in ipairs{ 3e-5, -3e-5, 0 } do
+      points[i + 2], times[i + 2] = at(-0.026 + way, 0.021, -0.0079), 0.32 + 0.1 * i
+    end
+  end
+  clamp:follow{ points = points, times = times, relative = true, law = "minimum-jerk", start = 0.02 }
   local run = t.fine(scene:run{ dt = dt, duration = 0.86, tolerance = o.tolerance, frames = false })
   local along, series, low, high = {}, run:series(), math.huge, -math.huge
   for _, column in ipairs(series.columns) do

@@ -5,8 +5,8 @@
 local core = require "softworld.core"
 
 -- A rod of 1 m whose ends are brought together by 0.3 m while one is turned: it hockles and coils up.
--- Returns tension and torque at the end, and EI.
-local function coil(segments, turns, r)
+-- Returns tension and torque at the end, EI, and whether the event `together` told that friction brakes.
+local function coil(segments, turns, r, friction)
   local E = 1e8
   local B = E * math.pi * r ^ 4 / 4
   local path = {}
@@ -18,7 +18,7 @@ local function coil(segments, turns, r)
   local s = core.scene{ gravity = { 0, 0, 0 } }
   local w = s:wire{ EA = E * math.pi * r ^ 2, EI = B, GJ = B / 1.3, mass_per_length = 0.01,
     radius = r, path = path, segments = segments }
-  s:wire_contact{ friction = 0 }
+  s:wire_contact{ friction = friction or 0 }
   s:clamp(w, { s = 0 })
   local c = s:clamp(w, { s = w.length })
   s:force{ kind = "damping", mass = 2 }
@@ -26,7 +26,9 @@ local function coil(segments, turns, r)
     turn = { axis = { 1, 0, 0 }, angle = 2 * math.pi * turns } }
   for t = 1, 16 do assert.is_true(s:advance({ dt = 0.005 }, t).ok) end
   assert.is_true(#s:touches() > 10)
-  return c:force()[1], math.abs(c:moment()[1]), B
+  local told = false
+  for _, e in ipairs((s:events())) do told = told or e.kind == "together" end
+  return c:force()[1], math.abs(c:moment()[1]), B, told
 end
 
 -- A plectoneme of two strands at radius R from its axis, at angle a to it, has
@@ -54,6 +56,19 @@ describe("a twisted rod that coils around itself", function()
     assert.is_true(errors[2] < 0.015, errors[2])
     local T, M, B = coil(200, 10, 0.0015)
     assert.is_true(math.abs(T / tension_for(M, B, 0.0015) - 1) < 0.015)
+  end)
+
+  -- The strands go round each other and turn about themselves as much, so they do not rub. With more friction
+  -- what remains of it brakes them; there the event says so.
+  it("has them with little friction too, and tells where friction brakes the coil", function()
+    for _, friction in ipairs{ 0.01, 0.03 } do
+      local T, M, B = coil(200, 8, 0.0015, friction)
+      local off = T / tension_for(M, B, 0.0015) - 1
+      print(("measured: friction %g, tension of the coil: %.2g of it off"):format(friction, off))
+      assert.is_true(math.abs(off) < 0.015, off) -- 5 and 15 % when friction acted on the axes
+    end
+    local _, _, _, told = coil(200, 8, 0.0015, 0.1) -- 13 % too low
+    assert.is_true(told)
   end)
 end)
 
