@@ -14,7 +14,7 @@ for i = 0, 100 do
 end
 local cable = scene:wire { EA = 700, EI = 4e-4, GJ = 3e-4, mass_per_length = 0.01, radius = radius,
   path = path, segments = 160 }
-scene:wire_contact { friction = 0.03 } -- more would brake the coil, see help "limits"
+scene:wire_contact { friction = 0.03 } -- more brakes the coil: see help "limits"
 scene:force { kind = "damping", mass = 3 }
 scene:clamp(cable, { s = 0 })
 local hand = scene:clamp(cable, { s = cable.length })
@@ -27,7 +27,7 @@ print(("taut: torque %.6f N m"):format(math.abs(hand:moment()[1])))
 print "slack    pull       torque      bend radius  places touching"
 for k = 1, 8 do
   hand:follow { points = { { 0, 0, 0 }, { -slack / 8, 0, 0 } }, duration = 0.5, relative = true }
-  local run = scene:run { duration = 1, dt = 0.005 }
+  local run = scene:run { duration = 1, dt = 0.004 }
   assert(run.ok, run.reason)
   local radius_now = cable:min_bend_radius { now = true }
   print(("%.3f m  %.5f N  %.6f N m  %.4f m     %d"):format(slack * k / 8, hand:force()[1],

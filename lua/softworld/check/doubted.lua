@@ -37,7 +37,7 @@ local kinds = {
     own = true, named = true, places = true, always = true },
   couple = { "a wire lies nearly along the axis of a couple, where its action is undefined", own = true,
     named = true, places = true, always = true },
-  together = { "friction between wires that turn together is taken for sliding: tensions may be too large",
+  together = { "friction brakes wires that go round each other: tensions and moments may be wrong",
     own = true, named = true, always = true },
   undamped = { "damping of solid elements is missing", own = true, always = true },
   unbalanced = { "forces after a change of model may be too large", own = true, always = true },
