@@ -101,7 +101,7 @@ describe("a mesh that touches wires", function()
   end
 
   -- A wire lands in motion, by 14 mm/s along the tubes. Friction stops it within the blow. It is stiff: the
-  -- ends of a soft one flap, its surface slides to and fro along itself, and friction along the tubes is less.
+  -- ends of a soft one flap, its surface slides to and fro, and friction along the tubes is less.
   it("stops a wire that lands, at any step", function()
     for _, dt in ipairs{ 0.01, 0.005, 0.002, 0.0005 } do
       local scene, b = bridge("tube", "rod", { tilt = math.atan(0.27), gap = 1.1e-3, E = 5e8 })
