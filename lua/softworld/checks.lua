@@ -140,6 +140,13 @@ function checks.number(what, value, low, unit, level, high, above)
     type(value) == "number" and "" or any and "a number that is " or "a number ", range), level)
 end
 
+--- Returns the arc length s if it is on a wire of this length, else raises an error. By rounding a wire may
+-- be shorter by 1e-17 m than it was drawn; s is then its end.
+function checks.place(what, s, length, level)
+  local beyond = type(s) == "number" and s > length and s <= length * (1 + 1e-9)
+  return (checks.number(what, beyond and length or s, 0, " m", level + 1, length)) -- (): keeps the level
+end
+
 --- Returns value if it is one of the words in known (a table with them as keys), else raises an error.
 function checks.word(what, value, known, level)
   if known[value] then return value end

@@ -98,9 +98,10 @@ describe("choosing a model, where poses jump and two levels agree,", function()
   it("compares with dynamics on no third level, and its bars hold", function()
     assert.equal("poses", run.model.motion, tostring(run:why()))
     assert.is_true(run.met, tostring(run:why()))
-    -- dynamics on 16 to 128 segments: bars of 2.2 and 1.9 mN
-    local truth = { ["left hand.force"] = { -0.4538, -0.1977, -0.06074 },
-      ["right hand.force"] = { -0.3652, 0.2754, 0.006519 } }
+    -- dynamics on 16 to 128 segments; on 64 the forces are 0.1 and 0.4 mN off. In rods with material frames,
+    -- whose joint passes no twist, they are 20 and 16 mN off; rolling alone changes them by less than 1 mN.
+    local truth = { ["left hand.force"] = { -0.4711, -0.2052, -0.0430 },
+      ["right hand.force"] = { -0.3496, 0.2736, 0.0014 } }
     for name, t in pairs(truth) do
       local q = run.quantities[name]
       local off = ((q.value[1] - t[1]) ^ 2 + (q.value[2] - t[2]) ^ 2 + (q.value[3] - t[3]) ^ 2) ^ 0.5

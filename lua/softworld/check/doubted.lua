@@ -40,6 +40,8 @@ local kinds = {
   together = { "friction brakes wires that go round each other: tensions and moments may be wrong",
     own = true, named = true, always = true },
   undamped = { "damping of solid elements is missing", own = true, always = true },
+  pierced = { "something is inside an element of an object, whose faces do not touch", own = true,
+    named = true, places = true, always = true },
   unbalanced = { "forces after a change of model may be too large", own = true, always = true },
   grasp = { "a gripper held another wire than the one to grasp", places = true, always = true },
   held = { "a feed without its force at rest was let go", always = true },

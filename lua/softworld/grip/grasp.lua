@@ -120,7 +120,7 @@ local function grasp_by_pads(self, wires, args)
     for i, one in ipairs(wires) do if one == wire then s = args.s[i] end end
   end
   if s then
-    checks.number(("gripper '%s': s"):format(self.name), s, 0, " m", 4, wire.length)
+    s = checks.place(("gripper '%s': s"):format(self.name), s, wire.length, 4)
   elseif not self.tool and not self.at then
     error(("gripper '%s': give s [m], or the gripper's place at = {x, y, z} [m]"):format(self.name), 3)
   end

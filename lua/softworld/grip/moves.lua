@@ -61,7 +61,7 @@ local function target(self, what, args, level)
     end
     s = stand.nearest_place(what, at)
   end
-  return what:position(checks.number("gripper:approach: s", s, 0, " m", level + 1, what.length))
+  return what:position(checks.place("gripper:approach: s", s, what.length, level + 1))
 end
 
 --- Goes to a place of a wire or to a point, see help "gripper:approach". A gripper without a place starts at

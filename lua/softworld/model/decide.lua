@@ -84,12 +84,13 @@ local function mends(context, result)
   end
 end
 
--- Returns a share of each value, in its unit.
+-- Returns a share of each value, in its unit. share: also a function of the quantity.
 local function of_values(context, values, share)
   local all = {}
   for _, q in ipairs(context.job.quantities) do
     local size = quantity.size(values[q.name] or NONE)
-    all[q.name] = size < math.huge and share * size or 0
+    local part = type(share) == "function" and share(q) or share
+    all[q.name] = size < math.huge and part * size or 0
   end
   return all
 end
@@ -294,7 +295,11 @@ function decide.look(context, state)
   if choice.idle and choice.idle(f) then
     return stay(state, "idle")
   end
-  local why, more
+  local lacks, why, more = choice.lacks and choice.lacks(context, rung, f, here.values), nil, nil
+  if lacks then
+    decide.raise(context, state, lacks)
+    return false
+  end
   if choice.free and not state.checked then why, more = free_check(context, state, rungs, here) end
   state.doubt = not why and more or nil
   if why then

@@ -24,8 +24,10 @@
 --     (context.watching) only facts that can contradict a free check matter
 --   idle(facts): true if there was nothing to choose
 --   free(context, rung, facts, share): if the rung is known to suffice without another computation: a
---     sentence with number and threshold, and the share of a value that it leaves out, if that counts. Else
---     nil, and perhaps why not. share: the smallest of the tolerances over its value
+--     sentence with number and threshold, and the share of a value that it leaves out, if that counts, or a
+--     function of a quantity that returns it. Else nil, and perhaps why not. share: the smallest of the
+--     tolerances over its value
+--   lacks(context, rung, facts, values): a sentence if the rung is known to leave out too much
 --   first(facts): true if the rung may be so far off that no other choice can be compared with it
 --   broken(facts, share, rung): a sentence if the run so far contradicts the rung's free check
 --   onward(context, options): switches to the next rung from here on, in the run that goes on with options;

@@ -323,9 +323,10 @@ local new_join = class.scene.join
 -- where they meet; see help "join".
 function class.scene.join(scene, args)
   build.check(scene, "scene:join", 3)
-  local join = build.call(3, new_join, scene, args)
-  local data = build.data(scene)
-  data.joins[#data.joins + 1] = { object = join, name = join.name }
+  local join, data, wires = build.call(3, new_join, scene, args), build.data(scene), {}
+  for i, e in ipairs(args.ends) do wires[i] = e[1] end
+  data.joins[#data.joins + 1] =
+    { object = join, name = join.name, wires = wires, rigid = args.rigid ~= false }
   return join
 end
 
