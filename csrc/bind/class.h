@@ -130,6 +130,10 @@ sw_vec lsw_turn(lua_State *L, int index, const char *what);
 /* Returns the finite number at index; what names it in the error. */
 double lsw_number(lua_State *L, int index, const char *what, const char *unit);
 
+/* Returns the text at index, which must fit into SW_NAME_SIZE and have no control characters. what
+ * names it in the error. Pushes nothing. */
+const char *lsw_name(lua_State *L, int index, const char *what);
+
 /* Returns the integer at index; what names it in the error. */
 lua_Integer lsw_integer(lua_State *L, int index, const char *what);
 

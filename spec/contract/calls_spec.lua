@@ -116,7 +116,8 @@ describe("rows of calls", function()
 
   -- Values that no row of the type accepts.
   local wrong = { number = { "1", 0 / 0, {} }, integer = { 1.5, "1" }, boolean = { 1, "yes" },
-    text = { 1, {} }, choice = { "no such word", 1 }, vector = { 1, { 1, 2 }, { 0, 0, 0 / 0 } },
+    text = { 1, {} }, name = { 1, {}, "a\nb" },
+    choice = { "no such word", 1 }, vector = { 1, { 1, 2 }, { 0, 0, 0 / 0 } },
     rotation = { 1, { 0, 0, 0, 0 } }, ["function"] = { 1 }, list = { 1, "x" }, reaction = { "halt", 1 },
     numbers = { "x", { "x" } } }
 

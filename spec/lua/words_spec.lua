@@ -59,11 +59,11 @@ describe("words", function()
     local function clip(name)
       return scene:clip{ name = name, at = { 0, 0, 0 }, width = 0.01, insertion = 8, retention = 25 }
     end
-    fails("name is too long; at most 40 bytes, got 41", clip, ("x"):rep(41))
-    fails("name is too long; at most 40 bytes, got 42", clip, ("\u{e9}"):rep(21))
+    fails("name is too long; at most 63 bytes, got 64", clip, ("x"):rep(64))
+    fails("name is too long; at most 63 bytes, got 64", clip, ("\u{e9}"):rep(32))
     fails("name has a zero byte, at place 2", clip, "x\0y")
-    fails("name must be a string that is not empty, got ''", clip, "")
-    assert.equal(("x"):rep(40), clip(("x"):rep(40)).name)
+    fails("clip: name must not be empty", clip, "")
+    assert.equal(("x"):rep(63), clip(("x"):rep(63)).name)
   end)
 
   it("name the line of a function that returns no number", function()

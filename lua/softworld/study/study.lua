@@ -43,7 +43,7 @@ local WORKERS = { "workers", "integer", "-", "processes; 0 computes in this one"
 
 local new = rows.call("sw.study", "{...}", "a study: a model to be evaluated many times, see help 'study'", {
   gives = "a study",
-  { "name", "text", "-", "of the study", required = true },
+  { "name", "name", "-", "of the study", required = true },
   { "parameters", "table", "-", "by name { lowest, highest, unit =, log =, integer =, start =, sigma =, "
     .. "of = }, { choices = {...} }, or a value of the catalogue with its bounds", required = true },
   { "evaluate", "function", "-", "function of the parameters and of what setup returned; returns a table of "
