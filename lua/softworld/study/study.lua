@@ -71,7 +71,7 @@ local sweep = rows.call("study:sweep", "{...}", "evaluates on a grid, or at poin
     usual = "grid with grid, else sobol" },
   { "method", "choice", "-", "the same as kind", choices = { "grid", "latin", "halton", "sobol" } },
   { "grid", "numbers of values", "-", "number of values on each range, or a table by the parameter's name" },
-  { "count", "integer", "-", "evaluations, of a grid at most", min = 1, max = 10000000 },
+  { "count", "integer", "-", "evaluations, of a grid at most", min = 1, max = 1000000 },
   WORKERS,
 })
 
@@ -102,7 +102,7 @@ local shake = rows.call("study:spread", "{...}", "how often the constraints are 
   .. "vary", {
   gives = "the result: probability, low, high, worst",
   example = "study:spread { count = 1000 }",
-  { "count", "integer", "-", "evaluations", min = 1, max = 10000000, default = 1000 },
+  { "count", "integer", "-", "evaluations", min = 1, max = 1000000, default = 1000 },
   { "kind", "choice", "-", "random numbers, or Sobol's sequence, which fills the ranges more evenly",
     choices = { "random", "sobol" }, default = "random" },
   WORKERS,
