@@ -11,6 +11,9 @@
 --
 -- SI units throughout; sw.units converts. sw.help() lists what there is.
 -- @module softworld
+-- First: it loads the others with these globals.
+local _ENV = require "softworld.own" -- luacheck: ignore _ENV
+
 local checks = require "softworld.checks"
 local core = require "softworld.core"
 local counts = require "softworld.calls.counts"

@@ -212,6 +212,7 @@ describe("a name that is not one line", function()
       end,
       ["p:step: the name"] = function()
         local other = sw.scene{}
+        other:wire{ cable = "GXL 1.5", from = here, to = { 1, 0, 0 } }
         other:process(function(p) p:step(name, function() p:wait(0.01) end) end)
         other:run{ dt = 0.01 }
       end,
@@ -238,7 +239,7 @@ describe("a name that is not one line", function()
     for what, call in pairs((calls(long .. "x"))) do
       local fine, why = pcall(call)
       local other = what:find "study" or what:find "check" or what:find "step"
-      assert.equal(other ~= nil, fine, what)
+      assert.equal(other ~= nil, fine, what .. ": " .. tostring(why))
       assert.truthy(other or why:find(what .. " is too long; at most 63 bytes, got 64", 1, true), why)
     end
     for _, call in pairs((calls(long))) do call() end
