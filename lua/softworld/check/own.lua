@@ -9,7 +9,7 @@ local rows = require "softworld.rows"
 local own = {}
 
 own.rows = rows.list{
-  { "name", "name", "-", "of its row", required = true },
+  { "name", "text", "-", "of its row", required = true },
   { "unit", "text", "-", "of its value, '-' for none", required = true },
   { "of", "function", "-", "function(run) that returns the value, and optionally place [m] and time [s]",
     required = true },
