@@ -65,18 +65,34 @@ static int read_choice(lua_State *L, const char *object, const sw_param *row) {
                     lua_tostring(L, -1), hint);
 }
 
-static void read_text(lua_State *L, const char *object, const sw_param *row, char *place) {
+/* Words for a character that breaks lines of tables, CSV files and messages, or NULL. */
+static const char *unfit(lua_State *L, unsigned char c) {
+  if (c == 0) return "a zero byte";
+  if (c == '\n' || c == '\r') return "a line end";
+  if (c == '\t') return "a tab";
+  return c < ' ' || c == 127 ? lua_pushfstring(L, "the control character %d", (int)c) : NULL;
+}
+
+const char *lsw_name(lua_State *L, int index, const char *what) {
   size_t length = 0;
-  if (lua_type(L, -1) != LUA_TSTRING)
-    luaL_error(L, "%s: %s must be a string, got %s", object, row->name, lsw_describe(L, -1));
-  const char *text = lua_tolstring(L, -1, &length);
-  const size_t zero = strlen(text); /* where the text would end in C */
-  if (zero != length)
-    luaL_error(L, "%s: %s has a zero byte, at place %d; it must be without zeros", object,
-               row->name, (int)zero + 1);
+  if (lua_type(L, index) != LUA_TSTRING)
+    luaL_error(L, "%s must be a string, got %s", what, lsw_describe(L, index));
+  const char *text = lua_tolstring(L, index, &length);
+  for (size_t i = 0; i < length; i++) {
+    const char *why = unfit(L, (unsigned char)text[i]);
+    if (why)
+      luaL_error(L, "%s has %s, at place %d; it must be one line without such characters", what,
+                 why, (int)i + 1);
+  }
   if (length >= SW_NAME_SIZE)
-    luaL_error(L, "%s: %s is too long; at most %d bytes", object, row->name, SW_NAME_SIZE - 1);
-  memcpy(place, text, length + 1);
+    luaL_error(L, "%s is too long; at most %d bytes, got %d", what, SW_NAME_SIZE - 1, (int)length);
+  return text;
+}
+
+static void read_text(lua_State *L, const char *object, const sw_param *row, char *place) {
+  const char *what = lua_pushfstring(L, "%s: %s", object, row->name);
+  strcpy(place, lsw_name(L, -2, what));
+  lua_pop(L, 1);
 }
 
 static void read_vector(lua_State *L, const char *object, const sw_param *row, char *place) {

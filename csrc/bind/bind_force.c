@@ -243,9 +243,8 @@ static int meth_log(lua_State *L) { return lsw_log(L, &lsw_class_force, SW_LOG_F
 /* force:call_it(name): sets its name in events */
 static int meth_call_it(lua_State *L) {
   const lsw_self f = lsw_check_self(L, &lsw_class_force);
-  if (lua_type(L, 2) != LUA_TSTRING)
-    luaL_error(L, "force:call_it: the name must be a string, got %s", lsw_describe(L, 2));
-  LSW_DO(L, sw_scene_name_force, f.scene, f.id, lua_tostring(L, 2));
+  const char *name = lsw_name(L, 2, "force:call_it: the name");
+  LSW_DO(L, sw_scene_name_force, f.scene, f.id, name);
   return 0;
 }
 

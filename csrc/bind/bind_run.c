@@ -95,14 +95,45 @@ int lsw_scene_advance(lua_State *L) {
   return 1;
 }
 
-/* scene:settle{ tolerance =, max_iterations = } -> report */
+/* A settle may take minutes. While it runs, its check for Ctrl-C calls a function of Lua, the third
+ * value of L, which shows that. */
+static struct {
+  lua_State *L; /* NULL: there is no function */
+  double next;  /* when it is called, on the wall clock [s] */
+} shown;
+static const double SHOW_GAP = 0.1; /* [s] */
+
+static int stop_or_show(void) {
+  if (!shown.L || sw_wall_clock() < shown.next) return sw_interrupted();
+  lua_State *L = shown.L;
+  const unsigned count = sw_interrupt_count();
+  shown.L = NULL; /* the function may settle another scene */
+  if (lua_checkstack(L, LUA_MINSTACK)) {
+    lua_pushvalue(L, 3);
+    if (lua_pcall(L, 0, 0, 0) != LUA_OK) lua_pop(L, 1); /* nothing is shown */
+  }
+  shown.L = L;
+  shown.next = sw_wall_clock() + SHOW_GAP;
+  return sw_interrupted() || sw_interrupt_count() != count;
+}
+
+/* scene:settle({ tolerance =, max_iterations = }, show) -> report. show(): called ten times a
+ * second, or nil. */
 int lsw_scene_settle(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
   sw_settle_args args = {.stays = 0}; /* not a row */
   sw_settle_report r;
   sw_error err = {""};
+  lua_settop(L, 3);
   lsw_arguments(L, 2, "scene:settle", &sw_settle_params, &args);
-  LSW_DO_FORCES(L, sw_scene_settle, scene, &args, sw_interrupted, &r);
+  shown.L = lua_isfunction(L, 3) ? L : NULL;
+  shown.next = 0;
+  lsw_still_open(L);
+  lua_State *outer = lsw_begin_forces(L);
+  const sw_status status = sw_scene_settle(scene, &args, stop_or_show, &r, &err);
+  lsw_end_forces(outer);
+  shown.L = NULL;
+  lsw_must(L, status, &err);
   if (sw_interrupted()) lsw_must(L, SW_EINTR, &err);
   lua_createtable(L, 0, 6);
   lsw_set_flag(L, "ok", r.ok);

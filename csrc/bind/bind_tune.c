@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* core.minimise: finds the minimum of a Lua function. core.quasi: quasi-random points, which fill a
  * cube evenly. core.normal_below, core.normal_at: the normal distribution. */
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -136,8 +137,9 @@ static int mod_minimise(lua_State *L) {
 static int mod_quasi(lua_State *L) {
   const int sobol = strcmp(luaL_checkstring(L, 1), "sobol") == 0;
   const lua_Integer n = luaL_checkinteger(L, 2), count = luaL_checkinteger(L, 3);
-  luaL_argcheck(L, n >= 1 && n <= SW_QUASI_HALTON_MOST, 2, "1 to 100 parameters");
+  luaL_argcheck(L, n >= 1 && n < INT_MAX, 2, "1 or more parameters");
   luaL_argcheck(L, count >= 1 && count <= 10000000, 3, "1 to 1e7 points");
+  LSW_DO(L, sw_quasi, sobol, (size_t)n, 0, NULL); /* only checks n, before memory is asked for */
   double *out = lua_newuserdatauv(L, sizeof *out * (size_t)(n * count), 0);
   LSW_DO(L, sw_quasi, sobol, (size_t)n, (size_t)count, out);
   lsw_push_flat(L, out, (size_t)(n * count));

@@ -101,7 +101,6 @@ static sw_point_state state_at(lua_State *L, sw_status (*read)(sw_scene *, sw_ha
                                                                sw_point_state *, sw_error *)) {
   sw_point_state p;
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
-  lsw_at_most(L, &lsw_class_wire, 2, "s");
   const double s = lsw_number(L, 2, "wire: s", "m");
   LSW_DO(L, read, w.scene, w.id, s, &p);
   return p;
@@ -116,7 +115,6 @@ static int meth_velocity(lua_State *L) { return lsw_push_vector(L, motion(L).vel
 static int push_readout(lua_State *L, const sw_readout *r) {
   double value;
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
-  lsw_at_most(L, &lsw_class_wire, r->at_place ? 2 : 1, r->at_place ? "s" : "");
   const double s = r->at_place ? lsw_number(L, 2, "wire: s", "m") : 0.0;
   LSW_DO(L, r->read, w.scene, w.id, s, &value);
   return lua_pushnumber(L, value), 1;

@@ -83,21 +83,10 @@ const char *lsw_describe(lua_State *L, int index) {
   return luaL_typename(L, index);
 }
 
-/* Name of the method of the class that is the running C function, or NULL. */
-static const char *method_name(lua_State *L, const lsw_class *c) {
-  lua_Debug ar;
-  if (!lua_getstack(L, 0, &ar) || !lua_getinfo(L, "f", &ar)) return NULL;
-  const lua_CFunction running = lua_tocfunction(L, -1);
-  lua_pop(L, 1);
-  for (const luaL_Reg *m = c->methods; m && m->name && running; m++)
-    if (m->func == running) return m->name;
-  return NULL;
-}
-
 void *lsw_check(lua_State *L, int index, const lsw_class *c) {
   lsw_handle *h = lsw_test(L, index, c);
   if (!h) {
-    const char *method = index == 1 ? method_name(L, c) : NULL;
+    const char *method = index == 1 ? lsw_running_method(L) : NULL;
     if (method)
       luaL_error(L, "%s:%s is a method: call it with a colon (%s expected, got %s)", c->name,
                  method, c->name, lsw_describe(L, index));
@@ -107,12 +96,6 @@ void *lsw_check(lua_State *L, int index, const lsw_class *c) {
   }
   if (!h->object) luaL_error(L, "%s", c->gone);
   return h;
-}
-
-void lsw_at_most(lua_State *L, const lsw_class *c, int most, const char *arguments) {
-  if (lua_isnoneornil(L, most + 1)) return;
-  const char *method = method_name(L, c), *got = lsw_describe(L, most + 1);
-  luaL_error(L, "%s:%s takes (%s), got %s too", c->name, method ? method : "?", arguments, got);
 }
 
 /* --- life cycle ----------------------------------------------------------- */
@@ -136,6 +119,8 @@ static int meta_gc(lua_State *L) {
   }
   return 0;
 }
+
+static const luaL_Reg close_method[] = {{"close", meta_gc}, {NULL, NULL}};
 
 static int meta_tostring(lua_State *L) {
   const lsw_class *c = class_of(L);
@@ -275,13 +260,9 @@ static void open_class(lua_State *L, const lsw_class *c) {
   lua_pushstring(L, c->name);
   lua_setfield(L, -2, "__name");
   lua_newtable(L);
-  luaL_setfuncs(L, c->methods, 0);
+  lsw_set_methods(L, c, c->methods);
   if (c->more) c->more(L);
-  if (c->close) {
-    lua_pushlightuserdata(L, (void *)c);
-    lua_pushcclosure(L, meta_gc, 1);
-    lua_setfield(L, -2, "close");
-  }
+  if (c->close) lsw_set_methods(L, c, close_method);
   const int methods = lua_gettop(L);
   push_indexer(L, c, methods, meta_index);
   lua_setfield(L, methods - 1, "__index");

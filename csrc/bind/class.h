@@ -51,9 +51,13 @@ const lsw_class *lsw_class_of(lua_State *L, int index);
 /* Returns words for a wrong argument, for messages: "number 3", "string '3'", "scene", "table". May
  * push. */
 const char *lsw_describe(lua_State *L, int index);
-/* Raises an error if the running method of the class has got more than `most` values, itself
- * included. arguments: what it takes, in words. */
-void lsw_at_most(lua_State *L, const lsw_class *c, int most, const char *arguments);
+
+/* Adds methods of the class to the table on top. They refuse arguments that they do not take. They
+ * may read upvalue 1, the class, but have no upvalues of their own. */
+void lsw_set_methods(lua_State *L, const lsw_class *c, const luaL_Reg *methods);
+
+/* Name of the method that is the running C function, or NULL. */
+const char *lsw_running_method(lua_State *L);
 
 /* Makes the metatables of all classes in classes.def. Pushes a table of their
  * method tables by class name; Lua files add methods to these. */
@@ -125,6 +129,10 @@ sw_vec lsw_turn(lua_State *L, int index, const char *what);
 
 /* Returns the finite number at index; what names it in the error. */
 double lsw_number(lua_State *L, int index, const char *what, const char *unit);
+
+/* Returns the text at index, which must fit into SW_NAME_SIZE and have no control characters. what
+ * names it in the error. Pushes nothing. */
+const char *lsw_name(lua_State *L, int index, const char *what);
 
 /* Returns the integer at index; what names it in the error. */
 lua_Integer lsw_integer(lua_State *L, int index, const char *what);

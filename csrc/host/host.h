@@ -98,8 +98,8 @@ void host_line_open(lua_State *L);
 /* Reads one line and pushes it without its end (LINE_READ only). */
 int host_line(lua_State *L, const char *prompt);
 
-/* Reads the lines of earlier sessions; stores a line for later sessions. */
+/* Reads what was typed in earlier sessions; stores a chunk, of one or more lines, for later ones. */
 void host_history_open(void);
-void host_history_add(const char *line);
+void host_history_add(const char *chunk);
 
 #endif

@@ -155,7 +155,6 @@ static int edit_line(lua_State *L, const char *prompt) {
     fputc('\n', rl_outstream); /* the shell's prompt begins on a new line */
     return LINE_END;
   }
-  host_history_add(typed);
   lua_pushstring(L, typed);
   free(typed);
   return LINE_READ;

@@ -133,8 +133,18 @@ static void expand_mark(lua_State *L) {
   lua_remove(L, -2);
 }
 
-/* Reads the rest of the chunk whose first line is on top. Replaces the line by the chunk's
- * function (LUA_OK), a message (LUA_ERRSYNTAX) or nothing (LUA_YIELD: cancelled). */
+/* Adds the line on top to the text at index. */
+static void append_line(lua_State *L, int index) {
+  lua_pushvalue(L, index);
+  lua_pushliteral(L, "\n");
+  lua_pushvalue(L, -3);
+  lua_concat(L, 3);
+  lua_replace(L, index);
+}
+
+/* Reads the rest of the chunk whose first line is on top, twice. Replaces the upper one by the
+ * chunk's function (LUA_OK), a message (LUA_ERRSYNTAX) or nothing (LUA_YIELD: cancelled), and
+ * makes the other one the text as it was typed. */
 static int read_rest(lua_State *L) {
   const int text = lua_gettop(L);
   expand_mark(L);
@@ -143,9 +153,9 @@ static int read_rest(lua_State *L) {
     if (status != LUA_YIELD) return status;
     const int got = host_line(L, ">> ");
     if (got == LINE_READ) {
-      lua_pushliteral(L, "\n");
-      lua_insert(L, -2);
-      lua_concat(L, 3);
+      append_line(L, text - 1);
+      append_line(L, text);
+      lua_pop(L, 1);
       continue;
     }
     if (got == LINE_CANCELLED) {
@@ -156,6 +166,16 @@ static int read_rest(lua_State *L) {
     lua_remove(L, text);
     return status;
   }
+}
+
+/* Same for a first line that is there once. The chunk is one entry of the history. */
+static int read_chunk(lua_State *L) {
+  const int typed = lua_gettop(L);
+  lua_pushvalue(L, typed);
+  const int status = read_rest(L);
+  host_history_add(lua_tostring(L, typed));
+  lua_remove(L, typed);
+  return status;
 }
 
 /* --- running it ----------------------------------------------------------- */
@@ -226,7 +246,7 @@ static int round_trip(lua_State *L) {
   if (got == LINE_CANCELLED) return 1;
   if (got == LINE_END || wants_to_leave(L)) return 0;
   hint_about_locals(L);
-  int status = read_rest(L);
+  int status = read_chunk(L);
   if (status == LUA_OK) status = run_chunk(L, base);
   if (status != LUA_OK && status != LUA_YIELD) host_report(L);
   fflush(stdout);

@@ -165,6 +165,41 @@ function checks.field(t, key)
   return there and value or nil
 end
 
+local LONGEST_NAME = 63 -- of objects, as in the core [B]
+
+-- Returns words for a character that breaks lines of tables, CSV files and messages.
+local function unfit(char)
+  local words = { ["\0"] = "a zero byte", ["\n"] = "a line end", ["\r"] = "a line end", ["\t"] = "a tab" }
+  return words[char] or ("the control character %d"):format(char:byte())
+end
+
+--- Raises an error unless value may be a name: a text on one line that is not empty. longest: [B], default
+-- that of names of objects; math.huge: any length. The core says the same of its own names.
+function checks.name(what, value, level, longest)
+  longest = longest or LONGEST_NAME
+  if type(value) ~= "string" then
+    error(("%s must be a string, got %s"):format(what, checks.got(value)), level)
+  end
+  if value == "" then error(what .. " must not be empty", level) end
+  local place = value:find "%c"
+  if place then
+    error(("%s has %s, at place %d; it must be one line without such characters"):format(what,
+      unfit(value:sub(place, place)), place), level)
+  end
+  if #value > longest then
+    error(("%s is too long; at most %d bytes, got %d"):format(what, longest, #value), level)
+  end
+end
+
+--- Returns the name of a part of an object, such as of a gripper's finger; a long name is cut, with its
+-- checksum to keep it the only one of this name.
+function checks.part_name(name, ending)
+  if #name + #ending <= LONGEST_NAME then return name .. ending end
+  local sum = ("~%04x"):format(core.checksum(name) & 0xffff)
+  local cut = name:sub(1, LONGEST_NAME - #ending - #sum):gsub("[\xc0-\xff][\x80-\xbf]*$", "")
+  return cut .. sum .. ending
+end
+
 local axes, turns = { "x", "y", "z" }, { "w", "x", "y", "z", "axis", "angle" }
 local FARTHEST = 1e100 -- largest coordinate of a place, as in the core [m]
 

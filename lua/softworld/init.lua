@@ -11,8 +11,12 @@
 --
 -- SI units throughout; sw.units converts. sw.help() lists what there is.
 -- @module softworld
+-- First: it loads the others with these globals.
+local _ENV = require "softworld.own" -- luacheck: ignore _ENV
+
 local checks = require "softworld.checks"
 local core = require "softworld.core"
+local counts = require "softworld.calls.counts"
 local inherited = require "softworld.inherited"
 local build = require "softworld.scene.build" -- adds to the classes: names, files, drawing data
 local methods = require "softworld.methods"
@@ -78,10 +82,13 @@ rows.later(sw, "softworld.study.study", "study")
 rows.later(sw, "softworld.calibration.calibration", "calibration")
 rows.later(sw, "softworld.check.compare", "compare")
 rows.told("softworld.calls.scene softworld.calls.wire softworld.calls.obstacle softworld.calls.hold "
-  .. "softworld.calls.trajectory") -- rows of the core's own calls
-require("softworld.calls.counts").install()
+  .. "softworld.calls.trajectory softworld.calls.sw") -- rows of the core's own calls, and of sw's
+counts.install()
 record.install(made)
 
+counts.guard("sw", sw)
+counts.guard("sw.cable", sw.cable)
+counts.guard("sw.trajectory", sw.trajectory)
 for kind, class in pairs(made) do methods.guard_table(kind, class) end
 methods.guard_core()
 
@@ -101,6 +108,8 @@ end
 return setmetatable(sw, { __index = function(self, key)
   if not lazy[key] then unknown(self, key) end
   local module = require(lazy[key])
+  module = type(module) == "table" and counts.guard("sw." .. key, module)
+    or counts.guarded(self, key, "sw." .. key, module)
   rawset(self, key, module)
   return module
 end })

@@ -281,13 +281,6 @@ function remarks.seat(data, what, at)
   end
 end
 
---- Remarks on a name with control characters, such as line ends.
-function remarks.name(what, name)
-  if not name:find "%c" or not remarks.wanted() then return end
-  tell("name", ("%s: its name %q has control characters, which tables and charts show as spaces"):format(what,
-    (name:gsub("%c", "?"))))
-end
-
 local round = { cylinder = true, capsule = true, mesh = true, hull = true }
 
 -- Remarks on edges too long for a peg's radius. A wire goes round a peg as a polygon: with edges as long as

@@ -13,9 +13,9 @@
 -- A row: name, type, unit, one line; then default, min, max, above (min itself is not allowed), required,
 -- choices, about (a function that gives a line about each), rows (of a table within), usual (the default in
 -- words, where a number cannot tell it), empty (a text may be), off (false is allowed too). Types: number,
--- integer, boolean, text, choice, vector, rotation, function, table; numbers (one, or a list of them), list
--- (of = "number" checks its items), reaction (a choice or a function). Other types are shown in help only;
--- the reader checks them.
+-- integer, boolean, text, name (a text on one line), choice, vector, rotation, function, table; numbers (one,
+-- or a list of them), list (of = "number" checks its items), reaction (a choice or a function). Other types
+-- are shown in help only; the reader checks them.
 -- @module softworld.rows
 local core = require "softworld.core"
 local checks = require "softworld.checks"
@@ -124,6 +124,8 @@ function check.text(what, row, value)
   if type(value) == "string" and (value ~= "" or row.empty) then return end
   error(("%s must be a string, got %s"):format(what, checks.got(value)), 0)
 end
+
+function check.name(what, _, value) checks.name(what, value, 0, math.huge) end
 
 function check.vector(what, row, value) return checks.vector(what, value, row.unit, 0) end
 

@@ -4,6 +4,8 @@
 -- Everything in SoftWorld is in SI units: m, kg, s, rad, N, Pa.
 -- @module softworld.units
 local checks = require "softworld.checks"
+local place = require "softworld.place"
+
 local units = {}
 local to = {}
 
@@ -34,23 +36,45 @@ local known = {
 
 local DEEPEST = 100 -- deepest nesting of tables
 
+-- Raises an error at the line of the script that calls.
+local function fail(...)
+  local at = place.of_caller()
+  error((at and at .. ": " or "") .. ("units." .. (...)):format(select(2, ...)), 0)
+end
+
 local function convert(value, times, by, name, depth)
   if type(value) == "number" then return value * times / by end
   if type(value) ~= "table" then
-    error(("units.%s takes a number or a table of numbers, got %s"):format(name, type(value)), 0)
+    fail("%s takes a number or a table of numbers, got %s", name, type(value))
   end
   if depth > DEEPEST then
-    error(("units.%s: the table holds itself, or more than %d tables within each other"):format(name,
-      DEEPEST), 0)
+    fail("%s: the table holds itself, or more than %d tables within each other", name, DEEPEST)
   end
   local out = {}
   for key, item in pairs(value) do out[key] = convert(item, times, by, name, depth + 1) end
   return out
 end
 
+local function one(name, ...)
+  for k = 1, select("#", ...) do
+    local more = select(k, ...)
+    if more ~= nil then
+      fail("%s takes (value), got %s too, as argument %d; several values are a table: %s{ 1, 2, 3 }", name,
+        checks.got(more), k + 1, name)
+    end
+  end
+end
+
+local function conversion(name, times, by)
+  return function(value, ...)
+    one(name, ...)
+    return convert(value, times, by, name, 0)
+  end
+end
+
 for name, unit in pairs(known) do
-  units[name] = function(value) return convert(value, unit[2], unit[3], name, 0) end
-  to[name] = function(value) return convert(value, unit[3], unit[2], "to." .. name, 0) end
+  units[name] = conversion(name, unit[2], unit[3])
+  to[name] = conversion("to." .. name, unit[3], unit[2])
 end
 
 -- Returns the number of edits (insert, delete, replace) that turn a into b.

@@ -110,7 +110,8 @@ local function refused(row)
   elseif row.type == "text" then
     add(12, "string")
     add(("x"):rep(64), "too long")
-    add("a\0b", "zeros")
+    add("a\0b", "zero byte")
+    add("a\nb", "line end")
   elseif row.type == "rotation" then
     add({ 0, 0, 0, 0 }, "zero")
     add({ axis = { 0, 0, 0 }, angle = 1 }, "zero")

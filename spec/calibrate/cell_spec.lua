@@ -152,7 +152,7 @@ describe("calibrate.cell", function()
   it("has the squeeze stiffness of springs in series and in parallel", function()
     local at = { { -1, 0, 0 }, { 0, 0, 0 }, { 1, 0, 0 } }
     local links = { { from = 1, to = 2, group = "a" }, { from = 2, to = 3, group = "b" } }
-    local args = { spacing = 0.5, particles = at, links = links, stiffness = { a = 3, b = 6, c = 0 } }
+    local args = { spacing = 0.5, particles = at, links = links, stiffness = { a = 3, b = 6 } }
     share(2 / 0.5, cell(args).squeeze, 1e-12) -- 1/(1/3 + 1/6) per length
     links[3] = { from = 1, to = 3, group = "a", weight = 4 }
     share(14 / 0.5, cell(args).squeeze, 1e-12)

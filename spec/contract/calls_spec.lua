@@ -33,7 +33,7 @@ local function objects()
     calibration = calibration, fit = fit, study = study, evaluation = evaluation,
     scene = scene, wire = wire, hand = hand, gripper = hand, process = process, clip = clip,
     channel = channel, tie = tie, run = run, sw = sw, observer = scene:observe{ call = print },
-    view = scene:view{ open = false },
+    view = scene:view{ open = false }, cable = sw.cable "GXL 1.5",
     force = scene:force{ kind = "damping", on = wire }, clamp = scene:clamp(wire, { s = 0 }),
     join = join, snapshot = scene:snapshot(),
     particles = scene:particles{ name = "ball", positions = { { 0, 0, 2 } }, masses = 0.01, radius = 0.01 },
@@ -47,6 +47,13 @@ local inner = { leave = true, report = true, solids = true, ["scene.advance"] = 
 -- The fields of a run are in help "results".
 local results = "run"
 
+-- Returns the value of a call's or field's name, and the object that has it.
+local function value_of(made, class, name)
+  local owner, value = nil, made[class]
+  for word in name:match("[:.](.*)$"):gmatch "[^.]+" do owner, value = value, value[word] end
+  return value, owner
+end
+
 describe("rows of calls", function()
   it("cover every method and field, and no other", function()
     local made, count = objects(), 0
@@ -55,7 +62,7 @@ describe("rows of calls", function()
       for _, call in ipairs(list) do
         local name = call.name:match "[:.](.*)$"
         known[name], count = true, count + 1
-        local fine, why = pcall(function() return made[class][name] end)
+        local fine, why = pcall(value_of, made, class, call.name)
         assert.is_true(fine, ("%s: %s"):format(call.name, why))
       end
       local meta = debug.getmetatable(made[class])
@@ -67,6 +74,31 @@ describe("rows of calls", function()
     end
     for class in pairs(core.class) do
       assert.is_truthy(rows.classes[class] or class == "tool", class .. " has no rows") -- of grippers
+    end
+    assert.is_true(count > 200, count)
+  end)
+
+  it("tell how many arguments a call takes: one more is refused with its number", function()
+    local made, count = objects(), 0
+    for class, list in pairs(rows.classes) do
+      for _, call in ipairs(list) do
+        local most = call.arguments and 0
+        if most and call.arguments ~= "" then
+          most = 1 + select(2, call.arguments:gsub("function%b()", "f"):gsub("%b{}", "t"):gsub(",", ""))
+        end
+        local value = value_of(made, class, call.name)
+        local first = call.name:find ":" and 1 or 0 -- a method gets its object first
+        if most and call.name ~= "scene:tie" and (first == 1 or type(value) == "function") then
+          local given = { [first + most + 1] = "too much" }
+          if first == 1 then given[1] = made[class] end
+          local fine, why = pcall(value, table.unpack(given, 1, first + most + 1))
+          assert.is_false(fine, call.name .. " took one more")
+          assert.is_truthy(why:find("'too much'", 1, true) or class == "channel", why)
+          assert.is_truthy(why:find(call.name, 1, true), why)
+          assert.is_truthy(why:find(("argument %d"):format(most + 1), 1, true) or class == "channel", why)
+          count = count + 1
+        end
+      end
     end
     assert.is_true(count > 200, count)
   end)
@@ -84,7 +116,8 @@ describe("rows of calls", function()
 
   -- Values that no row of the type accepts.
   local wrong = { number = { "1", 0 / 0, {} }, integer = { 1.5, "1" }, boolean = { 1, "yes" },
-    text = { 1, {} }, choice = { "no such word", 1 }, vector = { 1, { 1, 2 }, { 0, 0, 0 / 0 } },
+    text = { 1, {} }, name = { 1, {}, "a\nb" },
+    choice = { "no such word", 1 }, vector = { 1, { 1, 2 }, { 0, 0, 0 / 0 } },
     rotation = { 1, { 0, 0, 0, 0 } }, ["function"] = { 1 }, list = { 1, "x" }, reaction = { "halt", 1 },
     numbers = { "x", { "x" } } }
 

@@ -51,7 +51,6 @@ describe("remarks", function()
       "clip 'clip1': its seat is 50 mm inside 'plane1', where no wire can lie" },
     { "local w = " .. wire(good) .. " s:feed(w, { s = 0.5, speed = 100 })",
       "feed 'feed1': speed = 100 m/s is above 20 m/s; did you mean sw.units.mm_per_s(100)?" },
-    { "s:gripper{ name = 'a\\nb' }", [[gripper: its name "a?b" has control characters]] },
     { "s:gripper{ rating = { force = 5e5 } }", "gripper 'gripper1': rating: force = 500000 N is above" },
     { "s:clip{ at = {0, 0, 0}, width = 8, insertion = 5, retention = 9 }", "sw.units.mm(8)" },
     { "local w = " .. wire(good)

@@ -199,6 +199,17 @@ describe("the prompt at a terminal", function()
     assert.matches("\nfirst\n", out)
   end)
 
+  terminal_it("remembers a chunk of several lines as one entry, typed or pasted", function()
+    local state = program.folder() .. "/several/state"
+    at_terminal({ "for i = 1, 2 do\n", "  print('row', i)\n", "end\n",
+      "\27[200~a = 3\nb = 4\27[201~\n", "x = {\n", "1,\n", "\3", "\4" }, { state = state })
+    assert.equal("for i = 1, 2 do\30  print('row', i)\30end\na = 3\30b = 4\nx = {\0301,\n",
+      program.read(state .. "/softworld/history"))
+    local out = at_terminal({ "\16\16\16\n", "\16\16\16\n", "a * b\n", "\4" }, { state = state })
+    assert.matches("\nrow\t1\nrow\t2\n", (out:gsub(" +1\n", "\t1\n"):gsub(" +2\n", "\t2\n")))
+    assert.matches("\n12\n", out)
+  end)
+
   terminal_it("does without a history file when it cannot be made", function()
     local out, code = at_terminal({ "1 + 1\n", "\16\n", "\4" }, { state = "/dev/null/x" })
     assert.matches("\n2\n> 1 %+ 1\n2\n", out)

@@ -94,3 +94,50 @@ describe("events of a settle", function()
     assert.equal(0, code)
   end)
 end)
+
+describe("the progress of a settle", function()
+  after_each(program.clean)
+
+  -- The clock of the line goes on by 1.2 s whenever it is read.
+  local clock = [[
+local core = require "softworld.core"
+local now = 0
+core.clock = function()
+  now = now + 1.2
+  return now
+end
+]]
+
+  local function on_terminal(code)
+    if not program.has "script" then error "the program script is needed" end
+    local name = program.write(program.folder() .. "/script.lua", clock .. pulled .. code)
+    return program.shell(("TERM=xterm script -qec %s /dev/null </dev/null"):format(
+      program.quote(program.quote(program.path) .. " " .. program.quote(name))))
+  end
+
+  it("is one line on a terminal, after a second, and goes away", function()
+    local out = on_terminal "print(settle(1).ok)"
+    assert.truthy(out:find "\r[^\r\n]*pull [|/\\-]  settling for %d[%d.]* s\27%[K", out)
+    assert.truthy(out:find "\r\27%[Ktrue\r?\n$", out)
+    assert.falsy(on_terminal "print(settle(1, false, { progress = false }).ok)":find("settling", 1, true))
+  end)
+
+  it("names the level of one with error bars", function()
+    local out = on_terminal "print(settle(1, false, { tolerance = { max_tension = 0.1 } }).ok)"
+    assert.truthy(out:find "\r[^\r\n]*pull, level 2, %d+ segments [|/\\-]  settling for ", out)
+    assert.truthy(out:find "\r\27%[Ktrue\r?\n$", out)
+  end)
+
+  it("is written without a terminal only when asked for", function()
+    local out, err = script(pulled .. "print(settle(1).ok)")
+    assert.same({ "true\n", "" }, { out, err })
+    out, err = script(pulled .. "print(settle(1, false, { progress = true }).ok)")
+    assert.equal("true\n", out)
+    assert.truthy(err:find "^pull: at rest, %d+ iterations?\n$", err)
+    out, err = script(clock .. pulled .. "print(settle(1, false, { progress = true }).ok)")
+    assert.equal("true\n", out)
+    assert.truthy(err:find "^pull |  settling for %d[%d.]* s\n", err)
+    err = select(2, script(pulled .. "settle(1, false, { progress = 1 })"))
+    assert.truthy(err:find("script.lua:7: scene:settle: progress must be true or false, got 1", 1, true), err)
+  end)
+end)

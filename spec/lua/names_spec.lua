@@ -180,6 +180,82 @@ describe("a measure that an object has for intervals only", function()
   end)
 end)
 
+describe("a name that is not one line", function()
+  -- Calls with the name; each begins the error with its own words.
+  local function calls(name)
+    local s = sw.scene{}
+    local w = s:wire{ cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 1, 0, 0 } }
+    local f = s:force{ kind = "damping", on = w }
+    s:run{ duration = 0.01 }
+    local here = { 0, 0, 0 }
+    return {
+      ["scene: name"] = function() sw.scene{ name = name } end,
+      ["wire: name"] = function() s:wire{ name = name, cable = "GXL 1.5", from = here, to = { 1, 0, 0 } } end,
+      ["plane: name"] = function() s:obstacle{ name = name, shape = "plane" } end,
+      ["clamp: name"] = function() s:clamp(w, { name = name, s = 0 }) end,
+      ["gripper: name"] = function() s:gripper{ name = name } end,
+      ["scene:clip: name"] = function()
+        s:clip{ name = name, at = here, width = 0.01, insertion = 1, retention = 2 }
+      end,
+      ["scene:tie: name"] = function() s:tie(w, { name = name, s = 0.1 }) end,
+      ["particles: name"] = function()
+        s:particles{ name = name, positions = { here }, masses = 0.01, radius = 0.01 }
+      end,
+      ["scene:zone: name"] = function() s:zone{ name = name, shape = "sphere", radius = 1 } end,
+      ["force:call_it: the name"] = function() f:call_it(name) end,
+      ["scene:tell: object"] = function() s:tell{ kind = "x", text = "y", object = name } end,
+      ["sw.study: name"] = function()
+        sw.study{ name = name, parameters = { x = { 0, 1 } }, evaluate = function() return { y = 1 } end }
+      end,
+      ["p:step: the name"] = function()
+        local other = sw.scene{}
+        other:wire{ cable = "GXL 1.5", from = here, to = { 1, 0, 0 } }
+        other:process(function(p) p:step(name, function() p:wait(0.01) end) end)
+        other:run{ dt = 0.01 }
+      end,
+    }, s
+  end
+
+  it("is refused with the character and its place, and nothing is made", function()
+    for char, word in pairs{ ["\n"] = "a line end", ["\r"] = "a line end", ["\t"] = "a tab",
+      ["\27"] = "the control character 27", ["\127"] = "the control character 127" } do
+      local all, s = calls("a" .. char .. "b")
+      for what, call in pairs(all) do
+        local fine, why = pcall(call)
+        assert.is_false(fine, what)
+        local words = ("%s has %s, at place 2; it must be one line"):format(what, word)
+        assert.truthy(why:find(words, 1, true), why)
+      end
+      assert.same({ 1, 0, 0 }, { #s:wires(), #s:obstacles(), #s:grippers() })
+      assert.is_true(s:run{ duration = 0.01 }.ok)
+    end
+  end)
+
+  it("has at most 63 bytes if an object has it, and its parts have names that fit", function()
+    local long = ("m"):rep(61) .. "\u{e9}"
+    for what, call in pairs((calls(long .. "x"))) do
+      local fine, why = pcall(call)
+      local other = what:find "study" or what:find "step"
+      assert.equal(other ~= nil, fine, what .. ": " .. tostring(why))
+      assert.truthy(other or why:find(what .. " is too long; at most 63 bytes, got 64", 1, true), why)
+    end
+    for what in pairs((calls(long))) do calls(long)[what]() end
+    local s = sw.scene{}
+    local w = s:wire{ cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.3, 0, 0 } }
+    s:gripper{ name = long, at = { 0, 0, 0 }, pads = { friction = 0.5, opening = 0.02 } }
+      :grasp(w, { s = 0, approach = "plates", force = 5 })
+    local channel = s:channel{ name = ("m"):rep(62) .. "n", points = { { 0, 2, 0 }, { 1, 2, 0 } },
+      width = 0.02, depth = 0.02, lid = true }
+    local seen = {}
+    for _, o in ipairs(s:obstacles()) do
+      assert.is_true(#o.name <= 63 and utf8.len(o.name) ~= nil and not seen[o.name], o.name)
+      seen[o.name] = true
+    end
+    assert.truthy(channel.parts[1].name:find "^m+~%x%x%x%x floor 1$", channel.parts[1].name)
+    assert.equal(channel, s:find(channel.name))
+  end)
+end)
+
 describe("a name with a zero byte", function()
   it("is told as that, not as too long", function()
     local fine, why = pcall(sw.scene, { name = "a\0b" })

@@ -141,6 +141,11 @@ local cases = {
   ["the start of a search"] = { function()
     sw.tune.minimise{ f = function(x) return x[1] ^ 2 end, start = { 1, step = 0.1 } }
   end, "tune.minimise: start is a list; it has no field 'step'" },
+  ["stiffness of a cell"] = { function()
+    cell{ stiffness = { along = 1, alogn = 2 }, links = { { from = 1, to = 2, group = "along" } } }
+  end, "cell: stiffness has a group 'alogn', which no link uses; did you mean 'along'?" },
+  ["stiffness of a cell, far from all"] = { function() cell{ stiffness = { x = 1, other = 2 } } end,
+    "cell: stiffness has a group 'other', which no link uses; links use: x" },
   ["a link of a cell"] = { function() cell{ links = { { from = 1, to = 2, group = "x", wieght = 2 } } } end,
     "cell: link 1 has no field 'wieght'; did you mean 'weight'?" },
   ["an element of a cell"] = { function()

@@ -78,7 +78,7 @@ describe("scene:script", function()
     local hand = scene:gripper{ name = "left 'hand'", pads = { width = 0.02 } }
     hand:grasp(wire, { s = 0.55 })
     local way = sw.trajectory{ points = { { 0, 0, 0 }, { 0.1, 0, 0 } }, speed = 0.2, relative = true }
-    local clamp = scene:clamp(wire, { s = 0, name = "end\nof wire" })
+    local clamp = scene:clamp(wire, { s = 0, name = "end \"of\" wire" })
     clamp:follow(way:delayed(0.001))
     scene:tie(wire, { s = 0.3, strength = 8 })
     scene:clip{ at = { 0.2, 0, 0.05 }, width = 0.01, insertion = 3, retention = 5 }

@@ -59,11 +59,11 @@ describe("words", function()
     local function clip(name)
       return scene:clip{ name = name, at = { 0, 0, 0 }, width = 0.01, insertion = 8, retention = 25 }
     end
-    fails("name is too long; at most 40 bytes, got 41", clip, ("x"):rep(41))
-    fails("name is too long; at most 40 bytes, got 42", clip, ("\u{e9}"):rep(21))
+    fails("name is too long; at most 63 bytes, got 64", clip, ("x"):rep(64))
+    fails("name is too long; at most 63 bytes, got 64", clip, ("\u{e9}"):rep(32))
     fails("name has a zero byte, at place 2", clip, "x\0y")
-    fails("name must be a string that is not empty, got ''", clip, "")
-    assert.equal(("x"):rep(40), clip(("x"):rep(40)).name)
+    fails("clip: name must not be empty", clip, "")
+    assert.equal(("x"):rep(63), clip(("x"):rep(63)).name)
   end)
 
   it("name the line of a function that returns no number", function()
@@ -96,11 +96,18 @@ describe("words", function()
     local scene, wire = wired "kept"
     scene:clamp(wire, { s = 0, name = "c" })
     scene:force{ kind = "line", on = wire, force = { 0, 0, 5 } }
-    assert.is_nil(scene:describe().lacks)
+    scene:clip{ name = "seat", at = { 0, 0, 1 }, width = 0.01, insertion = 8, retention = 25 }
+    scene:tie(wire, { name = "strap", s = 0.2 })
+    local before = scene:describe()
+    assert.is_nil(before.lacks)
     local path = program.folder() .. "/kept.sws"
     scene:save(path)
     local told = sw.load(path):describe()
-    assert.same({ 0, nil }, { #told.forces, told.wires[1].given })
-    assert.truthy(told.lacks:find("^forces, and given, wire and kind of all that was read from a file"))
+    assert.is_nil(told.wires[1].given)
+    assert.truthy(told.lacks:find("^given and wire of all that was read from a file"))
+    assert.same({ before.forces[1].now }, { told.forces[1].now })
+    assert.same({ 1, "line", 5, true }, { #told.forces, told.forces[1].kind, told.forces[1].now.force[3],
+      told.forces[1].now.held })
+    assert.same({ "clip", "tie" }, { told.fixings[1].kind, told.fixings[2].kind })
   end)
 end)

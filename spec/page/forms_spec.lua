@@ -224,11 +224,11 @@ describe("a scene put together by forms", function()
 
   it("renames an object everywhere", function()
     local d = hanging()
-    d:change { what = "change", id = 1, class = "wire", kind = "rod", values = { name = "my \"cord\"\n",
+    d:change { what = "change", id = 1, class = "wire", kind = "rod", values = { name = "my \"cord\"\\",
       cable = "GXL 1", from = { 0, 0, 0.1 }, to = { 0.5, 0, 0.1 } } }
-    local line = [[scene:clamp(scene:find("my \"cord\"\n"), { name = "clamp1", s = 0 })]]
+    local line = [[scene:clamp(scene:find("my \"cord\"\\"), { name = "clamp1", s = 0 })]]
     assert.truthy(d:script():find(line, 1, true), d:script())
-    assert.equal('my "cord"\n', d:build():find('my "cord"\n').name)
+    assert.equal('my "cord"\\', d:build():find('my "cord"\\').name)
   end)
 
   it("has steps in the chosen order, in several parallel processes", function()

@@ -342,9 +342,9 @@ describe("an argument that a method does not take", function()
       ["run:check takes ({...}), got a table too"] = function() run:check({}, {}) end,
       ["run:obj takes (path, {...}), got 1 too"] = function() run:obj("x.obj", {}, 1) end,
       ["check:row takes (name), got 'x' too"] = function() check:row("events", "x") end,
-      ["wire:position takes (s), got string 'x' too"] = function() wire:position(0.1, "x") end,
-      ["wire:tension takes (s), got number 0.2 too"] = function() wire:tension(0.1, 0.2) end,
-      ["wire:stress takes (s), got table too"] = function() wire:stress(0.1, {}) end } do
+      ["wire:position takes (s), got 'x' too, as argument 2"] = function() wire:position(0.1, "x") end,
+      ["wire:tension takes (s), got 0.2 too, as argument 2"] = function() wire:tension(0.1, 0.2) end,
+      ["wire:stress takes (s), got a table too, as argument 2"] = function() wire:stress(0.1, {}) end } do
       local fine, why = pcall(call)
       assert.is_false(fine, text)
       has(why, "ignored_spec.lua:")

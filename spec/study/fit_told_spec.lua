@@ -148,6 +148,9 @@ describe("study:fit refuses", function()
       = of { y = { 1, 2, sigma = 1e-160, unit = "N" } },
     ["data.y: sigma = 1e+160 is not allowed; it must be at least 1e-60 and at most 1e+60"]
       = of { y = { 1, 2, sigma = { 1, 1e160 } } },
+    ["data.y[2] = 1e+160 N is too large; at most 1e+140 times its sigma of 2 N"]
+      = of { y = { 1, 1e160, sigma = 2, unit = "N" } },
+    ["data.y[1] = -1e+200 is too large; at most 1e+140"] = of { y = -1e200 },
     ["data.y: weight = 1e-200 is not allowed; it must be 0, or a number from 1e-120 to 1e+120"]
       = of { y = { 1, 2, weight = 1e-200 } },
     ["data.y: sigma must have one number per datum, 2 in all, got 1"] = of { y = { 1, 2, sigma = { 1 } } },
@@ -183,6 +186,15 @@ describe("study:fit refuses", function()
       near(usual.chi2 / 100, fit.chi2 * sigma ^ 2, 1e-6)
       near(usual.correlation.a.b, fit.correlation.a.b, 1e-4)
     end
+  end)
+
+  it("no data that dwarf the model, but tells of them", function()
+    local s = study({ x = { 1, 2 } }, function(p) return { y = p.x, z = 1 } end)
+    local fit = s:fit { data = { y = { 1e20, sigma = 1 }, z = { 1, sigma = 0.1 } } }
+    local told = "data.y has 1e+20 where evaluate gives 1.5, which is lost in rounding; is its unit right?"
+    assert.truthy(table.concat(fit.remarks, "\n"):find(told, 1, true), table.concat(fit.remarks, "\n"))
+    fit = s:fit { data = { y = { 1.25, sigma = 1e-3 }, z = { 1.1, sigma = 0.1 } } }
+    assert.same({}, fit.remarks)
   end)
 
   it("integers and choices", function()

@@ -12,6 +12,13 @@ local function study(changes)
   return sw.study(args)
 end
 
+-- Returns n parameters.
+local function numbers(n)
+  local list = {}
+  for i = 1, n do list["p" .. i] = { 0, 1 } end
+  return list
+end
+
 local function check(cases)
   for name, case in pairs(cases) do
     it(name, function()
@@ -50,6 +57,8 @@ describe("a parameter of a study", function()
     ["with a unit that is no text"] = { with { 0, 1, unit = 5 }, "unit = 5 is none of the SI" },
     ["with log from 0"] = { with { 0, 1, log = true }, "log needs a range above 0, and it begins at 0" },
     ["with a wrong log"] = { with { 1, 2, log = "yes" }, "log must be true or false, got 'yes'" },
+    ["of too large integers"] = {
+      with { math.mininteger, math.maxinteger, integer = true }, "is too wide; integers are within +-1e+15" },
     ["of broken integers"] = { with { 0.5, 3, integer = true }, "must be of integers" },
     ["with a start outside"] = { with { 0, 1, start = 2 }, "start = 2 is not in the range 0 to 1" },
     ["with sigma 0"] = { with { 0, 1, sigma = 0 }, "sigma = 0 is not allowed" },
@@ -101,7 +110,24 @@ describe("a study", function()
       "did you mean 'halton'?" },
     ["swept on a grid of another parameter"] = { function() study():sweep { grid = { y = 3 } } end,
       "there is no parameter 'y'" },
-    ["swept on an endless grid"] = { function() study():sweep { grid = 1e8 } end, "grid: x = 100000000" },
+    ["swept on an endless grid"] = { function() study():sweep { grid = 1e8 } end,
+      "grid: x = 100000000 is not allowed; it must be an integer from 1 to 1000000" },
+    ["swept on a grid with too many places"] = {
+      function() study { parameters = { x = { 0, 1 }, y = { 0, 1 }, n = { 1, 9, integer = true } } }:sweep {
+        grid = 1000 } end,
+      "the grid has 9 x 1000 x 1000 = 9e+06 evaluations, of 3 parameters; at most 1000000 are allowed" },
+    ["swept on a grid of very many parameters"] = {
+      function() study { parameters = numbers(40) }:sweep { grid = 3 } end,
+      "the grid has 3 x 3 x 3 x 3 x 3 x 3 x ... = 1.21577e+19 evaluations, of 40 parameters; at most" },
+    ["swept on a grid that is a list"] = { function() study():sweep { grid = { 3 } } end,
+      "grid: there is no parameter '1'" },
+    ["swept on a grid of no numbers"] = { function() study():sweep { grid = { x = true } } end,
+      "grid: x = a boolean is not allowed; it must be an integer from 1 to 1000000" },
+    ["swept at too many points"] = { function() study():sweep { count = 1e7 } end,
+      "count = 10000000 is not allowed; it must be an integer from 1 to 1000000" },
+    ["swept with more parameters than Sobol's sequence has"] = {
+      function() study { parameters = numbers(200) }:sweep { count = 3 } end,
+      "study:sweep: kind = 'sobol' is for 1 to 40 parameters, not 200; take kind = 'latin'" },
     ["spread without constraints"] = { function() study():spread { count = 3 } end, "has no constraints" },
     ["with choices to a simplex"] = { function()
       study { parameters = { m = { choices = { "a", "b" } } } }:minimise("y", { method = "simplex" })

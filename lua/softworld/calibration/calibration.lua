@@ -33,7 +33,7 @@ local call = rows.call(WHAT, "{...}", "EA, EI, GJ and section stiffness of a rea
   gives = "a calibration: values with intervals, a catalogue entry, charts",
   example = "sw.calibration { sag = { file = 'sag.csv', length = 1, to = { 0.8, 0 } }, "
     .. "mass_per_length = 0.01, outer_diameter = 0.0024 }",
-  { "name", "text", "-", "of the cable", usual = "calibrated" },
+  { "name", "name", "-", "of the cable", usual = "calibrated" },
   { "source", "text", "-", "where and when it was measured, for the catalogue entry", usual = "measured" },
   { "outer_diameter", "number or {value, sigma =}", "m", "of the cable; or { value, sigma = }",
     required = true },

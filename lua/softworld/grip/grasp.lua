@@ -41,7 +41,7 @@ local function impose(self, wire, s)
   local count, flies = #self.past, stand.is_moving(self)
   local from = not flies and self:position() or nil
   local hold = self.scene:grip(wire, { s = s, width = self.width, -- first, for it may be refused
-    name = self.name .. (count > 0 and "#" .. count + 1 or "") })
+    name = count > 0 and checks.part_name(self.name, "#" .. count + 1) or self.name })
   if #self.grips > 0 and not self.carrier then
     stand.make_carrier(self)
     self.carrier:hold(self.hold)

@@ -2,6 +2,7 @@
 --- Pads of grippers: rigid fingers in the tool's axes. x is along the wire, fingers close along
 -- y (more than two: around x), z is up; the opening is between the faces of facing fingers.
 -- @module softworld.grip.pads
+local checks = require "softworld.checks"
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local meshfile = require "softworld.meshfile"
@@ -110,8 +111,9 @@ end
 -- Adds a capsule that goes up from the fingers.
 local function add_arm(scene, tool, name, arm, at, q, base)
   local middle = { 0, 0, base + arm.radius + arm.length / 2 }
-  local obstacle = scene:obstacle{ name = name .. ".arm", shape = "capsule", radius = arm.radius,
-    length = arm.length, at = vec.add(at, vec.rotate(q, middle)), rotation = q, friction = 0.3 }
+  local obstacle = scene:obstacle{ name = checks.part_name(name, ".arm"), shape = "capsule",
+    radius = arm.radius, length = arm.length, at = vec.add(at, vec.rotate(q, middle)), rotation = q,
+    friction = 0.3 }
   tool:pad(obstacle, 0, { 0, 0, 0 })
   return obstacle
 end
@@ -131,7 +133,7 @@ local function add_finger(scene, tool, name, p, given, finger, at, q, opening, o
     part.rotation = vec.multiply(q, facing)
     part.friction, part.kinetic_friction = of_finger(p.friction), of_finger(p.kinetic_friction)
     part.restitution = p.restitution
-    part.name = ("%s.finger%d%s"):format(name, finger, number > 1 and "." .. number or "")
+    part.name = checks.part_name(name, (".finger%d%s"):format(finger, number > 1 and "." .. number or ""))
     local obstacle = scene:obstacle(part)
     tool:pad(obstacle, finger, opens)
     obstacles[#obstacles + 1] = obstacle

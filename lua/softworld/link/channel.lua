@@ -122,7 +122,7 @@ local function trough(what, self)
   for i = 1, #self.legs do
     for _, p in ipairs(list) do
       local points = prism(what, self, i, table.unpack(p, 2))
-      parts[#parts + 1] = { ("%s %s %d"):format(self.name, p[1], i), points }
+      parts[#parts + 1] = { checks.part_name(self.name, (" %s %d"):format(p[1], i)), points }
     end
   end
   return parts
@@ -131,7 +131,7 @@ end
 local function lid(what, self)
   local half, t, parts = self.width / 2 + self.thickness, self.thickness, {}
   for i = 1, #self.legs do
-    parts[i] = { ("%s lid %d"):format(self.name, i),
+    parts[i] = { checks.part_name(self.name, (" lid %d"):format(i)),
       prism(what, self, i, -half, half, self.depth, self.depth + t) }
   end
   return parts

@@ -32,20 +32,9 @@ function fixing.wire(scene, what, name, value)
   return value
 end
 
-local LONGEST = 40 -- longest name, so that those of its parts are not too long either [B]
-
 --- Returns the name to use, see build.name; errors have no place yet.
 function fixing.name(scene, what, given, kind)
-  if given ~= nil and (type(given) ~= "string" or given == "") then
-    error(("%s: name must be a string that is not empty, got %s"):format(what, checks.got(given)), 0)
-  end
-  local zero = given and given:find "%z"
-  if zero then
-    error(("%s: name has a zero byte, at place %d; it must be without zeros"):format(what, zero), 0)
-  end
-  if given and #given > LONGEST then
-    error(("%s: name is too long; at most %d bytes, got %d"):format(what, LONGEST, #given), 0)
-  end
+  if given ~= nil then checks.name(what .. ": name", given, 0) end
   local ok, name = pcall(build.name, scene, given, kind, #build.data(scene).fixings, 0)
   if not ok then error(name, 0) end
   return name

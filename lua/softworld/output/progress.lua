@@ -50,6 +50,8 @@ end
 -- `name` shown in front; `word` name of the steps; `quiet = true` shows nothing;
 -- `long = true` a quiet one says once if many minutes are left;
 -- `passing = true` the line is only removed at the end, for one of several runs;
+-- `timeless` what is done, for work whose share done is not known: `update()` shows how long it takes;
+-- `since` when it began, by the clock, default now [s];
 -- `stream` (default io.stderr); `terminal` true or false (default: asked of
 -- the system for stderr, false for another stream);
 -- `width` columns or a function giving them; `clock` a function giving real time [s]
@@ -61,12 +63,12 @@ function progress.new(options)
   end
   local self = setmetatable({}, progress)
   self.total, self.name, self.quiet = options.total, options.name, options.quiet or false
-  self.passing = options.passing or false
+  self.passing, self.timeless = options.passing or false, options.timeless
   self.long = self.quiet and options.long and self.total ~= nil
   self.stream = options.stream or io.stderr
   self.clock = options.clock or fallback_clock()
   self.word = options.word or "steps"
-  self.start, self.time, self.steps = self.clock(), 0.0, 0
+  self.start, self.time, self.steps = options.since or self.clock(), 0.0, 0
   self.after = options.after or 0
   self.early = self.after > 0
   self.terminal = options.terminal
@@ -92,6 +94,7 @@ end
 
 local function facts(self, now)
   local elapsed = now - self.start
+  if self.timeless then return { ("%s for %s"):format(self.timeless, number.duration(elapsed)) } end
   local parts = { number.text(self.time, "s") }
   if self.total then parts[1] = string.format("t = %s of %s", parts[1], number.text(self.total, "s"))
   else parts[1] = "t = " .. parts[1] end
@@ -166,7 +169,7 @@ end
 function progress:update(time, steps)
   if self.long then tell_long(self, time) end
   if self.quiet or self.ended then return end
-  self.time, self.steps = time, math.tointeger(steps) or self.steps
+  self.time, self.steps = time or 0, math.tointeger(steps) or self.steps
   local now = self.clock()
   if self.early and now - self.start < self.after then return end
   self.early = false

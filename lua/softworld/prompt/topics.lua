@@ -191,9 +191,12 @@ end
 
 -- Returns the part about a class: a line for each method and field.
 local function class_part(class)
-  local part = { title = ("methods and fields of %s %s"):format(class:find "^[aeiou]" and "an" or "a", class),
-    lines = {} }
-  local function short(call) return (signature(call):gsub("^%w+", "", 1)) end
+  local title = ("methods and fields of %s %s"):format(class:find "^[aeiou]" and "an" or "a", class)
+  if class == "sw" then title = "functions of sw; sw.units: see help 'units'" end
+  local part = { title = title, lines = {} }
+  local function short(call)
+    return class == "sw" and signature(call) or (signature(call):gsub("^%w+", "", 1))
+  end
   local shape = ("%%-%ds %%s%%s"):format(column(rows.classes[class], 20, 32, short))
   for i, call in ipairs(rows.classes[class]) do
     local gives = call.gives and not call.gives:find "^the " and " -> " .. call.gives or ""

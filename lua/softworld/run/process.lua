@@ -235,6 +235,7 @@ local function check_step(self, name, work)
   if type(name) ~= "string" or name == "" then
     error(("p:step expects a name and a function, got %s"):format(name == "" and "''" or type(name)), 3)
   end
+  checks.name("p:step: the name", name, 4, math.huge)
   if type(work) ~= "function" then
     error(("p:step '%s' expects a function, got %s"):format(name, type(work)), 3)
   end

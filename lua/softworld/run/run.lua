@@ -154,11 +154,11 @@ function core.class.scene.run(scene, args)
     build.call(3, check_frames, args)
   end
   if build.call(3, choose.wanted, scene, args) then
-    local _ <close> = working.several()
+    local _ <close> = working.several(args and args.progress)
     return hide_failure(build.call(3, choose.run, scene, args, check_start, run_once))
   end
   if refine.wanted(args) then
-    local _ <close> = working.several()
+    local _ <close> = working.several(args and args.progress)
     local job = build.call(3, refine.job, scene, args, check_start)
     return hide_failure(build.call(3, refine.run, job, run_once))
   end

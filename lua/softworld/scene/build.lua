@@ -112,11 +112,10 @@ function build.name(scene, given, kind, count, level)
     return kind .. count
   end
   if type(given) ~= "string" then return given end -- refused by the reader of the arguments
-  if given == "" then error(("%s: name must not be empty"):format(kind), level) end
+  checks.name(kind .. ": name", given, level > 0 and level + 1 or 0)
   if is_taken(data, given) then
     error(("scene '%s' already has something named '%s'"):format(scene.name, given), level)
   end
-  remarks.name(kind, given)
   return given
 end
 

@@ -47,17 +47,16 @@ end
 
 -- Returns the tables of parameters by the object that a call of the scene made.
 local function given_of(scene)
-  local given, forces = {}, {}
+  local given = {}
   for _, call in ipairs(record.of(scene)) do
     local object = call.results[1]
     local args = call.args[call.args.n]
     if rawequal(call.self, scene) and object ~= nil then
       given[object] = { kind = call.method, args = type(args) == "table" and args or {},
         wire = call.args.n > 1 and call.args[1] or nil }
-      if call.method == "force" then forces[#forces + 1] = object end
     end
   end
-  return given, forces
+  return given
 end
 
 local function of_wire(w)
@@ -99,13 +98,18 @@ local function obstacles_of(data, given)
   return list
 end
 
-local function forces_of(forces, given)
-  local list = {}
-  for _, force in ipairs(forces) do
-    if core.exists(force) then
-      list[#list + 1] = { kind = force.kind, given = plain(given[force].args),
-        now = plain(force:get()) }
-      list[#list].now.held = force.held
+-- Returns the forces of the script: those that it made, and of a file all but those of clips and ties.
+local function forces_of(scene, given)
+  local list, inner, from_file = {}, {}, record.made_as(scene) == nil
+  for _, it in ipairs(fixing.all(scene)) do
+    local own = sealed.fields(it)
+    inner[rawget(own, "object") or false], inner[rawget(own, "damper") or false] = true, true
+  end
+  for _, force in ipairs(scene:forces()) do
+    if core.exists(force) and (given[force] or from_file and not inner[force]) then
+      local one = item(force, nil, given, function(f) return plain(f:get()) end)
+      one.kind, one.now.held = force.kind, force.held
+      list[#list + 1] = one
     end
   end
   return list
@@ -115,7 +119,7 @@ local function fixings_of(scene, given)
   local list = {}
   for _, it in ipairs(fixing.all(scene)) do
     local one = item(it, it.name, given, function() return {} end)
-    one.kind = given[it] and given[it].kind
+    one.kind = getmetatable(it).__name
     list[#list + 1] = one
   end
   return list
@@ -131,7 +135,7 @@ local function grippers_of(data, given)
   return list
 end
 
-local LACKS = "forces, and given, wire and kind of all that was read from a file, which does not keep them"
+local LACKS = "given and wire of all that was read from a file, which does not keep them"
 
 -- Returns what is not known of a scene whose objects are from a file.
 local function lacking(data, given)
@@ -145,12 +149,12 @@ end
 local function of_scene(scene)
   if core.type(scene) ~= "scene" then error("scene:describe is a method: call it with a colon", 0) end
   local data = build.data(scene)
-  local given, forces = given_of(scene)
+  local given = given_of(scene)
   return { name = scene.name, time = scene.time, gravity = scene:gravity(),
     wires = list_of(data.wires, given, of_wire),
     particles = list_of(data.particles, given, of_particles),
     obstacles = obstacles_of(data, given), holds = list_of(data.holds, given, of_hold),
-    forces = forces_of(forces, given), joins = list_of(data.joins, given, function() return {} end),
+    forces = forces_of(scene, given), joins = list_of(data.joins, given, function() return {} end),
     fixings = fixings_of(scene, given), grippers = grippers_of(data, given), lacks = lacking(data, given) }
 end
 

@@ -38,6 +38,7 @@ local function make(scene, args)
     error("scene:zone takes one table of parameters, got " .. checks.kind(args), 0)
   end
   local own = inherited.copy(args)
+  if own.name ~= nil then checks.name("scene:zone: name", own.name, 0) end
   local name, shape, position, rotation, slot, within, turned = meshfile.make("zone", own.name, own,
     function(all) return core.zone(scene, all) end)
   local data = build.data(scene)

@@ -1,12 +1,14 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Places of the parameters' values for sweeps: on a grid, or points that fill the ranges evenly.
 -- @module softworld.study.design
+local checks = require "softworld.checks"
 local core = require "softworld.core"
 local parameters = require "softworld.study.parameters"
 
 local design = {}
 
-local MOST = 10000000 -- most evaluations of one sweep
+local MOST = 1000000 -- most evaluations of one sweep, about 1 GB of records
+local SHOWN = 6 -- most factors that a message shows
 
 local function fail(text, ...) error(text:format(...), 0) end
 
@@ -17,11 +19,11 @@ local function counts(list, what, grid, count)
     local n = type(grid) == "table" and grid[p.name] or type(grid) == "number" and grid or nil
     if p.kind == "choice" then n = n or #p.choices end
     if n == nil and count then n = math.max(2, math.floor(count ^ (1 / #list) + 1e-9)) end
-    if p.kind == "integer" then n = math.min(n or math.huge, p.high - p.low + 1) end
+    if p.kind == "integer" and type(n) == "number" then n = math.min(n, p.high - p.low + 1) end
     if n == nil then fail("%s: grid has no number of values for '%s'", what, p.name) end
-    if math.type(n) ~= "integer" and not math.tointeger(n) or n < 1 or n > MOST then
+    if type(n) ~= "number" or not math.tointeger(n) or n < 1 or n > MOST then
       fail("%s: grid: %s = %s is not allowed; it must be an integer from 1 to %d", what, p.name,
-        tostring(n), MOST)
+        checks.got(n), MOST)
     end
     each[i] = math.tointeger(n)
     if p.kind == "choice" then each[i] = math.min(each[i], #p.choices) end
@@ -39,24 +41,34 @@ local function on_grid(p, k, n)
   return parameters.at(p, k / (n - 1))
 end
 
+-- Returns the number of evaluations of a grid.
+local function total_of(what, each)
+  local total, factors = 1.0, {} -- a float: the product may be above the largest integer
+  for i, n in ipairs(each) do
+    total = total * n
+    if i <= SHOWN then factors[i] = ("%d"):format(n) end
+  end
+  if total <= MOST then return math.tointeger(total) end
+  if #each > SHOWN then factors[SHOWN + 1] = "..." end
+  fail("%s: the grid has %s = %.6g evaluations, of %d parameters; at most %d are allowed: take fewer values, "
+    .. "or kind = 'sobol' with count", what, table.concat(factors, " x "), total, #each, MOST)
+end
+
 --- Returns a grid: its size, and a function from the number to the values. The last parameter changes first.
 function design.grid(list, what, grid, count)
   if type(grid) == "table" then
-    local names = {}
-    for i, p in ipairs(list) do names[i], names[p.name] = p.name, true end
+    local names, known = {}, {}
+    for i, p in ipairs(list) do names[i], known[p.name] = p.name, true end
     for name in pairs(grid) do
-      if not names[name] then
+      if not known[name] then
         local near = type(name) == "string" and core.nearest(name, names)
         fail("%s: grid: there is no parameter '%s'; %s", what, tostring(name), near
           and ("did you mean '%s'?"):format(near) or "known are: " .. table.concat(names, " "))
       end
     end
   end
-  local each, total = counts(list, what, grid, count), 1
-  for _, n in ipairs(each) do total = math.min(total * n, 2 * MOST) end
-  if total > MOST then
-    fail("%s: a grid of more than %d evaluations is too much", what, MOST)
-  end
+  local each = counts(list, what, grid, count)
+  local total = total_of(what, each)
   return total, function(number)
     local values, rest = {}, number - 1
     for i = #list, 1, -1 do
@@ -127,7 +139,11 @@ function design.fill(list, kind, count, seed)
     local place_of = latin(#list, count, seed)
     return function(number) return parameters.all_at(list, place_of(number)) end
   end
-  local flat = core.quasi(kind, #list, count)
+  local fine, flat = pcall(core.quasi, kind, #list, count)
+  if not fine then
+    local why = tostring(flat)
+    error(why:find("parameters", 1, true) and "study:sweep: " .. why .. "; take kind = 'latin'" or why, 0)
+  end
   return function(number) return parameters.all_at(list, flat, (number - 1) * #list) end
 end
 

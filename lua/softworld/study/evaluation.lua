@@ -2,9 +2,11 @@
 --- Computes one evaluation: the arguments of evaluate, and the use of its results. It depends only on the
 -- parameters' values, the study's seed, the method with its options, and the number within it.
 -- @module softworld.study.evaluation
+local build = require "softworld.scene.build"
 local check_results = require "softworld.check.results"
 local checks = require "softworld.checks"
 local core = require "softworld.core"
+local counts = require "softworld.calls.counts"
 local judge_results = require "softworld.study.judge"
 local counted = require "softworld.output.number".count
 local parameters = require "softworld.study.parameters"
@@ -43,21 +45,22 @@ local function given_for(own, number, values)
     names[#names + 1] = parameter.name
   end
   p.number = number
-  function p.random(a, ...) -- also as a method
-    if a == p then return random(...) end
-    if a == nil then return random() end
-    return random(a, ...)
+  local function add(name, f) -- calls may have a dot or a colon
+    local checked = counts.guarded(nil, name, "evaluation:" .. name, f)
+    p[name] = function(a, ...)
+      if a == p then return checked(...) end
+      return checked(a, ...)
+    end
   end
-  function p.give_up(a, b)
-    local reason = a
-    if a == p then reason = b end
+  add("random", function(low, high)
+    if low == nil then return random() end
+    if high == nil then return build.call(3, random, low) end
+    return build.call(3, random, low, high)
+  end)
+  add("give_up", function(reason)
     error({ GIVEN_UP, reason == nil and "given up" or checks.shown(reason):sub(1, LONGEST) }, 0)
-  end
-  function p.broken(a, b)
-    local results = a
-    if a == p then results = b end
-    return judge_results.broken(own, results)
-  end
+  end)
+  add("broken", function(results) return judge_results.broken(own, results) end)
   return setmetatable(p, { __name = "evaluation",
     __index = checks.fields("evaluation", table.concat(names, " ")) })
 end

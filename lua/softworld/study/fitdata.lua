@@ -14,6 +14,7 @@ local MOST = 100000 -- most numbers
 --- Range of a sigma [unit of its datum]: fourth powers of it, in covariances, are numbers. A weight is in the
 -- same range, as 1 / sigma^2, or 0.
 fitdata.LEAST_SIGMA, fitdata.MOST_SIGMA = 1e-60, 1e60
+local LARGEST = 1e140 -- largest datum over its sigma: the sum of 100,000 squares is a number [-]
 local LIGHTEST, HEAVIEST = fitdata.MOST_SIGMA ^ -2, fitdata.LEAST_SIGMA ^ -2
 
 local function fail(text, ...) error(text:format(...), 0) end
@@ -97,6 +98,19 @@ local function check_sigma(list)
   return with ~= nil
 end
 
+-- Raises an error for a datum whose square, in units of its sigma, would not be a number.
+local function check_sizes(item)
+  for k, value in ipairs(item.values) do
+    local size, what = math.abs(value) * item.scale[k], ("study:fit: data.%s[%d]"):format(item.name, k)
+    if size > LARGEST then
+      local unit = unit_of(item)
+      fail("%s = %.9g%s is too large; at most %g%s", what, value, unit, LARGEST,
+        item.sigma and (" times its sigma of %.9g%s"):format(item.sigma[k], unit)
+          or item.weight and (" / sqrt(weight), with its weight of %.9g"):format(item.weight[k]) or unit)
+    end
+  end
+end
+
 --- Returns the data as a list by name, { name =, unit =, values =, scale = {1 / sigma} }; count; is sigma
 -- given?
 function fitdata.read(own, given)
@@ -113,6 +127,7 @@ function fitdata.read(own, given)
     for k = 1, #item.values do
       item.scale[k] = item.sigma and 1 / item.sigma[k] or item.weight and math.sqrt(item.weight[k]) or 1
     end
+    check_sizes(item)
   end
   return { list = list, count = count, known = known }
 end

@@ -189,6 +189,19 @@ end
 
 -- --- residuals ---------------------------------------------------------------------------------
 
+local DIGITS = 1e13 -- a datum so many times as large as what is computed leaves 3 digits of that [-]
+
+-- Says that a datum dwarfs what evaluate gives: the difference hardly depends on the parameters any more.
+local function dwarfed(item, computed)
+  for k, value in ipairs(computed) do
+    local datum = item.values[k]
+    if value ~= 0 and math.abs(datum) > DIGITS * math.abs(value) then
+      return ("data.%s has %.4g where evaluate gives %.4g, which is lost in rounding; is its unit right?")
+        :format(item.name, datum, value)
+    end
+  end
+end
+
 local function residuals(fit, data, record, said)
   fit.computed, fit.residuals, fit.data = {}, {}, {}
   for _, item in ipairs(data.list) do
@@ -198,6 +211,7 @@ local function residuals(fit, data, record, said)
       size, off = math.max(size, math.abs(item.values[k])), math.max(off, math.abs(list[k]))
     end
     fit.computed[item.name], fit.residuals[item.name], fit.data[item.name] = computed, list, item.values
+    said[#said + 1] = dwarfed(item, computed)
     if off > EXACT * size then said[#said + 1] = fitnoise.signs(item.name, list) end
   end
 end

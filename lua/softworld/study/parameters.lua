@@ -19,6 +19,8 @@ local function fail(text, ...) error(text:format(...), 0) end
 
 local SI = " m s kg N Pa rad J W Hz K A V mol "
 
+local LARGEST = 1e15 -- largest integer of a range; numbers keep all integers up to there
+
 --- True for an SI unit without prefixes: products and quotients with whole powers, or "-".
 function parameters.is_unit(text)
   if text == "-" or text == "" then return true end
@@ -96,8 +98,12 @@ local function read_range(what, given)
       fail("%s: %s must be true or false, got %s", what, key, checks.got(given[key]))
     end
   end
-  if given.integer and not (math.tointeger(low) and math.tointeger(high) and high - low < 2 ^ 53) then
+  if given.integer and not (math.tointeger(low) and math.tointeger(high)) then
     fail("%s: the range %.9g to %.9g of an integer must be of integers", what, low, high)
+  end
+  if given.integer and math.max(math.abs(low + 0.0), math.abs(high + 0.0)) > LARGEST then
+    fail("%s: the range %.9g to %.9g of an integer is too wide; integers are within +-%.9g", what, low, high,
+      LARGEST)
   end
   if given.log and low <= 0 then fail("%s: log needs a range above 0, and it begins at %.9g", what, low) end
   local start, sigma = given.start, given.sigma

@@ -43,7 +43,7 @@ local WORKERS = { "workers", "integer", "-", "processes; 0 computes in this one"
 
 local new = rows.call("sw.study", "{...}", "a study: a model to be evaluated many times, see help 'study'", {
   gives = "a study",
-  { "name", "text", "-", "of the study", required = true },
+  { "name", "name", "-", "of the study", required = true },
   { "parameters", "table", "-", "by name { lowest, highest, unit =, log =, integer =, start =, sigma =, "
     .. "of = }, { choices = {...} }, or a value of the catalogue with its bounds", required = true },
   { "evaluate", "function", "-", "function of the parameters and of what setup returned; returns a table of "
@@ -71,7 +71,7 @@ local sweep = rows.call("study:sweep", "{...}", "evaluates on a grid, or at poin
     usual = "grid with grid, else sobol" },
   { "method", "choice", "-", "the same as kind", choices = { "grid", "latin", "halton", "sobol" } },
   { "grid", "numbers of values", "-", "number of values on each range, or a table by the parameter's name" },
-  { "count", "integer", "-", "evaluations, of a grid at most", min = 1, max = 10000000 },
+  { "count", "integer", "-", "evaluations, of a grid at most", min = 1, max = 1000000 },
   WORKERS,
 })
 
@@ -102,7 +102,7 @@ local shake = rows.call("study:spread", "{...}", "how often the constraints are 
   .. "vary", {
   gives = "the result: probability, low, high, worst",
   example = "study:spread { count = 1000 }",
-  { "count", "integer", "-", "evaluations", min = 1, max = 10000000, default = 1000 },
+  { "count", "integer", "-", "evaluations", min = 1, max = 1000000, default = 1000 },
   { "kind", "choice", "-", "random numbers, or Sobol's sequence, which fills the ranges more evenly",
     choices = { "random", "sobol" }, default = "random" },
   WORKERS,

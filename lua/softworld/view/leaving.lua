@@ -142,6 +142,7 @@ function leaving.objects(scene, made, hand)
   for _, g in ipairs(data.grippers) do
     grips[g.name] = true
     for _, part in ipairs(g.obstacles or {}) do hidden[part] = true end
+    for _, past in ipairs(g.past or {}) do hidden[past] = true end
     if not g.gone and not g.left then add(g.name, "gripper", "gripper") end
   end
   for _, o in ipairs(data.obstacles) do
@@ -151,7 +152,9 @@ function leaving.objects(scene, made, hand)
   end
   for _, hold in ipairs(data.holds) do
     local own = grips[hold.name:gsub("#%d+$", "")]
-    if core.exists(hold.object) and hold.object.held and not own then add(hold.name, hold.kind, "clamp") end
+    if core.exists(hold.object) and hold.object.held and not own and not hidden[hold.object] then
+      add(hold.name, hold.kind, "clamp")
+    end
   end
   for _, it in ipairs(fixing.all(scene)) do
     hidden[it.object or false] = true

@@ -305,6 +305,7 @@ function sheet.read(given)
   end
   local name = checks.field(given, "name")
   if type(name) ~= "string" or not name:find "%S" then error("cable.define: name is missing (a text)", 0) end
+  checks.name("cable.define: name", name, 0, math.huge)
   check_keys(name, "a cable", given, fields)
   local entry = { name = name, description = given.description or "" }
   local diameter = quantities[1]

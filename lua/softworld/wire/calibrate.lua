@@ -184,6 +184,22 @@ local function flat_links(links, names)
   return flat
 end
 
+-- Raises an error for a group of stiffness that no link uses: its name is misspelt, or links are missing.
+local function check_used(links, names)
+  local used, list = {}, {}
+  for _, l in ipairs(links) do
+    if not used[l.group] then used[l.group], list[#list + 1] = true, l.group end
+  end
+  for _, name in ipairs(names) do
+    if not used[name] then
+      local near = #name > 1 and core.nearest(name, list) -- any letter is near to x
+      error(("cell: stiffness has a group '%s', which no link uses; %s"):format(name, near
+        and ("did you mean '%s'?"):format(near) or #list == 0 and "there are no links"
+        or "links use: " .. table.concat(list, " ")), 0)
+    end
+  end
+end
+
 -- Returns for each element 6 or 8, its particles, its group and nu, in one list. Moduli become further groups
 -- of stiffness.
 local function flat_elements(args, stiffness)
@@ -245,7 +261,9 @@ local function cell(args)
   for i, name in ipairs(names) do
     stiffness[i] = number("stiffness of " .. name, args.stiffness[name])
   end
-  local links, elements = flat_links(args.links, names), flat_elements(args, stiffness)
+  local links = flat_links(args.links, names)
+  check_used(args.links, names)
+  local elements = flat_elements(args, stiffness)
   return core.cell(number("spacing", args.spacing), places, links, stiffness, elements)
 end
 
