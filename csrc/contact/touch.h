@@ -229,11 +229,7 @@ static inline sw_vec sw_obstacle_velocity(const sw_contact_at *o, sw_vec p) {
 
 /* The same at the step's start, where the touch's part of the wire was then. Where it is now there
  * was another part of a turning obstacle: its velocity differs by that of the turn, over the wire's
- * way [m/s]. */
-static inline sw_vec sw_obstacle_velocity_before(const sw_contact *c, const sw_system *s,
-                                                 const sw_touch *t) {
-  const sw_vec back = sw_sub(sw_mean_of(s->x, 0, &t->spot), t->acts);
-  return sw_obstacle_velocity(&c->start[t->obstacle], sw_add(t->point, back));
-}
+ * way. Of a wire that rolls: what its surface moves against, see surface.h [m/s]. */
+sw_vec sw_obstacle_velocity_before(const sw_contact *c, const sw_system *s, const sw_touch *t);
 
 #endif
