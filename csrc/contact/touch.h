@@ -4,6 +4,7 @@
 #ifndef SW_CONTACT_TOUCH_H
 #define SW_CONTACT_TOUCH_H
 
+#include "contact/behind.h"
 #include "contact/broad.h"
 #include "contact/contact.h"
 #include "contact/record.h"
@@ -56,6 +57,7 @@ struct sw_contact {
   double *lost; /* (places) at a body's first node: energy lost by its impacts in this step [J] */
   uint32_t *impact_at, *barrier_at; /* (places) a node's last impact or barrier: number + 1, or 0 */
   size_t places, place_capacity;
+  sw_behind behind; /* a wire at the back of a sheet in this step */
   sw_barrier *barriers;
   size_t barrier_count, barrier_capacity;
   sw_impact *impacts;

@@ -37,6 +37,8 @@ double sw_corner_turn(const struct sw_scene_wire *wire, double s, double reach);
 void sw_scene_end_bends(sw_scene *scene);
 /* Reports lines that lie inside an obstacle with edges. Call at the end of a run. */
 void sw_scene_end_inside(sw_scene *scene);
+/* Reports a wire or object that passes through an open mesh from its back. */
+void sw_scene_watch_sheets(sw_scene *scene, size_t wire);
 /* Reports joints that pass no twist where this may count. Call at the end of a run. */
 void sw_scene_end_joints(sw_scene *scene);
 /* Reports joints that have rolled about a wire that a hold keeps from rolling. judges = 0: only
