@@ -144,6 +144,65 @@ double sw_contact_arc_mean(const sw_system *s, const sw_candidate *k, const sw_m
   return m->rise + (rise - m->rise) / MEAN_STEPS;
 }
 
+/* A wire lies on a round side only if it crosses the middle line: squared sine of their angle from
+ * SLANTED (nothing) to ACROSS (all) [-]. */
+static const double SLANTED = 0.1, ACROSS = 0.25;
+
+static double ramp(double x, double none, double all) {
+  return sw_limit((x - none) / (all - none), 0.0, 1.0);
+}
+
+/* Curvature of the way of a wire's axis round the obstacle, if its squared sine to the middle line
+ * is across [1/m]. */
+static double way_round(const sw_contact *c, const sw_candidate *k, double across) {
+  return across / (c->round[k->obstacle] + k->skin);
+}
+
+/* Squared sine of the angle between a local direction and the middle line at a touch; 0: the touch
+ * is not on the round side [-]. */
+static double across_middle(const sw_contact *c, const sw_touch *t, sw_vec along) {
+  sw_vec q, middle;
+  if (!(sw_shape_middle(c->obstacles[t->obstacle].shape, t->local, &q, &middle) > 0)) return 0;
+  return sw_norm2(sw_cross(along, middle)) / sw_norm2(along);
+}
+
+sw_vec sw_contact_arc_lies(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                           const double *y, const sw_touch *t) {
+  const sw_body *b = &s->bodies[k->body];
+  const sw_contact_at *at = c->regime == SW_CONTACT_STATIC ? c->now : c->start;
+  const double *x = c->regime == SW_CONTACT_STATIC ? y : s->x;
+  const sw_vec none = sw_v(0, 0, 0);
+  if (!b->roll_block || !(c->round[k->obstacle] > 0) || c->obstacles[k->obstacle].grips > 0)
+    return none;
+  const size_t i = k->node - b->first_node, e = i < b->plan->edges ? i : i - 1;
+  const double edge = b->plan->rest[e];
+  const sw_quat back = sw_quat_conj(at[k->obstacle].pose.q);
+  const sw_vec chord = sw_sub(sw_vec_at(x, b->first_node + e + 1), sw_vec_at(x, b->first_node + e));
+  const sw_vec along = sw_rotate(back, sw_unit_or(chord, none));
+  const double across = across_middle(c, t, along), round = way_round(c, k, across);
+  if (!(across > SLANTED)) return none;
+  const sw_vec n =
+      sw_rotate(at[k->obstacle].pose.q, sw_unrotate(c->now[k->obstacle].pose.q, t->press.normal));
+  const double one = -sw_dot(n, curvature_at(b, k->segment ? e : i, x));
+  const double two = k->segment ? -sw_dot(n, curvature_at(b, e + 1, x)) : one;
+  const double share = ramp(edge * round, COARSE, FINE) * ramp(across, SLANTED, ACROSS) *
+                       ramp(fmax(one, two) / round, SW_GOES_ROUND, BENT);
+  return sw_scale(along, share * k->radius);
+}
+
+/* The friction at the axis that draws a wire as mu at its surface does, where it lies on a round
+ * side. Balances of an element, with the way's curvature K, tension T and shear force V: V = r mu
+ * N, N = K T - V', T' = mu N (1 - r K). So T grows as exp(a K s) with a + mu r K a^2 = mu (1 - r
+ * K) [-]. */
+static double at_axis(const sw_contact *c, const sw_candidate *k, const sw_touch *t, double mu) {
+  const double share = t->sharp ? 0.0 : sw_norm(t->edge) / k->radius;
+  if (!(share > 0)) return mu;
+  const double bent = k->radius * way_round(c, k, across_middle(c, t, t->edge));
+  const double draws =
+      2.0 * mu * (1.0 - bent) / (1.0 + sqrt(1.0 + 4.0 * mu * mu * (1.0 - bent) * bent));
+  return mu + share * (draws - mu);
+}
+
 /* MOST_ARC: largest sine of a turn between chords that represent an arc. A neighbouring chord
  * counts fully from 1/BESIDE of the force on, and gradually below; otherwise friction would jump
  * with it [-]. */
@@ -168,6 +227,7 @@ double sw_contact_arc_friction(const sw_contact *c, const sw_system *s, const sw
   const sw_candidate *k = &c->candidates[t->candidate];
   const sw_body *b = &s->bodies[t->body];
   const size_t i = k->node - b->first_node;
+  mu = at_axis(c, k, t, mu);
   if (!m || !(m->kept.steady > 0) || !k->segment || (k->smooth && !k->round) || k->samples ||
       b->plan->web)
     return mu;

@@ -21,6 +21,18 @@ double sw_contact_arc_rise(const sw_contact *c, const sw_system *s, const sw_can
 double sw_contact_arc_mean(const sw_system *s, const sw_candidate *k, const sw_memory *m,
                            double rise);
 
+/* A wire that rolls and goes round something: the surface of its chords would slide while they take
+ * their places. A chord presses, with the whole shear force of the wire that arrives, before it has
+ * all of its tilt; its tilt then drew the wire back by mu times that force, and a wire wound on a
+ * drum kept up to 17 % too much tension, with edges of any length. The wire itself is bent when it
+ * touches, and then a section has the tilt of the place where it lies: if its axis slides by u, its
+ * surface slides by u (1 - r K), with the curvature K of the wire's way round. So friction along
+ * such a wire acts at its axis, without a couple, and the coefficient includes the lever
+ * (spec/contact/rolling_drum_spec). Returns the wire's direction, in the obstacle's coordinates,
+ * times the part of its radius that is no lever of friction along it; nodes at y [m]. */
+sw_vec sw_contact_arc_lies(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                           const double *y, const sw_touch *t);
+
 /* Coefficient of friction on chords round an obstacle [-]. Chords touch in their middles and
  * friction turns with them, while on a wire it follows the arc. If a chord and its pressing
  * neighbours turn by phi from middle to middle, ln(T2/T1) = mu phi needs the coefficient sinh(mu

@@ -141,7 +141,7 @@ void sw_contact_force(const sw_contact *c, int id, sw_vec about, sw_vec *force, 
     if (c->obstacles[t->obstacle].id != id || !(t->press.normal_force > 0)) continue;
     const sw_vec f = sw_neg(sw_madd(t->press.tangential, t->press.normal, t->press.normal_force));
     *force = sw_add(*force, f);
-    *moment = sw_add(*moment, sw_cross(sw_sub(t->acts, about), f));
+    *moment = sw_add(*moment, sw_touch_moment(t, about, f));
   }
 }
 

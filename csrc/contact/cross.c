@@ -52,6 +52,7 @@ static const double END_SHARE = 1e-6;
 /* Keeps a segment on its old side for the rest of the step. Returns 1 if the barrier is new. */
 static int raise_barrier(sw_contact *c, sw_system *s, const sw_candidate *k, const sw_closest *hit,
                          double h) {
+  sw_contact_note_crossing(c, s, k, hit);
   sw_barrier b = {.obstacle = k->obstacle,
                   .segment = k->segment,
                   .node = k->node,

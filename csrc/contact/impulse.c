@@ -29,10 +29,9 @@ static void add_now(const sw_contact *c, double share, sw_contact_load *(*at)(sw
   for (size_t i = 0; i < c->touch_count; i++) {
     const sw_touch *t = &c->touches[i];
     if (!t->press.active && !t->press.opened) continue;
-    const sw_vec arm = sw_sub(t->acts, c->now[t->obstacle].pivot);
     const sw_vec f = sw_neg(force_on(c, t));
     sw_contact_load *to = at(&c->loads[t->obstacle]);
-    *to = sum(*to, share, (sw_contact_load){f, sw_cross(arm, f)});
+    *to = sum(*to, share, (sw_contact_load){f, sw_touch_moment(t, c->now[t->obstacle].pivot, f)});
   }
 }
 

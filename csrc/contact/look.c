@@ -21,11 +21,14 @@ static int was_put_in(const sw_contact *c, const sw_system *s, const sw_candidat
  * wrong one, so the side of the last accepted step is used. Without such a memory the axis got in
  * within this step: returns 0, the touch is left out, and the swept test finds its side. A wire
  * that starts inside is pushed out by the shortest path. */
-static int keep_side(const sw_contact *c, const sw_system *s, const sw_candidate *k, sw_vec local,
+static int keep_side(sw_contact *c, const sw_system *s, const sw_candidate *k, sw_vec local,
                      sw_closest *near) {
   if (near->gap >= 0 || c->flat[k->obstacle]) return 1; /* a half space has one side */
   const sw_memory *m = sw_contact_remembered(c, k, near->at, near->feature);
-  if (!m) return c->fresh == SW_CONTACT_FRESH || was_put_in(c, s, k);
+  if (!m) {
+    sw_contact_note_inside(c, s, k, near);
+    return c->fresh == SW_CONTACT_FRESH || was_put_in(c, s, k);
+  }
   if (sw_dot(m->normal, near->normal) > 0.7) return 1; /* within 45 degrees: the same face */
   const double gap = sw_dot(m->normal, sw_sub(local, m->point));
   near->gap = gap;

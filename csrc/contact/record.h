@@ -48,7 +48,8 @@ typedef struct sw_touch {
   double at;       /* place along the segment; on a smooth curve up to half an edge beyond it [-] */
   sw_mean spot;    /* the same as a mean of nodes */
   sw_sharp sharp;  /* on a smooth curve: what it touches */
-  sw_vec edge;     /* direction of the edge touched, in the obstacle's coordinates [-] */
+  sw_vec edge;     /* direction of the edge touched [-]; of a rolling wire that lies on a round side
+                      sw_contact_arc_lies [m]; in the obstacle's coordinates */
   double steady;   /* steady normal force [N] */
   sw_vec point;    /* on the obstacle, world [m] */
   sw_vec local;    /* the same in the obstacle's coordinates [m] */
@@ -76,6 +77,9 @@ typedef struct sw_touch {
 
 /* Penetration of the accepted state at the touch, negative outside [m]. */
 static inline double sw_touch_depth(const sw_touch *t) { return t->forgiven - t->press.gap_after; }
+/* Moment of a force of the wire on the obstacle at the touch. Where a rolling wire lies on a round
+ * side, friction across it acts nearer to the surface than friction along it [N m]. */
+sw_vec sw_touch_moment(const sw_touch *touch, sw_vec about, sw_vec force);
 /* Arc length of a touch's place, of a line from its start [m]. */
 double sw_touch_arc(const sw_system *system, const sw_touch *touch);
 /* 1 if the touch is softer in this iterate than it will be in the next. */

@@ -71,6 +71,27 @@ sw_vec sw_levers_tilt(const sw_levers *l, const double *motion) {
   return sw_scale(l->along, sw_dot(l->pry, chord));
 }
 
+sw_vec sw_obstacle_velocity_before(const sw_contact *c, const sw_system *s, const sw_touch *t) {
+  const sw_contact_at *from = &c->start[t->obstacle];
+  const sw_body *b = &s->bodies[t->body];
+  const double lies = b->roll_block ? sw_norm(t->edge) : 0.0;
+  const double lever = b->roll_block ? b->plan->beam.radius - lies : 0.0;
+  const sw_vec n = t->press.normal, axis = sw_madd(t->acts, n, lever);
+  const sw_vec back = sw_sub(sw_mean_of(s->x, 0, &t->spot), axis);
+  const sw_vec v = sw_obstacle_velocity(from, sw_add(t->point, back));
+  if (!(lies > 0)) return v;
+  const sw_vec along = sw_rotate(t->axes, t->edge);
+  return sw_madd(v, along, sw_dot(along, sw_cross(from->omega, n)) / lies);
+}
+
+sw_vec sw_touch_moment(const sw_touch *t, sw_vec about, sw_vec f) {
+  const sw_vec moment = sw_cross(sw_sub(t->acts, about), f);
+  const double lever = t->sharp ? 0.0 : sw_norm(t->edge);
+  if (!(lever > 0)) return moment;
+  const sw_vec along = sw_scale(sw_rotate(t->axes, t->edge), 1.0 / lever);
+  return sw_madd(moment, along, lever * sw_dot(sw_cross(t->press.normal, along), f));
+}
+
 /* Returns K v; K: upper half of a symmetric matrix. */
 static sw_vec times(const double K[6], sw_vec v) {
   return sw_v(K[0] * v.x + K[1] * v.y + K[2] * v.z, K[1] * v.x + K[3] * v.y + K[4] * v.z,

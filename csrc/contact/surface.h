@@ -13,13 +13,17 @@ typedef struct sw_levers {
   size_t node[2];     /* the wire's chord here, as nodes of the system */
   sw_vec along;       /* the wire's direction on the obstacle's surface, unit vector */
   sw_vec pry;         /* shift in this direction per motion of node[1] against node[0] [-] */
+  double lies; /* share with which it lies on a round side: its tilt has no effect there [-] */
 } sw_levers;
 
 /* Levers of a touch at a node or on a segment from it, with the last evaluation's tangents. */
 sw_levers sw_levers_at(const sw_system *s, size_t body, size_t node, int segment, sw_vec normal);
 static inline sw_levers sw_touch_levers(const sw_system *s, const sw_touch *t) {
   if (!s->bodies[t->body].roll_block) return (sw_levers){0};
-  return sw_levers_at(s, t->body, t->node, t->segment, t->press.normal);
+  sw_levers l = sw_levers_at(s, t->body, t->node, t->segment, t->press.normal);
+  l.lies = sw_norm(t->edge) / s->bodies[t->body].plan->beam.radius;
+  l.pry = sw_scale(l.pry, 1.0 - l.lies);
+  return l;
 }
 
 /* Shift of the surface against the axis by turns of edges, turn[edge stride] [m], or its speed if

@@ -147,7 +147,8 @@ static sw_vec relative_shift(const sw_contact *c, const sw_system *s, const sw_t
   const sw_levers levers = sw_touch_levers(s, t);
   const sw_vec before = sw_rotate(c->start[t->obstacle].pose.q,
                                   sw_unrotate(c->now[t->obstacle].pose.q, t->press.normal));
-  const sw_vec arm = sw_scale(sw_sub(t->press.normal, before), b->plan->beam.radius);
+  const sw_vec turned = sw_scale(sw_sub(t->press.normal, before), b->plan->beam.radius);
+  const sw_vec arm = sw_madd(turned, levers.along, -levers.lies * sw_dot(levers.along, turned));
   const sw_vec rolled = sw_levers_shift(&levers, b->roll_turn, 1);
   const sw_vec tilted = sw_sub(sw_levers_tilt(&levers, y), sw_levers_tilt(&levers, s->x));
   return sw_add(sw_add(sw_sub(to, carried), arm), sw_add(rolled, tilted));
@@ -322,6 +323,14 @@ static void take_place(const sw_contact *c, const sw_system *s, const sw_candida
   t->stage = c->stage;
 }
 
+/* Where the force acts on a wire that rolls, once its normal is known. */
+static void find_surface(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                         const double *y, sw_touch *t) {
+  t->edge = sw_contact_arc_lies(c, s, k, y, t);
+  const double radius = s->bodies[k->body].plan->beam.radius;
+  t->acts = sw_madd(t->acts, t->press.normal, sw_norm(t->edge) - radius);
+}
+
 /* Decides whether a touch presses in this iterate. */
 static void activate(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                      const sw_memory *m, const sw_touch *last, sw_press *press) {
@@ -359,7 +368,7 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
   t->usual = end_stiffness(c, s, k, y, out);
   t->stiffer = stiffness_of(c, k, m, last, t->usual);
   press->normal = sw_contact_leaning(c, s, k, place, place->sharp ? t->steady : 0.0);
-  if (s->bodies[k->body].roll_block) t->acts = sw_madd(t->acts, press->normal, -plan->beam.radius);
+  if (s->bodies[k->body].roll_block) find_surface(c, s, k, y, t);
   rise(c, s, k, m, y, place, t);
   press->gap = near->gap - k->skin + t->rise;
   t->share = sw_place_share(place);

@@ -4,6 +4,7 @@
 #ifndef SW_CONTACT_TOUCH_H
 #define SW_CONTACT_TOUCH_H
 
+#include "contact/behind.h"
 #include "contact/broad.h"
 #include "contact/contact.h"
 #include "contact/record.h"
@@ -56,6 +57,7 @@ struct sw_contact {
   double *lost; /* (places) at a body's first node: energy lost by its impacts in this step [J] */
   uint32_t *impact_at, *barrier_at; /* (places) a node's last impact or barrier: number + 1, or 0 */
   size_t places, place_capacity;
+  sw_behind behind; /* a wire at the back of a sheet in this step */
   sw_barrier *barriers;
   size_t barrier_count, barrier_capacity;
   sw_impact *impacts;
@@ -229,11 +231,7 @@ static inline sw_vec sw_obstacle_velocity(const sw_contact_at *o, sw_vec p) {
 
 /* The same at the step's start, where the touch's part of the wire was then. Where it is now there
  * was another part of a turning obstacle: its velocity differs by that of the turn, over the wire's
- * way [m/s]. */
-static inline sw_vec sw_obstacle_velocity_before(const sw_contact *c, const sw_system *s,
-                                                 const sw_touch *t) {
-  const sw_vec back = sw_sub(sw_mean_of(s->x, 0, &t->spot), t->acts);
-  return sw_obstacle_velocity(&c->start[t->obstacle], sw_add(t->point, back));
-}
+ * way. Of a wire that rolls: what its surface moves against, see surface.h [m/s]. */
+sw_vec sw_obstacle_velocity_before(const sw_contact *c, const sw_system *s, const sw_touch *t);
 
 #endif

@@ -79,7 +79,7 @@ static void add_load(sw_contact *c, const sw_touch *t) {
   sw_contact_load *to = &c->loads[t->obstacle].resting;
   if (!t->press.active && !t->press.opened) return;
   to->force = sw_add(to->force, f);
-  to->moment = sw_add(to->moment, sw_cross(sw_sub(t->acts, c->start[t->obstacle].pivot), f));
+  to->moment = sw_add(to->moment, sw_touch_moment(t, c->start[t->obstacle].pivot, f));
 }
 
 /* Loads of the touches set aside, and their sums. */

@@ -41,6 +41,8 @@ static int sweep(const sw_shape *shape, const sw_sweep *path, sw_closest *out, d
   return sw_trimesh_sweep(sw_trimesh_of(shape), path, out, when);
 }
 
+static int is_open(const sw_shape *shape) { return sw_trimesh_of(shape)->open; }
+
 static const sw_param rows[] = {
     {"data", SW_PARAM_OTHER, "-", NAN, -INFINITY, INFINITY, SW_PARAM_REQUIRED, NULL, 0,
      "content of a mesh file, as meshfile.read gives it"},
@@ -74,6 +76,7 @@ const sw_shape_class sw_shape_class_mesh = {
     .bones = sw_meshed_bones,
     .sharp = sw_meshed_sharp,
     .faceted = sw_meshed_faceted,
+    .open = is_open,
     .roundness = sw_meshed_roundness,
     .ridges = sw_meshed_ridges,
     .points_out = sw_meshed_points_out};

@@ -108,6 +108,10 @@ int sw_shape_has_edges(const sw_shape *shape) {
   return k->sharp && !(k->faceted && k->faceted(shape));
 }
 
+int sw_shape_is_open(const sw_shape *shape) {
+  return shape->class->open && shape->class->open(shape);
+}
+
 double sw_shape_roundness(const sw_shape *shape) {
   return shape->class->roundness ? shape->class->roundness(shape) : 0.0;
 }

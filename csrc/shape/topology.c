@@ -72,6 +72,7 @@ static int make_edge(sw_trimesh *mesh, const half_edge *h, int count) {
   edge->normal = sw_unit_or(sum, first);
   edge->sine = 1;
   edge->flags = SW_CONVEX | SW_RIM;
+  mesh->open |= count == 1;
   if (count == 1) return 0;
   const sw_vec second = sw_load(mesh->normals + 3 * (size_t)h[1].tri);
   edge->tri[1] = h[1].tri;

@@ -46,6 +46,7 @@ typedef struct sw_trimesh {
   sw_tree_node *nodes;        /* node_count, the root first */
   sw_bounds bounds;
   double size; /* largest extent [m] */
+  int open;    /* 1: it has a border */
 } sw_trimesh;
 
 /* Builds a mesh from cleaned copies of the triangles: coinciding vertices are joined, triangles

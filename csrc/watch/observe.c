@@ -135,6 +135,7 @@ sw_status sw_scene_observe(sw_scene *s, sw_error *err) {
   for (size_t w = 0; w < sw_scene_wire_slots(s); w++) sw_scene_watch_squeezed(s, w);
   for (size_t w = 0; w < sw_scene_wire_slots(s); w++) sw_scene_watch_pads_press(s, w);
   for (size_t w = 0; w < sw_scene_wire_slots(s); w++) SW_TRY(sw_scene_watch_caught(s, w, err));
+  for (size_t w = 0; w < sw_scene_wire_slots(s); w++) sw_scene_watch_sheets(s, w);
   for (size_t w = 0; w < sw_scene_wire_slots(s); w++) sw_scene_watch_poke(s, w);
   for (size_t w = 0; w < sw_scene_wire_slots(s); w++) sw_scene_watch_loose(s, w);
   for (size_t w = 0; w < sw_scene_wire_slots(s); w++) sw_scene_watch_undamped(s, w);

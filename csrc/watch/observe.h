@@ -39,6 +39,8 @@ void sw_scene_end_bends(sw_scene *scene);
 void sw_scene_end_inside(sw_scene *scene);
 /* Reports an object of particles with obstacles, wires or particles in its elements. */
 void sw_scene_watch_pierced(sw_scene *scene, size_t wire);
+/* Reports a wire or object that passes through an open mesh from its back. */
+void sw_scene_watch_sheets(sw_scene *scene, size_t wire);
 /* Reports joints that pass no twist where this may count. Call at the end of a run. */
 void sw_scene_end_joints(sw_scene *scene);
 /* Reports joints that have rolled about a wire that a hold keeps from rolling. judges = 0: only
@@ -109,7 +111,7 @@ sw_status sw_scene_look_for_buckling(sw_scene *scene, sw_error *err);
 /* Reports a wire that stayed straight, or in a plane, under a push that bends real wires, and then
  * buckled. */
 void sw_scene_watch_unbent(sw_scene *scene, size_t wire);
-/* Reports friction between lines that turn together. */
+/* Reports friction that brakes lines that go round each other. */
 void sw_scene_watch_together(sw_scene *scene);
 /* The run ended: reports wires that still stay straight under such a push. Call it after
  * sw_scene_look_for_buckling. */
