@@ -112,23 +112,6 @@ static int may_pierce(const sw_scene_obstacle *o) {
          isfinite(sw_shape_bounds(o->shape).max.x);
 }
 
-static void watch_obstacles(sw_scene *s, const sw_scene_wire *w, const sw_body *b) {
-  const double *x = sw_scene_system(s)->x;
-  sw_error ignored;
-  SW_EACH(obstacle, o, s) {
-    sw_motion_state at;
-    double most = 0;
-    if (!may_pierce(o) || sw_drive_eval(s, &o->drive, sw_scene_time(s), &at, &ignored) != SW_OK)
-      continue;
-    for (size_t k = 0; k < b->plan->web->solids; k++) {
-      const sw_web_solid *solid = &b->plan->web->solid[k];
-      const element e = element_of(b, x, solid);
-      if (is_free(b, solid)) most = fmax(most, reaches_into(&e, o->shape, &at.pose));
-    }
-    if (most > 0) tell(s, w->name, o->name, most);
-  }
-}
-
 static sw_bounds bounds_of(const sw_body *b, const double *x) {
   sw_bounds out = {sw_vec_at(x, b->first_node), sw_vec_at(x, b->first_node)};
   for (size_t i = 1; i < b->plan->nodes; i++) {
@@ -139,9 +122,31 @@ static sw_bounds bounds_of(const sw_body *b, const double *x) {
   return out;
 }
 
-static int is_within(const sw_bounds *in, sw_vec p) {
-  return p.x > in->min.x && p.x < in->max.x && p.y > in->min.y && p.y < in->max.y &&
-         p.z > in->min.z && p.z < in->max.z;
+static int is_within(const sw_bounds *in, sw_vec p, double reach) {
+  return p.x > in->min.x - reach && p.x < in->max.x + reach && p.y > in->min.y - reach &&
+         p.y < in->max.y + reach && p.z > in->min.z - reach && p.z < in->max.z + reach;
+}
+
+static void watch_obstacles(sw_scene *s, const sw_scene_wire *w, const sw_body *b) {
+  const double *x = sw_scene_system(s)->x;
+  const sw_bounds bounds = bounds_of(b, x);
+  const sw_vec middle = sw_lerp(bounds.min, bounds.max, 0.5);
+  const double reach = sw_dist(bounds.min, middle);
+  sw_error ignored;
+  SW_EACH(obstacle, o, s) {
+    sw_motion_state at;
+    double most = 0;
+    if (!may_pierce(o) || sw_drive_eval(s, &o->drive, sw_scene_time(s), &at, &ignored) != SW_OK)
+      continue;
+    const sw_bounds of = sw_shape_bounds(o->shape);
+    if (!is_within(&of, sw_pose_local(at.pose, middle), reach)) continue;
+    for (size_t k = 0; k < b->plan->web->solids; k++) {
+      const sw_web_solid *solid = &b->plan->web->solid[k];
+      const element e = element_of(b, x, solid);
+      if (is_free(b, solid)) most = fmax(most, reaches_into(&e, o->shape, &at.pose));
+    }
+    if (most > 0) tell(s, w->name, o->name, most);
+  }
 }
 
 /* Returns how deep a point is in an element of the body; 0: too little to report [m]. */
@@ -164,7 +169,7 @@ static void watch_bodies(sw_scene *s, const sw_scene_wire *w, const sw_body *b) 
     double most = 0;
     for (size_t i = 0; other != b && i < other->plan->nodes; i++) {
       const sw_vec p = sw_vec_at(system->x, other->first_node + i);
-      if (is_within(&bounds, p)) most = fmax(most, deep_in(b, system->x, p));
+      if (is_within(&bounds, p, 0)) most = fmax(most, deep_in(b, system->x, p));
     }
     if (most > 0) tell(s, w->name, sw_scene_wire_in(s, k)->name, most);
   }

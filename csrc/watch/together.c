@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Reports lines that lie along each other and go round each other while they press, as the strands
  * of a coil: friction across them acts on their axes, without the torques by which it turns each
- * line about itself. These would balance it: without them it brakes the common turn of the lines. A
- * coiled cable then has half of its pull (spec/contact/together_spec). Where holds turn the lines
- * along with each other, they do not rub (mutual/meet.c), and nothing is reported. Lines only: the
+ * line about itself. These would balance it: without them it brakes the common turn of the lines
+ * (spec/physics/knot_spec). Where holds turn the lines along with each other, they do not rub
+ * (mutual/meet_rub.c), and nothing is reported. Lines only: the
  * surface of a mesh has its own particles. */
 #include <math.h>
 #include <stdio.h>
