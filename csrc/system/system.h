@@ -177,8 +177,8 @@ void sw_system_held_velocity(const sw_system *system, const sw_held_node *held, 
 
 /* Computes by what angle each edge of a wire turns about itself between the state and positions x
  * (of the system), beyond being carried along with its tangent: turn (edges) [rad]. The holds are
- * where they were last placed. 0: nothing keeps the wire from turning, or it has material frames;
- * turn is not filled. */
+ * where they were last placed. 0: nothing keeps the wire from turning; turn is
+ * not filled. */
 int sw_system_turns(const sw_system *system, const sw_body *body, const double *x, double *turn);
 
 /* Makes work space for a body whose wire resists twist. SW_ENOMEM. */

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Turns of a wire's edges about themselves, as its twist tells them. Along a span each hinge takes
- * its share of the span's twist; from a clamp to a free end the wire is not twisted. */
+ * its share of the span's twist; from a clamp to a free end the wire is not twisted. Wires with
+ * material frames have these turns. */
 #include <string.h>
 
 #include "base/each.h"
+#include "system/spin.h"
 #include "system/twist.h"
 
 /* One wire at the state and at positions x. */
@@ -62,7 +64,9 @@ int sw_system_turns(const sw_system *s, const sw_body *b, const double *x, doubl
   const size_t clamps = p->clamp_count + p->stops;
   const sw_clamp_hinge *first = NULL, *last = NULL;
   walk w = {p, s->x + 3 * b->first_node, x + 3 * b->first_node, turn};
-  if (p->web || p->beam.framed || !clamps) return 0;
+  for (size_t e = 0; p->beam.framed && e < p->edges; e++) turn[e] = sw_spin_turned(s, b, e);
+  if (p->beam.framed) return 1;
+  if (p->web || !clamps) return 0;
   memset(turn, 0, p->edges * sizeof *turn);
   SW_ITEMS(const sw_clamp_hinge, h, p->clamps, clamps) {
     if (h->side < 0 && (!first || h->edge < first->edge)) first = h;

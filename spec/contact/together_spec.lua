@@ -74,8 +74,8 @@ describe("wires that are twisted into a pair", function()
     if o.swapped then from, to = to, from end
     for k = 1, 2 do
       local z = (2 * k - 3) * r
-      wires[k] = scene:wire { cable = o.cable, segments = o.segments, from = { from[1], from[2], z },
-        to = { to[1], to[2], z } }
+      wires[k] = scene:wire { cable = o.cable, segments = o.segments, rolls = o.rolls,
+        from = { from[1], from[2], z }, to = { to[1], to[2], z } }
       local still, turns = 0, wires[k].length
       if o.swapped then still, turns = turns, still end
       scene:clamp(wires[k], { s = still })
@@ -100,7 +100,7 @@ describe("wires that are twisted into a pair", function()
 
   it("need the same pull and moment with friction between them", function()
     for _, o in ipairs { { dt = 0.01 }, { dt = 0.005, segments = 83, turned = 0.7 },
-      { dt = 0.02, swapped = true }, { dt = 0.01, cable = "FLRY-B 0.5" } } do
+      { dt = 0.02, swapped = true }, { dt = 0.01, cable = "FLRY-B 0.5" }, { dt = 0.01, rolls = true } } do
       o.cable, o.segments = o.cable or "GXL 1.5", o.segments or 60
       o.friction = 0
       local pull, moment = twisted(o)
