@@ -27,7 +27,7 @@ print(("taut: torque %.6f N m"):format(math.abs(hand:moment()[1])))
 print "slack    pull       torque      bend radius  places touching"
 for k = 1, 8 do
   hand:follow { points = { { 0, 0, 0 }, { -slack / 8, 0, 0 } }, duration = 0.5, relative = true }
-  local run = scene:run { duration = 1, dt = 0.004 }
+  local run = scene:run { duration = 1, dt = 0.005 }
   assert(run.ok, run.reason)
   local radius_now = cable:min_bend_radius { now = true }
   print(("%.3f m  %.5f N  %.6f N m  %.4f m     %d"):format(slack * k / 8, hand:force()[1],

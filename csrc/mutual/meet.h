@@ -35,6 +35,7 @@ typedef struct sw_meet {
   double firm[2];  /* how firmly a sliding place stays in the middle of each segment [-] */
   sw_vec lever[2]; /* tangent of each wire over its edge, times the radius: how far the turn of the
                     * wire moves its surface along it [-] */
+  sw_vec eases;    /* direction in which a shift rolls and does not rub, or zero [-] */
   int flies;       /* 1: an overlap here may come from flight of the wires in the prediction */
   int turns;       /* 1: the linearisation includes the turn of its normal */
   int far;         /* 1: too far from its last place for a known force */
@@ -181,6 +182,10 @@ double sw_ends_speed(const sw_system *system, const sw_ends *e);
 /* 1: friction acts at the wires' surfaces. */
 static inline int sw_meet_turns(const sw_meet *t) {
   return sw_norm2(t->lever[0]) > 0 || sw_norm2(t->lever[1]) > 0;
+}
+/* A shift without the part by which the wires roll. */
+static inline sw_vec sw_meet_eased(const sw_meet *t, sw_vec v) {
+  return sw_madd(v, t->eases, -sw_dot(t->eases, v));
 }
 /* Velocity or shift of the first wire's surface relative to the second one, at velocities or shifts
  * v of the nodes: u + sum lever (n . dx), where u is that of the axes and dx that of the edges.

@@ -10,6 +10,8 @@
  * the surface by G_i = w_i I + slope_i lever n', with the lever of meet.h, and takes the force G_i'
  * f: a share of it and a couple across the edge. Angular momentum is kept, and wires that turn like
  * one body do not rub (spec/contact/together_spec). */
+#include <string.h>
+
 #include "mutual/meet.h"
 #include "solve/band3.h"
 #include "touch/load.h"
@@ -64,6 +66,15 @@ static void take_law(blocks *b, const double K[6]) {
 static sw_vec times(const double K[6], sw_vec v) {
   return sw_v(K[0] * v.x + K[1] * v.y + K[2] * v.z, K[1] * v.x + K[3] * v.y + K[4] * v.z,
               K[2] * v.x + K[4] * v.y + K[5] * v.z);
+}
+
+/* The law's stiffness K (upper half) without that against rolling: P K P with P = I - e e'. */
+static void ease(const sw_meet *t, double K[6]) {
+  const sw_vec e = t->eases, k = times(K, e);
+  const double twice = sw_dot(e, k);
+  const double a[3] = {e.x, e.y, e.z}, b[3] = {k.x, k.y, k.z};
+  for (int i = 0, m = 0; i < 3; i++)
+    for (int j = i; j < 3; j++, m++) K[m] += twice * a[i] * a[j] - a[i] * b[j] - b[i] * a[j];
 }
 
 /* Adds what the turns of the edges add to G_i' K G_j. */
@@ -180,6 +191,8 @@ sw_status sw_meet_push(sw_system *s, const sw_meet *t, const double *y, sw_vec f
   sw_body *one = &s->bodies[t->of.body[0]], *two = &s->bodies[t->of.body[1]];
   blocks b;
   const int turns = sw_meet_turns(t);
+  double eased[6];
+  if (K && turns) memcpy(eased, K, sizeof eased), ease(t, eased), K = eased;
   sw_load_force(one, &t->bow[0].spot, force);
   sw_load_force(two, &t->bow[1].spot, sw_neg(force));
   if (turns) add_couples(s, t, force);

@@ -54,7 +54,7 @@ sw_vec sw_meet_passes(const sw_meet *t, const double *v) {
   sw_vec u = sw_bows_apart(v, t->bow);
   for (int k = 0; k < 2 && sw_meet_turns(t); k++)
     u = sw_madd(u, t->lever[k], sw_dot(t->press.normal, sw_bow_along(v, &t->bow[k])));
-  return u;
+  return sw_meet_eased(t, u);
 }
 
 /* Returns the turn of a wire's edges about themselves at a place, or 0 if it is not known [rad]. */
@@ -77,11 +77,9 @@ static double turn_at(sw_mutual *m, const sw_system *s, const double *y, const s
 }
 
 /* Wires that roll on each other do not rub across: their turns about themselves move the surfaces.
- * Returns the part of the way u of the axes that the turns undo. The turns follow from holds and
- * shape; friction does not turn the wires. So turns never make a way or reverse it: it would be
- * work that no hold does. */
-static sw_vec rolled(sw_mutual *m, const sw_system *s, const double *y, const sw_meet *t,
-                     sw_vec u) {
+ * Returns the way that the turns undo. The turns follow from holds and shape; friction does not
+ * turn the wires. So turns never make a way or reverse it: it would be work that no hold does. */
+static sw_vec undone_by_turns(sw_mutual *m, const sw_system *s, const double *y, const sw_meet *t) {
   sw_vec turned = {0, 0, 0};
   for (int k = 0; k < 2; k++) {
     const double radius = s->bodies[t->of.body[k]].plan->beam.radius;
@@ -89,17 +87,26 @@ static sw_vec rolled(sw_mutual *m, const sw_system *s, const double *y, const sw
     const sw_vec along = sw_unit_or(t->lever[k], sw_v(0, 0, 0));
     turned = sw_madd(turned, sw_cross(along, t->press.normal), radius * turn_at(m, s, y, t, k));
   }
-  const double undone = sw_dot(u, turned), most = sw_norm2(turned);
-  return undone > 0 ? sw_scale(turned, sw_smaller(1.0, undone / most)) : sw_v(0, 0, 0);
+  return turned;
+}
+
+/* Part of the way u of the axes by which the wires roll. Shifts within the way that the turns undo
+ * do not rub either, if that is longer than friction's longest spring. */
+static sw_vec roll(sw_meet *t, sw_vec u, sw_vec turned, double longest) {
+  const double most = sw_norm(turned), way = most > 0 ? sw_dot(u, turned) / most : 0;
+  const int inside = way >= 0 && way <= most;
+  if (!(most > 0)) return turned;
+  if (inside && most > longest) t->eases = sw_scale(turned, 1.0 / most);
+  return sw_scale(turned, sw_limit(way, 0.0, most) / most);
 }
 
 /* Wires that roll let go of what friction's spring holds across, for no torque does its work: a
  * spring that drives the roll relaxes by the way of it, so that it makes no energy; one that brakes
  * is let go within a way as long as the longest spring. */
-static sw_vec let_go(const sw_meet *t, double most, sw_vec held, sw_vec roll) {
-  const double way = sw_norm(roll), longest = most / sw_press_grip(&t->press);
+static sw_vec let_go(sw_vec held, sw_vec rolled, double longest) {
+  const double way = sw_norm(rolled);
   if (!(way > 0)) return held;
-  const sw_vec side = sw_scale(roll, 1.0 / way);
+  const sw_vec side = sw_scale(rolled, 1.0 / way);
   const double here = sw_dot(held, side);
   if (here < 0) return sw_madd(held, side, sw_smaller(way, -here));
   return sw_madd(held, side, -here * (way < longest ? way / longest : 1.0));
@@ -112,11 +119,12 @@ void sw_meet_begin_friction(sw_mutual *m, const sw_system *s, const double *y, s
   const int pressed = met && met->kept.normal_force > 0, went_on = last && last->press.active;
   if (friction > 0) set_levers(s, t, y);
   sw_vec u = sw_sub(sw_meet_passes(t, y), sw_meet_passes(t, s->x));
-  const sw_vec roll = sw_meet_turns(t) ? rolled(m, s, y, t, u) : sw_v(0, 0, 0);
-  u = sw_sub(u, roll);
+  const double longest = pressed ? friction * met->kept.normal_force / sw_press_grip(press) : 0.0;
+  const sw_vec turned = sw_meet_turns(t) ? undone_by_turns(m, s, y, t) : sw_v(0, 0, 0);
+  const sw_vec rolled = roll(t, u, turned, longest);
+  u = sw_sub(u, rolled);
   if (pressed)
-    u = sw_add(u, let_go(t, friction * met->kept.normal_force,
-                         carry(stretch(t, met), met->normal, press->normal), roll));
+    u = sw_add(u, let_go(carry(stretch(t, met), met->normal, press->normal), rolled, longest));
   else if (!press->active)
     u = sw_v(0, 0, 0);
   sw_press_aim(press, u, last ? &last->press : NULL, last && last->stage == m->stage, m->first);

@@ -21,6 +21,7 @@ typedef struct sw_spot {
   int count;
   int held[SW_SPOT_NODES];     /* 1: a hold carries the node's share */
   int turns;                   /* 1: the turn of the wires moves their surfaces along them: */
+  sw_vec eases;                /* as in sw_meet [-] */
   sw_vec lever[SW_SPOT_NODES]; /* by this times the node's shift along the normal [-] */
 } sw_spot;
 
