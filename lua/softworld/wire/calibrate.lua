@@ -185,13 +185,15 @@ local function flat_links(links, names)
 end
 
 -- Raises an error for a group of stiffness that no link uses: its name is misspelt, or links are missing.
+-- Groups of a calibration may be left over: a part of its mesh does not have them all.
 local function check_used(links, names)
   local used, list = {}, {}
+  for _, name in ipairs(order) do used[name] = true end
   for _, l in ipairs(links) do
-    if not used[l.group] then used[l.group], list[#list + 1] = true, l.group end
+    if not list[l.group] then list[l.group], list[#list + 1] = true, l.group end
   end
   for _, name in ipairs(names) do
-    if not used[name] then
+    if not (used[name] or list[name]) then
       local near = #name > 1 and core.nearest(name, list) -- any letter is near to x
       error(("cell: stiffness has a group '%s', which no link uses; %s"):format(name, near
         and ("did you mean '%s'?"):format(near) or #list == 0 and "there are no links"
