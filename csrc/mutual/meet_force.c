@@ -80,12 +80,18 @@ static void ease(const sw_meet *t, double K[6]) {
 /* Adds what the turns of the edges add to G_i' K G_j. */
 static void take_turns(blocks *b, const double K[6], sw_vec n) {
   sw_vec stiff[MOST];
-  for (int i = 0; i < b->n; i++) stiff[i] = times(K, b->turn[i]);
+  int turns[MOST];
+  for (int i = 0; i < b->n; i++) {
+    turns[i] = sw_norm2(b->turn[i]) > 0;
+    stiff[i] = turns[i] ? times(K, b->turn[i]) : sw_v(0, 0, 0);
+  }
   for (int i = 0; i < b->n; i++)
     for (int j = i; j < b->n; j++) {
-      sw_add_outer(block(b, i, j), stiff[j], n, b->w[i]);
-      sw_add_outer(block(b, i, j), n, stiff[i], b->w[j]);
-      sw_add_outer(block(b, i, j), n, n, sw_dot(b->turn[i], stiff[j]));
+      const sw_vec one = sw_scale(stiff[j], b->w[i]);
+      if (turns[j] && b->w[i] != 0) sw_add_outer(block(b, i, j), one, n, 1.0);
+      if (!turns[i]) continue;
+      const double both = turns[j] ? sw_dot(b->turn[i], stiff[j]) : 0.0;
+      sw_add_outer(block(b, i, j), n, sw_madd(sw_scale(stiff[i], b->w[j]), n, both), 1.0);
     }
 }
 

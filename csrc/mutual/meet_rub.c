@@ -117,7 +117,7 @@ void sw_meet_begin_friction(sw_mutual *m, const sw_system *s, const double *y, s
   sw_press *press = &t->press;
   const double friction = sw_mutual_rule(m, t->of.body)->friction;
   const int pressed = met && met->kept.normal_force > 0, went_on = last && last->press.active;
-  if (friction > 0) set_levers(s, t, y);
+  if (friction > 0 && (pressed || press->active)) set_levers(s, t, y);
   sw_vec u = sw_sub(sw_meet_passes(t, y), sw_meet_passes(t, s->x));
   const double longest = pressed ? friction * met->kept.normal_force / sw_press_grip(press) : 0.0;
   const sw_vec turned = sw_meet_turns(t) ? undone_by_turns(m, s, y, t) : sw_v(0, 0, 0);
