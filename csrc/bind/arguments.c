@@ -91,7 +91,8 @@ const char *lsw_name(lua_State *L, int index, const char *what) {
 
 static void read_text(lua_State *L, const char *object, const sw_param *row, char *place) {
   const char *what = lua_pushfstring(L, "%s: %s", object, row->name);
-  strcpy(place, lsw_name(L, -2, what));
+  const char *text = lsw_name(L, -2, what);
+  memcpy(place, text, strlen(text) + 1);
   lua_pop(L, 1);
 }
 

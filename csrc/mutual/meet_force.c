@@ -80,7 +80,7 @@ static void ease(const sw_meet *t, double K[6]) {
 /* Adds what the turns of the edges add to G_i' K G_j. */
 static void take_turns(blocks *b, const double K[6], sw_vec n) {
   sw_vec stiff[MOST];
-  int turns[MOST];
+  int turns[MOST] = {0};
   for (int i = 0; i < b->n; i++) {
     turns[i] = sw_norm2(b->turn[i]) > 0;
     stiff[i] = turns[i] ? times(K, b->turn[i]) : sw_v(0, 0, 0);

@@ -42,7 +42,7 @@ static void add_face(element *e, const int *of, int n) {
 static element element_of(const sw_body *b, const double *x, const sw_web_solid *solid) {
   element e = {.middle = {0, 0, 0}, .corners = solid->count};
   const int n = (int)solid->count / 2;
-  int low[4], high[4];
+  int low[4] = {0}, high[4] = {0};
   for (size_t k = 0; k < e.corners; k++) {
     e.corner[k] = sw_vec_at(x, b->first_node + solid->node[k]);
     e.middle = sw_madd(e.middle, e.corner[k], 1.0 / (double)e.corners);
