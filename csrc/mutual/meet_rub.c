@@ -76,14 +76,19 @@ static double turn_at(sw_mutual *m, const sw_system *s, const double *y, const s
   return 0.5 * (m->turns[i - 1] + m->turns[i]);
 }
 
+/* Wires roll on each other where they lie along each other: where the cosine between them is above
+ * this. Wires that cross, and are hooked on each other at 30 m/s, did not converge [-]. */
+static const double ALONG = 0.8;
+
 /* Wires that roll on each other do not rub across: their turns about themselves move the surfaces.
  * Returns the way that the turns undo. The turns follow from holds and shape; friction does not
  * turn the wires. So turns never make a way or reverse it: it would be work that no hold does. */
 static sw_vec undone_by_turns(sw_mutual *m, const sw_system *s, const double *y, const sw_meet *t) {
+  const double both = sw_norm(t->lever[0]) * sw_norm(t->lever[1]);
   sw_vec turned = {0, 0, 0};
+  if (!(fabs(sw_dot(t->lever[0], t->lever[1])) > ALONG * both)) return turned;
   for (int k = 0; k < 2; k++) {
     const double radius = s->bodies[t->of.body[k]].plan->beam.radius;
-    if (!(sw_norm2(t->lever[k]) > 0)) return sw_v(0, 0, 0);
     const sw_vec along = sw_unit_or(t->lever[k], sw_v(0, 0, 0));
     turned = sw_madd(turned, sw_cross(along, t->press.normal), radius * turn_at(m, s, y, t, k));
   }
