@@ -71,7 +71,7 @@ local function beside()
   local scene = sw.scene { name = "beside" }
   scene:force { kind = "damping", mass = 5 }
   for k, name in ipairs { "a", "b" } do
-    local z = 2.05 * rod.radius * (k - 1) -- with 2.2 poses of 6 edges do not come to rest
+    local z = 2.2 * rod.radius * (k - 1)
     local w = rod.wire(scene, { name = name, from = { 0, 0, z }, to = { 0.6, 0, z } })
     scene:clamp(w, { s = 0 })
     scene:clamp(w, { s = 0.6 }):follow { relative = true, duration = 0.5,

