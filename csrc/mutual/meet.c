@@ -323,8 +323,8 @@ static double share_of(sw_mutual *m, sw_contact *contact, sw_system *s) {
 /* Sets how the turns of both wires move their surfaces at a place. */
 static void set_turns(sw_spot *spot, const sw_meet *t) {
   int i = 0;
-  if (!(spot->turns = sw_meet_turns(t))) return;
   spot->eases = t->eases;
+  if (!(spot->turns = sw_meet_turns(t))) return;
   for (int side = 0; side < 2; side++)
     for (uint32_t k = 0; k < t->bow[side].spot.count; k++)
       spot->lever[i++] = sw_scale(t->lever[side], t->bow[side].slope[k]);

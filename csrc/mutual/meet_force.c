@@ -198,7 +198,7 @@ sw_status sw_meet_push(sw_system *s, const sw_meet *t, const double *y, sw_vec f
   blocks b;
   const int turns = sw_meet_turns(t);
   double eased[6];
-  if (K && turns) memcpy(eased, K, sizeof eased), ease(t, eased), K = eased;
+  if (K && sw_norm2(t->eases) > 0) memcpy(eased, K, sizeof eased), ease(t, eased), K = eased;
   sw_load_force(one, &t->bow[0].spot, force);
   sw_load_force(two, &t->bow[1].spot, sw_neg(force));
   if (turns) add_couples(s, t, force);

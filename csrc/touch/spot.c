@@ -44,7 +44,7 @@ static sw_vec shift_of(const sw_spot *t, const double *delta) {
   for (int i = 0; i < t->count; i++) sum = sw_madd(sum, sw_vec_at(delta, t->node[i]), t->weight[i]);
   for (int i = 0; i < t->count && t->turns; i++)
     sum = sw_madd(sum, t->lever[i], sw_dot(t->press->normal, sw_vec_at(delta, t->node[i])));
-  if (t->turns) sum = sw_madd(sum, t->eases, -sw_dot(t->eases, sum));
+  sum = sw_madd(sum, t->eases, -sw_dot(t->eases, sum));
   return sum;
 }
 
