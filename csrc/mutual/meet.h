@@ -124,6 +124,7 @@ struct sw_mutual {
   size_t bodies;
   sw_contact_regime regime;
   double h, nominal;   /* [s] */
+  int looks;           /* 1: forces of a state in motion are looked at; nothing moves */
   size_t stage;        /* number of the stage; it grows from step to step */
   double first;        /* share of the step's first stage in the starting state of this stage [-] */
   int updates, solves; /* of the stage so far; also solves whose update is not made [-] */

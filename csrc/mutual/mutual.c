@@ -101,7 +101,7 @@ sw_status sw_mutual_choose(sw_mutual *m, sw_system *s) {
 
 void sw_mutual_regard(sw_mutual *m, const sw_system *s, sw_contact_regime regime, double h,
                       double nominal) {
-  m->regime = regime;
+  m->regime = regime, m->looks = 0;
   m->h = h, m->nominal = nominal;
   m->least_reserve = 0;
   m->fall = regime == SW_CONTACT_STATIC ? 0.0 : SW_RESERVE * sw_norm(sw_load(s->gravity)) * h * h;
@@ -128,7 +128,9 @@ void sw_mutual_begin_stage(sw_mutual *m, double first) {
 
 sw_status sw_mutual_begin_look(sw_mutual *m, sw_system *s, sw_error *err) {
   for (size_t i = 0; i < m->memory_count; i++) sw_kept_as_felt(&m->memory[i].kept);
-  return sw_mutual_begin_step(m, s, SW_CONTACT_STATIC, 0, 0, err);
+  const sw_status status = sw_mutual_begin_step(m, s, SW_CONTACT_STATIC, 0, 0, err);
+  m->looks = 1;
+  return status;
 }
 
 static void turn_over(sw_mutual *m) {
