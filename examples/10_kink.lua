@@ -14,7 +14,7 @@ for i = 0, 100 do
 end
 local cable = scene:wire { EA = 700, EI = 4e-4, GJ = 3e-4, mass_per_length = 0.01, radius = radius,
   path = path, segments = 160 }
-scene:wire_contact { friction = 0.03 } -- more brakes the coil: see help "limits"
+scene:wire_contact { friction = 0.02 } -- more brakes the coil: see help "limits"
 scene:force { kind = "damping", mass = 3 }
 scene:clamp(cable, { s = 0 })
 local hand = scene:clamp(cable, { s = cable.length })

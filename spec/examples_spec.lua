@@ -172,7 +172,7 @@ describe("example", function()
 
   -- Taut: the torque is GJ times the twist per length. With 20 cm of slack the cable has coiled up: tension
   -- and torque are related as in a plectoneme of radius r, T = (B/r^2) sin^4 a (1/2 + 1/cos 2a), M = 2 B
-  -- sin^3 a cos a / (r cos 2a); it is 8 % below that. More friction brakes the
+  -- sin^3 a cos a / (r cos 2a); it is within 10 % of that. More friction brakes the
   -- strands that go round each other, which the event `together` tells (spec/physics/knot_spec).
   it("10: a twisted cable kinks when it is given slack", function()
     local out = example "10_kink"
