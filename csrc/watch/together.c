@@ -22,7 +22,7 @@ static const double ALONG = 0.8;
 /* Slower axes do not slide [m/s]. */
 static const double SLOW = 1e-4;
 /* Such friction on a wire is told above this share of its largest tension or its usual force. It is
- * 1 to 2 of it in a coil whose pull is 6 to 17 % too small, 0.3 in one whose pull is right [-]. */
+ * 1 to 2 of it in a coil whose pull is 9 to 18 % too small, 0.3 in one whose pull is right [-]. */
 static const double TOLD = 0.4;
 
 static sw_vec edge_of(const sw_system *s, const sw_pair_place *p, int k) {
