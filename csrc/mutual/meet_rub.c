@@ -131,7 +131,8 @@ void sw_meet_begin_friction(sw_mutual *m, const sw_system *s, const double *y, s
   /* Poses take the turns from the last iterate, and leave the couples out: with them 84 % of random
    * scenes of wires that lie on each other came to rest, without them 92 %, as with friction on
    * axes. */
-  if (m->regime == SW_CONTACT_STATIC && !m->looks && s->poses) t->lever[0] = t->lever[1] = sw_v(0, 0, 0);
+  if (m->regime == SW_CONTACT_STATIC && !m->looks && s->poses)
+    t->lever[0] = t->lever[1] = sw_v(0, 0, 0);
   if (pressed)
     u = sw_add(u, let_go(carry(stretch(t, met), met->normal, press->normal), rolled, longest));
   else if (!press->active)
