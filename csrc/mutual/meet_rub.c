@@ -128,9 +128,9 @@ void sw_meet_begin_friction(sw_mutual *m, const sw_system *s, const double *y, s
   const sw_vec turned = sw_meet_turns(t) ? undone_by_turns(m, s, y, t) : sw_v(0, 0, 0);
   const sw_vec rolled = roll(t, u, turned, longest);
   u = sw_sub(u, rolled);
-  /* Poses take the turns from the last iterate, and leave the couples out: with them 84 % of random
-   * scenes of wires that lie on each other came to rest, without them 92 %, as with friction on
-   * axes. */
+  /* Poses take the turns from the last iterate, and leave the couples out. With them 84 % of 256
+   * coarse scenes of wires that lie on each other came to rest, without them 92 %; with friction on
+   * the axes 95 %. */
   if (m->regime == SW_CONTACT_STATIC && !m->looks && s->poses)
     t->lever[0] = t->lever[1] = sw_v(0, 0, 0);
   if (pressed)
