@@ -41,7 +41,7 @@ static size_t tape_list(sw_tape *t, void *list_pointer, size_t *count, size_t *c
   } while (0)
 
 static void tape_numbers(sw_tape *t, sw_scene *s) {
-  SW_TAPE_STRUCT(t, sw_scene, 3712);
+  SW_TAPE_STRUCT(t, sw_scene, 3720);
   sw_tape_name(t, s->name);
   sw_tape_uint32(t, &s->serial);
   sw_tape_vec(t, &s->gravity);
@@ -95,6 +95,7 @@ static void tape_objects(sw_tape *t, sw_scene *s, int built) {
   LIST(gone, gone_count, gone_capacity, sw_tape_gone(t, &s->gone[k]));
   LIST(holds, hold_count, hold_capacity, sw_tape_hold(t, s, &s->holds[k]));
   LIST(obstacles, obstacle_count, obstacle_capacity, sw_tape_obstacle(t, s, &s->obstacles[k]));
+  if (sw_tape_reads(t)) sw_scene_find_driven(s);
   LIST(tools, tool_count, tool_capacity, sw_tape_tool(t, s, &s->tools[k]));
   LIST(forces, force_count, force_capacity, sw_tape_force(t, &s->forces[k]));
   LIST(zones.list, zones.count, zones.capacity, sw_tape_zone(t, &s->zones.list[k]));

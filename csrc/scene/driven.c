@@ -44,6 +44,7 @@ sw_status sw_scene_object_follow(sw_scene *s, sw_kind kind, sw_handle of, sw_mot
   SW_FIND(sw_drive, d, drive_of(s, kind, of, &name, err));
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_drive_follow(s, d, name, motion, relative, err));
+  if (kind == SW_OF_OBSTACLE) sw_scene_note_driven(s, of.slot);
   if (holds_any(s, kind, of)) sw_course_set_off(sw_scene_course(s));
   ask_again(s, kind);
   return SW_OK;

@@ -15,7 +15,9 @@ typedef struct sw_scene_obstacle {
   sw_shape *shape;
   sw_drive drive;
   double friction, kinetic, restitution;
-  int off; /* 1: contact is off, wires pass through it */
+  int off;              /* 1: contact is off, wires pass through it */
+  uint32_t next_driven; /* in the list of sw_scene_driven: slot + 2 of the next one, 1: it is the
+                           last; 0: not in the list */
   sw_contact_past past;
   sw_log log;
   size_t

@@ -105,4 +105,24 @@ sw_status sw_scene_add(sw_scene *s, sw_kind kind, const void *object, sw_handle 
   return SW_OK;
 }
 
+sw_scene_obstacle *sw_scene_driven(const sw_scene *s, const sw_scene_obstacle *last) {
+  const uint32_t next = last ? last->next_driven : s->first_driven;
+  return next > 1 ? &s->obstacles[next - 2] : NULL;
+}
+
+void sw_scene_note_driven(sw_scene *s, size_t slot) {
+  sw_scene_obstacle *o = &s->obstacles[slot];
+  if (!o->drive.motion || o->next_driven) return;
+  o->next_driven = s->first_driven ? s->first_driven : 1;
+  s->first_driven = (uint32_t)slot + 2;
+}
+
+void sw_scene_find_driven(sw_scene *s) {
+  s->first_driven = 0;
+  for (size_t k = 0; k < s->obstacle_count; k++) {
+    s->obstacles[k].next_driven = 0;
+    sw_scene_note_driven(s, k);
+  }
+}
+
 void sw_scene_enter(sw_scene *s, int more) { s->running += more; }

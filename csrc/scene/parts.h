@@ -57,6 +57,16 @@ sw_hold *sw_scene_held_by(const sw_scene *scene, size_t k);
 #define SW_EACH(kind, object, scene)                                                            \
   SW_ITEMS(__typeof__(*sw_scene_##kind##_in(scene, 0)), object, sw_scene_##kind##_in(scene, 0), \
            sw_scene_##kind##_slots(scene))
+/* Loops over the obstacles that have or had a motion of their own: SW_EACH_DRIVEN(o, scene).
+ * Scenes may have thousands of obstacles that stand. */
+#define SW_EACH_DRIVEN(o, scene) \
+  for (sw_scene_obstacle * (o) = sw_scene_driven(scene, NULL); (o); (o) = sw_scene_driven(scene, o))
+/* Returns the first of them, or the one after `last`; NULL: no more. */
+sw_scene_obstacle *sw_scene_driven(const sw_scene *scene, const sw_scene_obstacle *last);
+/* Puts the obstacle in that list, unless it is there or has no motion. Call when it gets one. */
+void sw_scene_note_driven(sw_scene *scene, size_t slot);
+/* Makes the list anew from the obstacles. */
+void sw_scene_find_driven(sw_scene *scene);
 /* Returns the number of bodies made so far, including those that are gone: frames number them
  * all. */
 size_t sw_scene_bodies_made(const sw_scene *scene);

@@ -28,7 +28,8 @@ struct sw_scene {
   size_t hold_count, hold_capacity;
   sw_scene_obstacle *obstacles;
   size_t obstacle_count, obstacle_capacity;
-  sw_log contact_steps; /* time and span of the observed steps so far [s] */
+  uint32_t first_driven; /* as next_driven of an obstacle before the first; 0, 1: none */
+  sw_log contact_steps;  /* time and span of the observed steps so far [s] */
   sw_tool *tools;
   size_t tool_count, tool_capacity;
   sw_scene_force *forces;

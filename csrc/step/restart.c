@@ -52,7 +52,7 @@ sw_status sw_restart_jerks(const sw_scene *s, double time, double h, int *jerks,
     SW_TRY(drive_jerks(&t->drive, time, h, smooth, jerks, err));
     if (*jerks) return SW_OK;
   }
-  SW_EACH(obstacle, o, s) {
+  SW_EACH_DRIVEN(o, s) {
     if (o->alive && !o->drive.tool) SW_TRY(drive_jerks(&o->drive, time, h, smooth, jerks, err));
     if (*jerks) return SW_OK;
   }

@@ -225,9 +225,9 @@ sw_status sw_drives_first(const sw_scene *s, double h, sw_asked which, sw_when o
   }
   SW_EACH(tool, tool, s)
     SW_TRY(ask(tool->drive.motion, t - tool->drive.start, h, which, of, at, err));
-  SW_EACH(obstacle, o, s)
-    if (o->alive && !o->drive.tool)
-      SW_TRY(ask(o->drive.motion, t - o->drive.start, h, which, of, at, err));
+  SW_EACH_DRIVEN(o, s)
+  if (o->alive && !o->drive.tool)
+    SW_TRY(ask(o->drive.motion, t - o->drive.start, h, which, of, at, err));
   return SW_OK;
 }
 
