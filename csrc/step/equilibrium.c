@@ -183,5 +183,7 @@ sw_status sw_rest_find(sw_statics *p, sw_error *err) {
     *p->too_far = 1;
     return sw_fail(err, SW_ENOCONV, "a wire may spring past a clip");
   }
+  p->divides = p->may_divide && status == SW_ENOCONV && !sw_rest_dragged(p);
+  if (p->divides) return status;
   return sw_rest_continue(p, err);
 }

@@ -17,6 +17,9 @@ typedef struct sw_statics {
   int (*interrupted)(void);
   int rests;      /* 1: the search began in equilibrium, except for the motions of this pose */
   int most_far;   /* see sw_newton */
+  int slides;     /* 1: holds draw wires that something rubs */
+  int may_divide; /* 1: a part of the holds' path is divided if no equilibrium follows directly */
+  int divides;    /* 1: this part must be divided */
   double passing; /* accuracy before the last part of the holds' path: largest shift of a node, over
                      an edge [-] */
   double edge;    /* length of the shortest edge [m] */
