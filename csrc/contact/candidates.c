@@ -6,6 +6,7 @@
 #include "base/alloc.h"
 #include "base/interrupt.h"
 #include "contact/arc.h"
+#include "contact/depth.h"
 #include "contact/pads.h"
 #include "contact/round.h"
 #include "touch/same.h"
@@ -334,6 +335,7 @@ sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err)
       else if (!web || web->outer[i])
         status = node_candidates(c, s, b, i);
     set_stiffness(c, s, b, first);
+    sw_contact_find_drawn(c, s, b, first);
   }
   if (status == SW_OK) status = make_room(c, s->body_count);
   if (status != SW_OK) return sw_fail(err, status, "contact: %s", sw_status_text(status));

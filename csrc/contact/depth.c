@@ -4,6 +4,8 @@
 
 #include <math.h>
 
+#include "touch/drawn.h"
+
 /* A wire is limp if tension times edge^2 is above this multiple of EI: it bends within a small part
  * of an edge. Statics may leave the usual depth to a limp string; with less it does not settle
  * [-]. */
@@ -18,13 +20,36 @@ static int is_taut(const sw_system *s, const sw_candidate *k, const sw_touch *t)
   return t->press.normal_force >= k->squeezing && tension * edge * edge < LIMP * b->plan->beam.EI;
 }
 
+void sw_contact_find_drawn(sw_contact *c, const sw_system *s, size_t body, size_t first) {
+  if (c->regime == SW_CONTACT_EXPLICIT || s->bodies[body].plan->web) return;
+  sw_drawn drawn = sw_drawn_of(s, body);
+  for (size_t k = first; k < c->candidate_count; k++)
+    if (c->obstacles[c->candidates[k].obstacle].grips > 0)
+      sw_drawn_take(&drawn, c->candidates[k].node);
+  for (size_t k = first; k < c->candidate_count; k++)
+    c->candidates[k].drawn = sw_drawn_has(&drawn, c->candidates[k].node, c->candidates[k].other);
+}
+
+/* No smaller depth is asked for, in motion and in statics, where shifts of 1 nm end the search
+ * [m]. */
+static const double LEAST = 1e-7, LEAST_AT_REST = 1e-8;
+
+static double shortening(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                         const sw_touch *t) {
+  const double least = c->regime == SW_CONTACT_STATIC ? LEAST_AT_REST : LEAST;
+  if (!k->drawn) return HUGE_VAL;
+  return sw_drawn_depth(s, t->body, t->node, t->other, t->press.normal,
+                        sw_depth_for(least, k->radius));
+}
+
 double sw_contact_deepest(const sw_contact *c, const sw_system *s, const sw_touch *t) {
   const sw_candidate *k = &c->candidates[t->candidate];
   const int line = k->squeezing > 0, pad = c->obstacles[t->obstacle].grips > 0;
   if (!line || pad) return SW_DEEPEST;
   const double usual = sw_depth_for(SW_DEEPEST, k->radius);
-  if (c->regime == SW_CONTACT_STATIC && !is_taut(s, k, t)) return usual;
-  return sw_smaller(usual, SW_SHALLOW * k->radius);
+  const double shallow = sw_smaller(usual, SW_SHALLOW * k->radius);
+  const int still = c->regime == SW_CONTACT_STATIC;
+  return fmin(shortening(c, s, k, t), still && !is_taut(s, k, t) ? usual : shallow);
 }
 
 double sw_contact_depth_before(const sw_contact *c, const sw_system *s, const sw_touch *t) {

@@ -6,6 +6,9 @@
 
 #include "contact/touch.h"
 
+/* Marks those of the body's candidates, from number first on, with a hold, a join or
+ * pads on both sides. */
+void sw_contact_find_drawn(sw_contact *c, const sw_system *s, size_t body, size_t first);
 /* Largest allowed depth of the touch [m]. */
 double sw_contact_deepest(const sw_contact *c, const sw_system *s, const sw_touch *t);
 /* Depth of the touch's place at the step's start, negative outside [m]. It is measured along the

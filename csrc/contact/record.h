@@ -29,6 +29,7 @@ typedef struct sw_candidate {
   int round;        /* 1: with its curve at a thin round obstacle, elsewhere with chords */
   int arcs;         /* 1: with its arc at a round side, see contact/arc.h */
   double squeezing; /* from this force on the touch cannot come out; 0: no such force [N] */
+  int drawn;        /* 1: the wire is held on both sides of it, and may be drawn taut */
   double firm; /* at a round obstacle: how firmly a touch stays in the middle of its edge [-] */
   double firm_beside[2]; /* firmness on the previous and the next edge [-] */
   double lone;           /* lean of a touch, from 0 (the wire goes round) to 1 (straight) [-] */

@@ -8,6 +8,7 @@
 
 #include "mutual/mutual.h"
 #include "touch/bow.h"
+#include "touch/drawn.h"
 #include "touch/law.h"
 #include "touch/spot.h"
 #include "touch/tally.h"
@@ -43,6 +44,7 @@ typedef struct sw_meet {
   int emerges;     /* 1: the wires were placed in each other and still come out */
   int known;       /* 1: it pressed at the step's start */
   double reach;    /* sum of the radii [m] */
+  double deepest;  /* allowed depth within a step [m] */
   double usual;    /* stiffness of a new touch [N/m] */
   double stiffer;  /* stiffness from the next iterate on [N/m] */
   double aslant;   /* true distance minus the distance along the fixed normal of a barrier [m] */
@@ -54,11 +56,6 @@ typedef struct sw_meet {
   sw_vec square;   /* its normal without the lean [-] */
   sw_press press;  /* its normal points towards the first thing */
 } sw_meet;
-
-/* Largest allowed depth of the touch within a step [m]. */
-static inline double sw_meet_deepest(const sw_meet *t) {
-  return sw_depth_for(SW_DEEPEST, 0.5 * t->reach);
-}
 
 /* Memory of a touch between steps. */
 typedef struct sw_met {
@@ -132,6 +129,7 @@ struct sw_mutual {
   int more_soft;   /* such solves of the stage beyond the usual number [-] */
   double widest;   /* largest shift of a pressing touch in the last update, over the radii [-] */
   int calm;        /* 1: the last update moved no pressing touch far */
+  sw_drawn *drawn; /* (bodies) their stretches between holds */
   double *base;    /* (bodies) stiffness for each body's forces [N/m] */
   double *largest; /* (bodies) largest normal force that friction uses [N] */
   double *turns;   /* (edges) what sw_system_turns gives at this evaluation [rad] */

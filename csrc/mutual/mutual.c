@@ -16,8 +16,8 @@ sw_status sw_mutual_start(sw_mutual *m, const sw_finder *finder, const sw_pair_r
   m->finder = finder;
   m->bodies = bodies;
   SW_TRY(SW_ALLOC_ALL(SW_ROOM(m->rules, bodies * bodies), SW_ROOM(m->base, 2 * bodies),
-                      SW_ROOM(m->rubbing, bodies), SW_ROOM(m->turned, bodies),
-                      SW_ROOM(m->still.kept, bodies)));
+                      SW_ROOM(m->drawn, bodies), SW_ROOM(m->rubbing, bodies),
+                      SW_ROOM(m->turned, bodies), SW_ROOM(m->still.kept, bodies)));
   m->largest = m->base + bodies;
   memcpy(m->rules, rules, bodies * bodies * sizeof *rules);
   return SW_OK;
@@ -32,8 +32,8 @@ void sw_mutual_free(sw_mutual *m) {
   if (!m) return;
   m->finder->free(m);
   sw_spots_free(&m->spots);
-  SW_FREE_ALL(m->turns, m->turned, m->grid, m->rules, m->base, m->rubbing, m->touches, m->last,
-              m->hits, m->memory, m->next_memory, m->ways.list);
+  SW_FREE_ALL(m->turns, m->turned, m->grid, m->rules, m->base, m->drawn, m->rubbing, m->touches,
+              m->last, m->hits, m->memory, m->next_memory, m->ways.list);
   sw_meets_free(&m->still);
   sw_free(m);
 }
@@ -112,10 +112,12 @@ sw_status sw_mutual_begin_step(sw_mutual *m, sw_system *s, sw_contact_regime reg
   sw_mutual_regard(m, s, regime, h, nominal);
   m->hit_count = m->struck = m->barrier_count = 0;
   if (sw_mutual_set_aside(m, s) != SW_OK) return fail(m, SW_ENOMEM, err);
-  for (size_t b = 0; b < s->body_count; b++)
-    if (!s->bodies[b].waits && sw_mutual_takes_part(m, b))
-      sw_contact_stiffness(regime, s->bodies[b].plan, force_of(s, &s->bodies[b]), nominal,
-                           &m->base[b], &m->rate2);
+  for (size_t b = 0; b < s->body_count; b++) {
+    if (s->bodies[b].waits || !sw_mutual_takes_part(m, b)) continue;
+    sw_contact_stiffness(regime, s->bodies[b].plan, force_of(s, &s->bodies[b]), nominal,
+                         &m->base[b], &m->rate2);
+    m->drawn[b] = sw_drawn_of(s, b);
+  }
   const sw_status status = sw_mutual_choose(m, s);
   return status == SW_OK ? SW_OK : fail(m, status, err);
 }
