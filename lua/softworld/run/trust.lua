@@ -22,6 +22,7 @@ local kept = require "softworld.run.kept"
 local number = require "softworld.output.number"
 local process = require "softworld.run.process"
 local quantity = require "softworld.quantity"
+local replaced = require "softworld.run.replaced"
 local sealed = require "softworld.sealed"
 
 local trust = {}
@@ -306,10 +307,11 @@ end
 function trust.open(job)
   local scene, data = job.scene, build.data(job.scene)
   kept.begin(scene)
-  local start, restores = scene:snapshot(), data.restores
+  local start, restores, orders = scene:snapshot(), data.restores, replaced.image(scene)
   function job.restore()
     local fine, why = pcall(scene.restore, scene, start, true)
     data.restores = restores -- the records of earlier runs still exist
+    replaced.back(scene, orders)
     if not fine then error(why, 0) end -- of a `<close>` variable of a process
   end
   function job.close() start:close() end
