@@ -107,27 +107,6 @@ describe("an order that replaces another", function()
       assert.equal(0, #told(scene:run{ dt = 0.01 }, "replaced"))
     end
   end)
-
-  -- Each level of error bars begins at the state from which the run began, with its orders.
-  for before = 0, 1 do
-    it(("is told in runs for error bars as in others: %d orders before the run"):format(before), function()
-      local scene, wire = made()
-      local hold = scene:clamp(wire, { name = "end", s = 0.3 })
-      local motion = { points = { { 0, 0, 0 }, { 0, 0, 0.01 } }, relative = true, duration = 0.1 }
-      local ball = scene:obstacle{ name = "ball", shape = "sphere", radius = 0.01, at = { 0, 0, 1 } }
-      for _ = 1, before do ball:follow(motion) end
-      scene:process(function(p)
-        ball:follow(motion)
-        p:wait(0.1)
-        hold:follow(motion)
-        p:wait(0.1)
-      end)
-      local run = scene:run{ dt = 0.01, tolerance = { ["end.peak_force"] = 0.1 }, levels = 3 }
-      assert.is_true(run.ok, run.reason)
-      local texts = told(run, "replaced")
-      assert.equal(before, #texts, texts[1])
-    end)
-  end
 end)
 
 describe("a call that reports a failure by its result only", function()
