@@ -2,8 +2,8 @@
 -- What gripper:clip says where the wire does not go in because it lies tilted, or beside the clip.
 local sw = require "softworld"
 
--- Returns the error of pressing a wire into a clip. how: tilt [deg] of the wire over the clip, beside [m]: how
--- far it lies beside it, at [m]: the clip's place along it; align.
+-- Returns the error of pressing a wire into a clip. how: tilt of the wire over the clip [deg]; beside: how
+-- far it lies beside it [m]; at: the clip's place along it [m]; align.
 local function refused(how)
   local scene = sw.scene{ gravity = { 0, 0, 0 } }
   local angle, y = math.rad(how.tilt or 0), how.beside or 0
