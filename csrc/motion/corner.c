@@ -23,6 +23,11 @@ static const double AT_ONCE = 0.8;
 static const double BESIDE = 2, FURTHER = 1, SHORT = 5;
 /* Jumps earlier than this count as at the start; in difference steps [-]. */
 static const double AT_START = 0.5;
+/* Where a part ends at a jump, the time found for it is up to a third of a difference step too
+ * early. The rest would be a part of its own, so short that forces come from errors of the
+ * velocities. Jumps this near to the end count as at the end; in difference steps, and at most this
+ * share of the part [-]. */
+static const double AT_END = 0.5, END_SHARE = 0.1;
 
 static double change(const sw_motion_state *a, const sw_motion_state *b) {
   return sw_dist(a->a, b->a) + sw_dist(a->alpha, b->alpha);
@@ -114,13 +119,16 @@ static sw_status jump_in(const sw_motion *m, double t, double from, double to, d
 }
 
 sw_status sw_motion_corner(const sw_motion *m, double t, double h, double *at, sw_error *err) {
-  const double step = sw_motion_step(m);
+  const double step = sw_motion_step(m), left = sw_motion_end(m) - t;
   double own = HUGE_VAL;
+  /* A motion rests from its end on: a part that ends there would see that as a corner inside it. */
+  if (left > step && fabs(h - left) < AT_START * step) h = left - AT_START * step;
   SW_TRY(jump_in(m, t, -step, h, &own, err));
   if (own < AT_START * step) { /* the method has just started anew for this one */
     own = HUGE_VAL;
     SW_TRY(jump_in(m, t, BESIDE * step, h, &own, err));
   }
+  if (own > h - fmin(AT_END * step, END_SHARE * h)) return SW_OK;
   *at = fmin(*at, own);
   return SW_OK;
 }

@@ -210,6 +210,12 @@ static void keep_mean(const sw_scene *s, size_t w, sw_extreme *kept) {
   keep_largest(kept, &mean);
 }
 
+/* The same for a new window; its means are loads of the wear too. */
+static void count_means(sw_scene *s, size_t w, sw_extreme *kept) {
+  keep_mean(s, w, kept);
+  sw_scene_wear_means(s, w);
+}
+
 /* Returns the mean tensions of edges or slices over the step, if the method gives them, else NULL.
  * The axial force at the step's end is as good for a steady pull but misses impulses. Where a feed
  * stopped at once, it was up to three times too large at all step sizes, since it grows as steps
@@ -248,9 +254,9 @@ static void add_step(sw_scene *s, size_t w, const double *T, sw_extreme *kept) {
   double from = end - course->span;
   /* NOLINTNEXTLINE(cert-flp30-c): from cut to cut, which are found anew each time */
   for (double at; (at = sw_window_cut(window, end, course->window)) < end; from = at)
-    if (sw_window_add(window, values, at, at - from, course->window)) keep_mean(s, w, kept);
+    if (sw_window_add(window, values, at, at - from, course->window)) count_means(s, w, kept);
   if (sw_window_add(window, values, end, end - from, course->window) && sw_scene_is_averaged(s))
-    keep_mean(s, w, kept);
+    count_means(s, w, kept);
 }
 
 static void keep_tension(sw_scene *s, size_t w, const sw_wire_extremes *now) {

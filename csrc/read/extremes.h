@@ -21,6 +21,10 @@ void sw_scene_reset_extremes(sw_scene *scene);
 /* 1 if the step that led to this state counts by window means. Steps as long as the window, and
  * equilibria, count as they are. */
 int sw_scene_is_averaged(const sw_scene *scene);
+/* Counts the mean tensions over the window as loads of the wire's recorded wear, whose places must
+ * be the present ones. sw_scene_end_wear: at the end of a run, those that are not counted yet. */
+void sw_scene_wear_means(sw_scene *scene, size_t wire);
+void sw_scene_end_wear(sw_scene *scene);
 /* Returns the axial forces of a line's edges (edges) for the wear: at the step's end, or of a
  * coarse step the means over the step [N]. */
 const double *sw_scene_step_tension(const sw_scene *scene, const sw_body *body);

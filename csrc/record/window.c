@@ -120,7 +120,7 @@ int sw_window_waits(const sw_window *w) {
   return w->marks && w->now > w->time[slot(w, w->marks - 1)];
 }
 
-size_t sw_window_largest(const sw_window *w, double window, double *mean) {
+sw_window_last sw_window_present(const sw_window *w, double window) {
   const double length = fmin(window, w->now - w->begun), from = w->now - length;
   size_t k = w->marks; /* the first mark inside the window; the search starts at the newest */
   while (k > 0 && !(w->time[slot(w, k - 1)] < from)) k--;
@@ -128,15 +128,20 @@ size_t sw_window_largest(const sw_window *w, double window, double *mean) {
   const double *one = k > 0 ? mark_of(w, k - 1) : two;
   const double t2 = k < w->marks ? w->time[slot(w, k)] : w->now;
   const double t1 = k > 0 ? w->time[slot(w, k - 1)] : t2;
-  const double b = t2 > t1 ? fmax(0.0, (from - t1) / (t2 - t1)) : 1.0, a = 1.0 - b;
-  const double largest = largest_rise(w->edges, sum, a, one, b, two);
+  const double b = t2 > t1 ? fmax(0.0, (from - t1) / (t2 - t1)) : 1.0;
+  return (sw_window_last){sum, one, two, 1.0 - b, b, length};
+}
+
+size_t sw_window_largest(const sw_window *w, double window, double *mean) {
+  const sw_window_last p = sw_window_present(w, window);
+  const double largest = largest_rise(w->edges, p.sum, p.a, p.one, p.b, p.two);
   size_t edge = 0;
   for (size_t e = 0; e < w->edges; e++)
-    if (!(sum[e] - (a * one[e] + b * two[e]) < largest)) {
+    if (!(p.sum[e] - (p.a * p.one[e] + p.b * p.two[e]) < largest)) {
       edge = e;
       break;
     }
-  *mean = largest / length;
+  *mean = largest / p.length;
   return edge;
 }
 

@@ -46,6 +46,19 @@ double sw_window_cut(const sw_window *w, double time, double window);
 /* Returns the edge with the largest mean over the window that ends at present, and the mean. While
  * the record is shorter than the window, the mean is over the whole record. */
 size_t sw_window_largest(const sw_window *w, double window, double *mean);
+
+/* The window that ends at present: the integrals at its ends, and the means of all edges. */
+typedef struct sw_window_last {
+  const double *sum, *one, *two; /* now, and at both marks beside its begin (edges) */
+  double a, b;                   /* weights of the marks [-] */
+  double length;                 /* [s] */
+} sw_window_last;
+
+/* The record must not be empty. While it is shorter than the window, all of it counts. */
+sw_window_last sw_window_present(const sw_window *w, double window);
+static inline double sw_window_mean(const sw_window_last *p, size_t e) {
+  return (p->sum[e] - (p->a * p->one[e] + p->b * p->two[e])) / p->length;
+}
 /* 1 if the record is at least as long as the window. */
 int sw_window_full(const sw_window *w, double window);
 /* 1 if something was added since the mean was last due. */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "body/touching.h"
+#include "read/extremes.h"
 #include "scene/course.h"
 #include "scene/events.h"
 #include "scene/ledger.h"
@@ -296,6 +297,7 @@ sw_status sw_scene_end_run(sw_scene *s, sw_error *why) {
   const sw_ledger *l = &sw_scene_books(s)->sums;
   const double share = l->play > 0 ? l->gained / l->play : 0.0;
   sw_scene_end_breaking(s);
+  sw_scene_end_wear(s);
   sw_outer_end_run(s);
   sw_scene_end_corners(s);
   sw_scene_end_bends(s);

@@ -77,8 +77,9 @@ static sw_status run_loop(sw_ladder *p, double until, int (*interrupted)(void), 
   return SW_OK;
 }
 
-static void conclude(sw_scene *s, sw_status status, sw_run_report *report, const sw_error *why) {
-  char broken[SW_NAME_SIZE + 100], pressed[2 * SW_NAME_SIZE + 150];
+static void conclude(sw_scene *s, const sw_run_args *args, sw_status status, sw_run_report *report,
+                     const sw_error *why) {
+  char broken[SW_NAME_SIZE + 100], pressed[2 * SW_NAME_SIZE + 150], used[SW_NAME_SIZE + 150] = "";
   report->status = status;
   report->time = sw_scene_time(s);
   if (status == SW_OK || status == SW_EINTR || status == SW_ECALLBACK) return;
@@ -87,8 +88,9 @@ static void conclude(sw_scene *s, sw_status status, sw_run_report *report, const
   report->status = status == SW_ENOMEM ? SW_ENOMEM : SW_EDIVERGED;
   sw_scene_tell_broken(s, broken, sizeof broken);
   sw_scene_tell_pressed(s, pressed, sizeof pressed);
-  sw_fail(&report->reason, status, "at t = %.6g s: %.400s%s%s", sw_scene_time(s),
-          why->text[0] ? why->text : sw_status_text(status), pressed, broken);
+  if (args->quasistatic) sw_scene_tell_used_up(s, used, sizeof used);
+  sw_fail(&report->reason, status, "at t = %.6g s: %.400s%s%s%s", sw_scene_time(s),
+          why->text[0] ? why->text : sw_status_text(status), used, used[0] ? "" : pressed, broken);
   if (report->status != SW_EDIVERGED) return;
   sw_scene_diverge(s, &report->reason);
 }
@@ -186,7 +188,7 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   report->evaluations = sw_scene_system(s)->counters.evaluations - before.evaluations;
   report->solves = sw_scene_system(s)->counters.solves - before.solves;
   report->looks = sw_scene_system(s)->counters.looks - before.looks;
-  conclude(s, status, report, &why);
+  conclude(s, args, status, report, &why);
   if (status == SW_ECALLBACK) sw_course_jump(sw_scene_course(s));
   return SW_OK;
 }

@@ -20,6 +20,8 @@
 
 static sw_status observe_wire(sw_scene *s, size_t w, sw_error *err) {
   sw_wire_extremes now;
+  if (sw_scene_wears(s))
+    SW_TRY(sw_wear_fit(s, w, err)); /* extremes count the mean tensions there */
   SW_TRY(sw_scene_note_extremes(s, w, &now, err));
   sw_scene_watch_kink(s, w, &now);
   sw_scene_watch_breaking(s, w, &now);

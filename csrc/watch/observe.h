@@ -104,6 +104,9 @@ void sw_scene_watch_poke(sw_scene *scene, size_t wire);
  * sentence, or "". */
 void sw_scene_tell_pressed(sw_scene *scene, char *out, size_t size);
 
+/* Writes which gripper's pads use up their friction, as the end of a sentence, or "". */
+void sw_scene_tell_used_up(const sw_scene *scene, char *out, size_t size);
+
 /* Reports wires that are perfectly straight, or slow and in a plane, and pushed beyond buckling.
  * SW_ENOMEM, SW_ECALLBACK. */
 sw_status sw_scene_look_for_buckling(sw_scene *scene, sw_error *err);

@@ -242,7 +242,23 @@ static sw_status make_room(sw_wear *w) {
   return w->across ? SW_OK : SW_ENOMEM;
 }
 
+static sw_status out_of_memory(const sw_scene *s, size_t w, sw_error *err) {
+  return sw_fail(err, SW_ENOMEM, "out of memory for the wear of '%s'",
+                 sw_scene_wire_in(s, w)->name);
+}
+
+sw_status sw_wear_fit(sw_scene *s, size_t w, sw_error *err) {
+  const sw_body *b = &sw_scene_system(s)->bodies[w];
+  layout l;
+  if (b->plan->web && !b->plan->web->per_ring) return SW_OK;
+  sw_status status = lay_out(sw_scene_system(s), b, &l);
+  if (status == SW_OK) status = fit(&sw_scene_wire_in(s, w)->wear, &l);
+  sw_free(l.sides);
+  return status == SW_OK ? SW_OK : out_of_memory(s, w, err);
+}
+
 sw_status sw_wear_note(sw_scene *s, size_t w, int rubs, sw_error *err) {
+  const int averaged = rubs && sw_scene_is_averaged(s);
   sw_system *system = sw_scene_system(s);
   sw_wear *wear = &sw_scene_wire_in(s, w)->wear;
   const sw_body *b = &system->bodies[w];
@@ -252,17 +268,15 @@ sw_status sw_wear_note(sw_scene *s, size_t w, int rubs, sw_error *err) {
   sw_status status = lay_out(system, b, &l);
   if (status == SW_OK) status = fit(wear, &l);
   if (status == SW_OK) status = make_room(wear);
-  if (status == SW_OK && web) sw_wear_count_mesh(system, b, wear);
+  if (status == SW_OK && web) sw_wear_count_mesh(system, b, averaged, wear);
   if (status == SW_OK && !web)
     sw_wear_count_line(system, b, l.sides,
-                       rubs ? sw_scene_step_tension(s, b) : sw_system_pull(system, b), wear);
+                       rubs ? sw_scene_step_tension(s, b) : sw_system_pull(system, b), averaged,
+                       wear);
   if (status == SW_OK && rubs) {
     sw_wear_rub(s, b, wear);
     status = press(s, &l, wear);
   }
   sw_free(l.sides);
-  if (status != SW_OK)
-    return sw_fail(err, SW_ENOMEM, "out of memory for the wear of '%s'",
-                   sw_scene_wire_in(s, w)->name);
-  return SW_OK;
+  return status == SW_OK ? SW_OK : out_of_memory(s, w, err);
 }

@@ -17,8 +17,10 @@
 #include "scene/scene.h"
 #include "system/system.h"
 
-/* Notes the present state of wire w. rubs = 1: a step led to it, in which touches slid.
- * SW_ENOMEM. */
+/* Makes the recorded places those of the present state. SW_ENOMEM. */
+sw_status sw_wear_fit(sw_scene *scene, size_t w, sw_error *err);
+/* Does so, and notes the present state of wire w. rubs = 1: a step led to it, in which touches
+ * slid. SW_ENOMEM. */
 sw_status sw_wear_note(sw_scene *scene, size_t w, int rubs, sw_error *err);
 
 /* Load of one place at a state. */
@@ -26,16 +28,18 @@ typedef struct sw_wear_load {
   sw_vec tangent, across; /* wire tangent; direction that turns with the wire [-] */
   sw_vec bend;            /* curvature, across the wire towards where it bends [1/m] */
   double tension;         /* [N] */
+  int averaged;           /* 1: its tension is counted by means over the window, see
+                             sw_scene_wear_means */
 } sw_wear_load;
 
 /* Adds a load to the cycles of place k. anew = 1: across has changed its meaning since the last
  * step; the place keeps its own direction, as if it had not rolled in this step. */
 void sw_wear_count(sw_wear *wear, size_t k, const sw_wear_load *load, int anew);
 /* The same for all places of a line, with the sides that are its last places and the axial forces T
- * of its edges [N]; and of a mesh. */
+ * of its edges [N]; and of a mesh. averaged: see sw_wear_load. */
 void sw_wear_count_line(const sw_system *system, const sw_body *body, const sw_bent_side *sides,
-                        const double *T, sw_wear *wear);
-void sw_wear_count_mesh(const sw_system *system, const sw_body *body, sw_wear *wear);
+                        const double *T, int averaged, sw_wear *wear);
+void sw_wear_count_mesh(const sw_system *system, const sw_body *body, int averaged, sw_wear *wear);
 /* Returns a vector of this size in the direction of the tangent's change, across the tangent t
  * [1/m]. */
 sw_vec sw_wear_towards(sw_vec change, sw_vec t, double size);

@@ -25,9 +25,8 @@ static void turn_place(sw_wear_place *x, sw_vec tangent, sw_vec across, int anew
   x->across = sw_turned(across, tangent, x->turn);
 }
 
-static void count_place(sw_cycles *c, const sw_wear_place *x, double tension, sw_vec bend) {
+static void count_bend(sw_cycles *c, const sw_wear_place *x, sw_vec bend) {
   const double one = sw_dot(bend, x->across), two = sw_dot(bend, sw_cross(x->tangent, x->across));
-  sw_cycles_add(&c[0], tension);
   for (int k = 0; k < SW_WEAR_WAYS; k++) {
     const double angle = k * 3.14159265358979323846 / SW_WEAR_WAYS;
     sw_cycles_add(&c[1 + k], one * cos(angle) + two * sin(angle));
@@ -37,6 +36,8 @@ static void count_place(sw_cycles *c, const sw_wear_place *x, double tension, sw
 void sw_wear_count(sw_wear *w, size_t k, const sw_wear_load *load, int anew) {
   sw_wear_place *x = &w->places[k];
   turn_place(x, load->tangent, load->across, anew);
-  count_place(&w->cycles[SW_WEAR_SIGNALS * k], x, load->tension, load->bend);
+  sw_cycles *cycles = &w->cycles[SW_WEAR_SIGNALS * k];
+  if (!load->averaged) sw_cycles_add(&cycles[0], load->tension);
+  count_bend(cycles, x, load->bend);
   x->load = load->tension * sw_norm(load->bend), x->touches = 0;
 }

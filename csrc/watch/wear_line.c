@@ -55,7 +55,7 @@ static double tension_at(const sw_plan *p, const sw_bent_side *sides, const doub
 }
 
 void sw_wear_count_line(const sw_system *s, const sw_body *b, const sw_bent_side *sides,
-                        const double *T, sw_wear *wear) {
+                        const double *T, int averaged, sw_wear *wear) {
   const sw_plan *p = b->plan;
   sw_vec *across = wear->across;
   sw_wear_place *start = &wear->places[0];
@@ -70,7 +70,8 @@ void sw_wear_count_line(const sw_system *s, const sw_body *b, const sw_bent_side
     const sw_wear_load load = {.tangent = sw_field_tangent(&b->field, edge_of(p, sides, k)),
                                .across = across_at(b, sides, across, k),
                                .bend = bend_of(s, b, sides, k),
-                               .tension = tension_at(p, sides, T, k)};
+                               .tension = tension_at(p, sides, T, k),
+                               .averaged = averaged};
     sw_wear_count(wear, k, &load, wear->holds != holds && !(free_start && k == 0));
   }
   wear->holds = holds;

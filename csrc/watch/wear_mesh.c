@@ -68,7 +68,7 @@ static uint64_t axes(const sw_plan *p, const double *x, sw_vec *across) {
   return sum | 1;
 }
 
-void sw_wear_count_mesh(const sw_system *s, const sw_body *b, sw_wear *wear) {
+void sw_wear_count_mesh(const sw_system *s, const sw_body *b, int averaged, sw_wear *wear) {
   const sw_plan *p = b->plan;
   const sw_web *w = p->web;
   const double *x = s->x + 3 * b->first_node, *T = sw_system_elastic(s, b);
@@ -83,7 +83,8 @@ void sw_wear_count_mesh(const sw_system *s, const sw_body *b, sw_wear *wear) {
     const sw_wear_load load = {.tangent = t,
                                .across = wear->across[r],
                                .bend = bend,
-                               .tension = near.tension + f * (next.tension - near.tension)};
+                               .tension = near.tension + f * (next.tension - near.tension),
+                               .averaged = averaged};
     sw_wear_count(wear, r, &load, wear->holds != holds);
     if (r > 0 && r + 2 < w->rings) near = next, next = sw_strand_slice(p, x, T, T, r + 1);
   }

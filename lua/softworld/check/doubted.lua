@@ -50,8 +50,8 @@ local kinds = {
 
 local UNKNOWN = "come from nowhere" -- in events `energy` about a gap that no step made
 
--- Members without `peaks` that depend on forces of holds all the same.
-local mean = checks.set "mean_force"
+-- Members without `peaks` that depend on forces all the same.
+local mean = checks.set "mean_force fatigue"
 
 -- True if the event doubts the row of this object.
 local function concerns(kind, e, member, entry)

@@ -3,7 +3,8 @@
 -- and of bending are counted there by rainflow and summed by Miner's rule, times repeats, with the S-N curves
 -- of the script, else of the cable, else of its copper strands, whose spread is wide.
 --
--- With scene:run{ wear = true } all steps count. Bending is then that of the fibres all round the wire:
+-- With scene:run{ wear = true } all steps count, tensions as means over the run's window (help "peaks"):
+-- those of single steps grow as steps get shorter. Bending is then that of the fibres all round the wire:
 -- bending to and fro is one cycle of the whole range, and rolling a bent wire counts as bending. Without it
 -- only the tensions of the stored frames count, and no bending, because curvature is stored without its sign.
 -- @module softworld.check.fatigue
@@ -13,6 +14,7 @@ local rainflow = require "softworld.check.rainflow"
 local stored = require "softworld.check.stored"
 local tension = require "softworld.check.tension"
 local worn = require "softworld.check.worn"
+local window = require "softworld.run.window"
 
 local WAYS = 12 -- directions in which bending is counted [-]
 
@@ -72,6 +74,15 @@ local function of_place(object, k, given, strength)
     bend = around(sums)
   end
   return pull + bend, pull_range, bend_range
+end
+
+local BLOW = 1.5 -- raw tension over its mean, from which a blow is told [-]
+
+-- Returns how the largest tension was measured, if a step had much more: the cycles do not count that.
+local function blow(entry, context)
+  local value, _, _, note = window.tension(context.scene, entry.object)
+  local raw = entry.object:max_tension{ raw = true }
+  return raw > BLOW * math.max(0, value) and "tension: " .. note or nil
 end
 
 local function of_steps(entry, given, places, strength)
@@ -146,7 +157,12 @@ end
 
 local function at_curves(entry, context, given, strength)
   local places = worn.places(entry)
-  if places then return of_steps(entry, given, places, strength) end
+  if places then
+    local best = of_steps(entry, given, places, strength)
+    local told = best.note and given.curve and blow(entry, context)
+    best.note = told and best.note .. "; " .. told or best.note
+    return best
+  end
   if given.bending then return worn.missing() end
   return of_frames(entry, context, strength, given)
 end

@@ -5,6 +5,7 @@ local build = require "softworld.scene.build"
 local process = require "softworld.run.process"
 local rows = require "softworld.rows"
 local checks = require "softworld.checks"
+local number = require "softworld.output.number"
 local vec = require "softworld.vec"
 local Clip = require "softworld.link.clip"
 local Gripper = require "softworld.grip.gripper"
@@ -51,13 +52,17 @@ local function place(self, clip)
 end
 
 -- Returns where the wire nearest to the seat passes the clip: height, offset across [m], its
--- radius and the height of the lips for this wire [m]. nil if no wire passes.
+-- radius and the height of the lips for this wire [m]; its tilt against the clip's axis [rad]; the wire. nil
+-- if no wire passes.
 local function passing(clip)
   local best, across = nil, vec.cross(clip.direction, clip.axis)
   local function look(wire, a, b, along_a, along_b)
     local d = vec.add(a, vec.add(b, a, -1), along_a / (along_a - along_b))
     local u, v = vec.dot(d, clip.direction), vec.dot(d, across)
-    if not best or u * u + v * v < best.u ^ 2 + best.v ^ 2 then best = { u = u, v = v, wire = wire } end
+    if best and u * u + v * v >= best.u ^ 2 + best.v ^ 2 then return end
+    local edge = vec.add(b, a, -1)
+    local tilt = math.acos(math.min(1, math.abs(along_b - along_a) / vec.norm(edge)))
+    best = { u = u, v = v, wire = wire, tilt = tilt }
   end
   for _, entry in ipairs(build.data(clip.scene).wires) do
     local x = (clip.on == nil or clip.on == entry.object) and entry.object:positions() or {}
@@ -70,7 +75,44 @@ local function passing(clip)
     end
   end
   if not best then return nil end
-  return best.u, best.v, best.wire.radius, clip.object:read(best.wire).way
+  return best.u, best.v, best.wire.radius, clip.object:read(best.wire).way, best.tilt, best.wire
+end
+
+local function length(x) return number.text(math.abs(x) < 1e-9 and 0 or math.abs(x), "m") end
+
+-- Returns the end of a sentence: how far away the wire is that no clip reaches.
+local function nearest(clip)
+  local least, text = math.huge, ""
+  for _, entry in ipairs(build.data(clip.scene).wires) do
+    local x, s = entry.object:positions()
+    for i = 1, (clip.on == nil or clip.on == entry.object) and #s or 0 do
+      local d = vec.add({ x[3 * i - 2], x[3 * i - 1], x[3 * i] }, clip.at, -1)
+      if vec.norm(d) < least then
+        least = vec.norm(d)
+        text = ("; the nearest place of wire '%s', s = %.4g m, is %s off along its axis and %s across")
+          :format(entry.name, s[i], length(vec.dot(d, clip.axis)),
+            length(vec.dot(d, vec.cross(clip.direction, clip.axis))))
+      end
+    end
+  end
+  return text
+end
+
+local TILTED = math.rad(5) -- smaller tilts are not named: lips take them
+
+-- Returns the end of a sentence: how the wire lay over the mouth, if that may be why it does not go in.
+local function lay(clip)
+  local _, v, radius, _, tilt, wire = passing(clip)
+  local list = {}
+  if v and math.abs(v) > radius then
+    list[1] = ("wire '%s' lay %s beside the clip's middle: move the gripper across, by gripper:move or with "
+      .. "align = true"):format(wire.name, length(v))
+  end
+  if v and tilt > TILTED then
+    list[#list + 1] = ("wire '%s' lay over the mouth tilted by %.0f deg to the clip's axis: turn the "
+      .. "gripper, by gripper:move{ turn = }"):format(wire.name, math.deg(tilt))
+  end
+  return #list > 0 and "; " .. table.concat(list, "; ") or ""
 end
 
 local LINED_UP = 0.02 -- sufficient alignment: offset of the wire over the mouth, over its radius
@@ -81,8 +123,8 @@ local function line_up(self, clip, args, what)
   local tool = place(self, clip)
   local u, _, radius, way = passing(clip)
   if not u then
-    error(("%s: no wire passes '%s'; first move the wire that it holds over the clip's mouth"):format(what,
-      clip.name), 0)
+    error(("%s: no wire passes '%s'%s; first move the wire that it holds over the clip's mouth"):format(what,
+      clip.name, nearest(clip)), 0)
   end
   if math.min(u, tool) < 0.5 * way then
     error(("%s: the wire is %.4g m and the tool %.4g m over the seat of '%s', whose lips are at %.4g m; "
@@ -125,12 +167,13 @@ end
 -- Returns the largest force of the gripper towards the seat, and the reason if the wire did not go in.
 local function press(self, clip, args, way, radius)
   local goal = -(args.overtravel or radius)
-  local most, u = 0, place(self, clip)
+  local most, u, lies = 0, place(self, clip), lay(clip)
   while not clip:seated() do
     local step = math.min(stride(clip, way), u - goal)
     if step < 1e-9 then
       return most, ("the tool went %.4g m beyond the seat with at most %.4g N, and the wire beside it did "
-        .. "not go in; grasp the wire nearer to the clip, or give more overtravel"):format(-goal, most)
+        .. "not go in%s"):format(-goal, most, lies ~= "" and lies
+        or "; grasp the wire nearer to the clip, or give more overtravel")
     end
     push_on(self, clip, step, args.speed)
     local before = u
@@ -142,8 +185,8 @@ local function press(self, clip, args, way, radius)
     most = math.max(most, -vec.dot(self:force(), clip.direction))
     if most > args.max_force and not clip:seated() then
       return most, ("the force reached %.4g N, above max_force = %.4g N, with the tool %.4g m over the seat; "
-        .. "the lips had resisted with %.4g N%s"):format(most, args.max_force, u, clip.peak_insertion_force,
-        taut(self.wire, clip, most))
+        .. "the lips had resisted with %.4g N%s%s"):format(most, args.max_force, u, clip.peak_insertion_force,
+        lies, taut(self.wire, clip, most))
     end
   end
   local home = math.min(HOME * way / STEPS, u - goal)

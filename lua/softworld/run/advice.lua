@@ -16,6 +16,8 @@ local known = {
   { "hold of a wire turns", "slower turns, or a smaller dt" },
   { "cuts too deep", "a smaller dt, slower moves, or rounder edges" },
   { "impacts do not come to an end", "a smaller dt, or restitution = 0" },
+  { "no equilibrium exists", "a run without quasistatic, which computes how the wire slips; a larger force "
+    .. "of the jaws; or a smaller pull" },
   { "nothing holds a wire", "a clamp, or an obstacle that the wire can lie on" },
 }
 
@@ -83,7 +85,7 @@ end
 
 --- Returns a phrase that follows "try". scene: that of the run, if known.
 function advice.of(reason, args, scene)
-  local path = scene and path_of(reason, scene)
+  local path = scene and not reason:find("no equilibrium exists", 1, true) and path_of(reason, scene)
   if path then return path end
   if args.integrator and is_explicit(args.integrator) then
     return "dt below scene:stable_dt(), or an implicit integrator"

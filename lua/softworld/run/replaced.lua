@@ -33,6 +33,23 @@ function replaced.tell(scene, name, what, order, ends)
       process.current() and "" or "; outside a process no call waits") })
 end
 
+local function scene_of(object) return (select(4, core.number(object))) end
+
+--- Returns the last orders of a scene's holds and obstacles, for replaced.back.
+function replaced.image(scene)
+  local kept = {}
+  for object, order in pairs(orders) do
+    if scene_of(object) == scene then kept[object] = order end
+  end
+  return kept
+end
+
+--- Puts them back, after a return to the moment at which they were the last ones.
+function replaced.back(scene, kept)
+  for object in pairs(replaced.image(scene)) do orders[object] = nil end
+  for object, order in pairs(kept) do orders[object] = order end
+end
+
 -- True if a gripper has this hold: then gripper:move has told.
 local function is_gripped(scene, object)
   for _, gripper in ipairs(build.data(scene).grippers) do
@@ -60,7 +77,7 @@ local function watched(kind, name, always)
     return seconds, ...
   end
   core.class[kind][name] = function(object, ...)
-    local scene = select(4, core.number(object))
+    local scene = scene_of(object)
     if not scene then return method(object, ...) end -- an error
     return done(object, scene, (...) ~= nil, method(object, ...))
   end

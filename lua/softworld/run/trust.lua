@@ -22,6 +22,7 @@ local kept = require "softworld.run.kept"
 local number = require "softworld.output.number"
 local process = require "softworld.run.process"
 local quantity = require "softworld.quantity"
+local replaced = require "softworld.run.replaced"
 local sealed = require "softworld.sealed"
 
 local trust = {}
@@ -189,6 +190,30 @@ local function describe(job, k)
   return ("level %d, %s"):format(k, number.count(most, "segment"))
 end
 
+-- Returns the longest edges of level k and the wire that has them, in words.
+local function edges_of(job, k)
+  local longest, text = 0, ""
+  for i, n in ipairs(trust.counts(job, k)) do
+    local wire = build.data(job.scene).wires[i]
+    local edge = wire and wire.object.length / n or 0
+    if edge > longest then
+      longest = edge
+      text = (", wire '%s' has edges of %s, where the script asks for %s"):format(wire.name,
+        number.text(edge, "m"), number.text(edge * 2 ^ (k - 1) * job.share, "m"))
+    end
+  end
+  return text
+end
+
+-- Computes level k. An error of the script or of one of its calls tells the level: its edges may be longer
+-- than those that the script asks for.
+local function computed(job, k, compute)
+  local fine, result = pcall(compute, k, describe(job, k))
+  if fine then return result end
+  if type(result) ~= "string" or checks.is_interrupt(result) then error(result, 0) end
+  error(("%s (in %s for error bars: on level %d%s)"):format(result, job.what, k, edges_of(job, k)), 0)
+end
+
 -- Raises an error if wires came or went: levels have segments for the wires that exist at their start.
 local function check_wires(job)
   local data = build.data(job.scene)
@@ -228,7 +253,7 @@ local function climb(job, compute)
       if job.arrange then job.arrange() end
       core.remesh(job.scene, trust.counts(job, k))
       begun = os.clock()
-      result = compute(k, describe(job, k))
+      result = computed(job, k, compute)
       job.levels[#job.levels + 1] = { segments = trust.counts(job, k), ok = result.ok, reason = result.reason,
         cpu = os.clock() - begun }
     end
@@ -306,10 +331,11 @@ end
 function trust.open(job)
   local scene, data = job.scene, build.data(job.scene)
   kept.begin(scene)
-  local start, restores = scene:snapshot(), data.restores
+  local start, restores, orders = scene:snapshot(), data.restores, replaced.image(scene)
   function job.restore()
     local fine, why = pcall(scene.restore, scene, start, true)
     data.restores = restores -- the records of earlier runs still exist
+    replaced.back(scene, orders)
     if not fine then error(why, 0) end -- of a `<close>` variable of a process
   end
   function job.close() start:close() end
