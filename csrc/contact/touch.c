@@ -179,6 +179,17 @@ static const sw_memory *pressed_memory(const sw_contact *c, const sw_system *s,
   return other && other->segment && away(other, k, at) < away(own, k, at) ? other : own;
 }
 
+/* Returns the memory of a touch that let go although its place is still deep, because the rest of
+ * its depth was left to it; else NULL. It is the same touch, without a force: with the force of a
+ * neighbour, which still presses at its own place, it would press from one moment to the next, at
+ * any size of step, and make energy. */
+static const sw_memory *rested_memory(const sw_contact *c, const sw_candidate *k, double at,
+                                      int feature) {
+  const sw_memory *own = sw_contact_remembered(c, k, at, feature);
+  if (c->regime != SW_CONTACT_IMPLICIT || !own || own->kept.normal_force > 0) return NULL;
+  return own->kept.left > 0 && fabs(own->at - at) < SW_SAME_TOUCH ? own : NULL;
+}
+
 /* A predicted slide of a mesh's particle counts only if a spring of this multiple of its inertia
  * would slide too. A prediction moves a sticking particle far more than its touch's spring yields,
  * although only its inertia requires that [-]. */
@@ -356,7 +367,8 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
                                const double *y, const sw_place *place) {
   const sw_closest *near = &place->near;
   const double at = k->segment ? near->at : 0.0;
-  const sw_memory *m = pressed_memory(c, s, k, at, near->feature);
+  const sw_memory *rested = rested_memory(c, k, at, near->feature);
+  const sw_memory *m = rested ? NULL : pressed_memory(c, s, k, at, near->feature);
   const sw_touch *last = last_for(c, k, at, near->feature);
   const sw_vec out = sw_rotate(c->now[k->obstacle].pose.q, near->normal);
   const sw_plan *plan = s->bodies[k->body].plan;
@@ -376,7 +388,7 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
   press->by_place = goes_by_place(c, s, k);
   press->gap += sw_contact_aslant(c, k->node, k->other, at, press->normal);
   press->soft = sw_contact_softness(c, s, m, t);
-  const sw_kept *const kept = m ? &m->kept : NULL;
+  const sw_kept *const kept = rested ? &rested->kept : m ? &m->kept : NULL;
   t->squeezed = sw_contact_is_squeezed(c, s, k, kept, t);
   sw_contact_forgive(c, s, k, kept, y, t);
   if (m && !t->squeezed)
