@@ -167,6 +167,29 @@ static sw_vec shift_since(const sw_contact *c, const sw_system *s, const sw_touc
   return sw_sub(now, sw_pose_point(c->now[t->obstacle].pose, m->seen));
 }
 
+/* 1 if one of the touches from first to end is that of the memory and presses. */
+static int presses(const sw_touch *list, size_t first, size_t end, int obstacle,
+                   const sw_memory *m) {
+  for (size_t i = first; i < end; i++) {
+    const sw_touch *t = &list[i];
+    if (t->node == m->node && t->segment == m->segment && t->obstacle == obstacle &&
+        t->press.active && fabs(t->at - m->at) < SW_SAME_TOUCH)
+      return 1;
+  }
+  return 0;
+}
+
+/* 1 if the touch of a neighbour's memory goes on at its own place, in this iterate or, if its
+ * candidate comes later, in the previous one. A new touch beside it, such as that of a chord which
+ * begins at a node that presses, then begins without force: the same force twice would make energy
+ * at any size of step. */
+static int goes_on_beside(const sw_contact *c, const sw_candidate *k, const sw_memory *m) {
+  if (c->regime != SW_CONTACT_IMPLICIT) return 0;
+  if (presses(c->touches, c->parts.touch, c->touch_count, k->obstacle, m)) return 1;
+  const int later = m->node > k->node || (m->node == k->node && m->segment > k->segment);
+  return later && presses(c->last, 0, c->last_count, k->obstacle, m);
+}
+
 /* Returns the memory of a pressing touch, on this or a neighbouring part of the wire, or NULL. */
 static const sw_memory *pressed_memory(const sw_contact *c, const sw_system *s,
                                        const sw_candidate *k, double at, int feature) {
@@ -175,7 +198,7 @@ static const sw_memory *pressed_memory(const sw_contact *c, const sw_system *s,
   if (pressed && !(k->smooth && k->segment)) return own;
   if (s->bodies[k->body].plan->web || k->samples) return NULL;
   const sw_memory *other = inherited(c, k, at);
-  if (!pressed) return other;
+  if (!pressed) return other && !goes_on_beside(c, k, other) ? other : NULL;
   return other && other->segment && away(other, k, at) < away(own, k, at) ? other : own;
 }
 
