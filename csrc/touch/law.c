@@ -331,9 +331,8 @@ double sw_press_stiffer(const sw_press *p, double usual, double axial, double de
 }
 
 static double eased(const sw_press *p, double usual, double k, double deepest, double share) {
-  const double depth = p->normal_force / p->k;
-  if (!(k > usual) || !(depth < NEEDLESS * deepest)) return k;
-  return sw_larger(usual, (share < 1.0 ? pow(EASING, share) : EASING) * k);
+  if (!(k > usual) || !(p->normal_force / p->k < NEEDLESS * deepest)) return k;
+  return sw_larger(usual, pow(EASING, sw_smaller(share, 1.0)) * k);
 }
 
 static const double STIFFER = 2.0; /* of friction that holds, over the edge's stiffness [-] */
