@@ -32,7 +32,7 @@ static sw_status remember(sw_contact *c, const sw_system *s, const sw_touch *t) 
   const sw_contact_at *o = &c->now[t->obstacle];
   const sw_quat back = sw_quat_conj(o->pose.q);
   const double deepest = sw_contact_deepest(c, s, t);
-  const double share = c->regime == SW_CONTACT_IMPLICIT ? c->h / c->nominal : 1.0;
+  const double share = c->regime == SW_CONTACT_IMPLICIT ? c->h / c->asked : 1.0;
   SW_TRY(SW_GROW(c->next_memory, c->next_capacity, c->next_count + 1));
   sw_memory *m = &c->next_memory[c->next_count++];
   *m = (sw_memory){

@@ -76,14 +76,3 @@ const sw_memory *sw_contact_recalled(const sw_contact *c, const sw_system *s, co
   if (!pressed) return other && !goes_on_beside(c, k, other) ? other : NULL;
   return other && other->segment && away(other, k, at) < away(own, k, at) ? other : own;
 }
-
-/* Returns the memory of a touch that let go although its place is still deep, because the rest of
- * its depth was left to it; else NULL. It is the same touch, without a force: with the force of a
- * neighbour, which still presses at its own place, it would press from one moment to the next, at
- * any size of step, and make energy. */
-const sw_memory *sw_contact_rested(const sw_contact *c, const sw_candidate *k, double at,
-                                   int feature) {
-  const sw_memory *own = sw_contact_remembered(c, k, at, feature);
-  if (c->regime != SW_CONTACT_IMPLICIT || !own || own->kept.normal_force > 0) return NULL;
-  return own->kept.left > 0 && fabs(own->at - at) < SW_SAME_TOUCH ? own : NULL;
-}

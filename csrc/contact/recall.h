@@ -6,13 +6,9 @@
 #include "contact/touch.h"
 
 /* Returns the memory with which a touch of the candidate goes on, its own or that of a neighbour
- * from which it slid here, or NULL. sw_contact_rested: that of a touch which let go although its
- * place is still deep, because the rest of its depth was left to it. It has no force, and no other
- * memory applies. */
+ * from which it slid here, or NULL. */
 const sw_memory *sw_contact_recalled(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                                      double at, int feature);
-const sw_memory *sw_contact_rested(const sw_contact *c, const sw_candidate *k, double at,
-                                   int feature);
 /* Largest distance along the segment between places of one touch: the given share, or half the
  * distance of samples [-]. */
 static inline double sw_contact_within(const sw_candidate *k, double share) {

@@ -298,8 +298,7 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
                                const double *y, const sw_place *place) {
   const sw_closest *near = &place->near;
   const double at = k->segment ? near->at : 0.0;
-  const sw_memory *rested = sw_contact_rested(c, k, at, near->feature);
-  const sw_memory *m = rested ? NULL : sw_contact_recalled(c, s, k, at, near->feature);
+  const sw_memory *m = sw_contact_recalled(c, s, k, at, near->feature);
   const sw_touch *last = last_for(c, k, at, near->feature);
   const sw_vec out = sw_rotate(c->now[k->obstacle].pose.q, near->normal);
   const sw_plan *plan = s->bodies[k->body].plan;
@@ -319,7 +318,7 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
   press->by_place = goes_by_place(c, s, k);
   press->gap += sw_contact_aslant(c, k->node, k->other, at, press->normal);
   press->soft = sw_contact_softness(c, s, m, t);
-  const sw_kept *const kept = rested ? &rested->kept : m ? &m->kept : NULL;
+  const sw_kept *const kept = m ? &m->kept : NULL;
   t->squeezed = sw_contact_is_squeezed(c, s, k, kept, t);
   sw_contact_forgive(c, s, k, kept, y, t);
   if (m && !t->squeezed)

@@ -166,13 +166,12 @@ double sw_meet_depth(const sw_meet *t) {
   return t->squeezed ? sw_smaller(usual, shallow) : usual;
 }
 
-sw_met sw_meet_remember(const sw_mutual *m, const sw_system *s, const sw_meet *t) {
+sw_met sw_meet_remember(const sw_system *s, const sw_meet *t) {
   const double deepest = sw_meet_depth(t);
-  const double share = m->regime == SW_CONTACT_IMPLICIT ? m->h / m->nominal : 1.0;
   sw_met out = {.of = t->of,
                 .kind = t->kind,
                 .at = {t->at[0], t->at[1]},
-                .kept = sw_press_keep(&t->press, t->usual, t->stiffer, deepest, share),
+                .kept = sw_press_keep(&t->press, t->usual, t->stiffer, deepest, 1.0),
                 .normal = t->press.normal,
                 .emerges = t->let_out > 0 || (t->emerges && t->forgiven > 0)};
   out.kept.left = t->left;

@@ -72,7 +72,7 @@ typedef struct sw_met {
 } sw_met;
 
 /* Makes the memory of a touch at a step's end. */
-sw_met sw_meet_remember(const sw_mutual *mutual, const sw_system *system, const sw_meet *touch);
+sw_met sw_meet_remember(const sw_system *system, const sw_meet *touch);
 /* Depth below which its stiffness is higher than needed [m]. */
 double sw_meet_depth(const sw_meet *touch);
 

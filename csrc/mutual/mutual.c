@@ -216,7 +216,7 @@ void sw_mutual_commit(sw_mutual *m, sw_system *s) {
     if (SW_GROW(m->next_memory, m->next_capacity, m->next_count + 1) != SW_OK)
       break; /* a lost anchor starts anew */
     sw_met *out = &m->next_memory[m->next_count++];
-    *out = sw_meet_remember(m, s, t);
+    *out = sw_meet_remember(s, t);
     if (m->finder->note) m->finder->note(m, s, t, out);
   }
   (void)sw_mutual_carry_over(m);
