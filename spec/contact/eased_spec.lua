@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Three pegs push a cable with friction to and fro, in steps chosen by a tight tolerance. The places where its
--- chords touch move from edge to edge. A chord that began to touch beside a node took the node's force once
+-- Three pegs push a cable with friction, in steps chosen by a tight tolerance. The places where its chords
+-- touch move from edge to edge. A chord that began to touch beside a node took the node's force once
 -- more, from one moment to the next. The steps fell to 0.5 ns, and those after it were so short that touches,
 -- which became softer in each step, lost their force. The cable then stayed behind, or sank in by 1.5 mm.
 package.path = "./?.lua;" .. package.path
@@ -32,7 +32,8 @@ local function pushed(args)
     keeper:grasp(cable, { s = mm(540) })
     p:wait(0.2)
     for i, peg in ipairs(pegs) do
-      peg:follow{ points = { { 0, 0, 0 }, mm{ 0, i % 2 == 1 and -17 or 17, 0 } }, relative = true, duration = 1 }
+      peg:follow{ points = { { 0, 0, 0 }, mm{ 0, i % 2 == 1 and -17 or 17, 0 } }, relative = true,
+        duration = 1 }
     end
     keeper:move{ by = mm{ -18, 0, 0 }, duration = 1 }
     p:wait(0.3)
