@@ -32,18 +32,20 @@ static sw_status remember(sw_contact *c, const sw_system *s, const sw_touch *t) 
   const sw_contact_at *o = &c->now[t->obstacle];
   const sw_quat back = sw_quat_conj(o->pose.q);
   const double deepest = sw_contact_deepest(c, s, t);
+  const double share = c->regime == SW_CONTACT_IMPLICIT ? c->h / c->asked : 1.0;
   SW_TRY(SW_GROW(c->next_memory, c->next_capacity, c->next_count + 1));
   sw_memory *m = &c->next_memory[c->next_count++];
-  *m = (sw_memory){.obstacle = c->obstacles[t->obstacle].id,
-                   .segment = t->segment,
-                   .node = t->node,
-                   .feature = t->feature,
-                   .at = t->at,
-                   .rise = t->rise,
-                   .kept = sw_press_keep(&t->press, goes_back_to(c, s, t), t->stiffer, deepest),
-                   .normal = sw_rotate(back, t->press.normal),
-                   .point = t->local,
-                   .seen = t->seen};
+  *m = (sw_memory){
+      .obstacle = c->obstacles[t->obstacle].id,
+      .segment = t->segment,
+      .node = t->node,
+      .feature = t->feature,
+      .at = t->at,
+      .rise = t->rise,
+      .kept = sw_press_keep(&t->press, goes_back_to(c, s, t), t->stiffer, deepest, share),
+      .normal = sw_rotate(back, t->press.normal),
+      .point = t->local,
+      .seen = t->seen};
   m->kept.steady = steady_force(c, s, t), m->kept.left = t->left;
   if (t->squeezed && c->regime == SW_CONTACT_IMPLICIT && !sw_contact_is_pinched(c, t))
     sw_kept_harden(&m->kept, sw_contact_edge_stiffness(s, t->body, t->node), deepest);

@@ -10,6 +10,7 @@
 #include "contact/curve.h"
 #include "contact/depth.h"
 #include "contact/halt.h"
+#include "contact/recall.h"
 #include "contact/surface.h"
 #include "system/part.h"
 #include "touch/same.h"
@@ -47,53 +48,6 @@ static void take_in(sw_contact *c) {
   c->touches[i] = t;
 }
 
-/* Largest distance along the segment between places of one touch: the given share, or half the
- * distance of samples [-]. */
-static double within(const sw_candidate *k, double share) {
-  return k->samples ? sw_smaller(share, 0.5 / k->samples) : share;
-}
-
-/* Of touches nearer to each other than this share of an edge the one with the same feature is
- * meant: an edge and the corner at its end may touch at the same place of the wire, and only one of
- * them presses [-]. */
-static const double ALMOST = 1e-3;
-
-const sw_memory *sw_contact_remembered(const sw_contact *c, const sw_candidate *k, double at,
-                                       int feature) {
-  const sw_memory *best = NULL;
-  double nearest = within(k, HUGE_VAL);
-  for (size_t i = k->memory; c->memory && i < k->memory_end; i++) {
-    const sw_memory *m = &c->memory[i];
-    const double d = fabs(m->at - at) + (m->feature == feature ? 0.0 : ALMOST);
-    if (d < nearest) best = m, nearest = d;
-  }
-  return best;
-}
-
-/* Distance along the wire between a memory and a candidate's place, in edges [-]. */
-static double away(const sw_memory *m, const sw_candidate *k, double at) {
-  return fabs(((double)m->node - (double)k->node) + m->at - at);
-}
-
-/* Finds the memory of a touch that slid from one segment to its neighbour, or to the node between
- * them: such a touch keeps its friction spring. */
-static const sw_memory *inherited(const sw_contact *c, const sw_candidate *k, double at) {
-  const int id = c->obstacles[k->obstacle].id;
-  const sw_memory *best = NULL;
-  double nearest = 1.0; /* at most one segment away */
-  for (size_t i = k->memory; i-- > 0 && c->memory[i].node + 2 >= k->node;) {
-    const double d = away(&c->memory[i], k, at);
-    if (c->memory[i].obstacle == id && c->memory[i].kept.normal_force > 0 && d < nearest)
-      best = &c->memory[i], nearest = d;
-  }
-  for (size_t i = k->memory_end; i < c->memory_count && c->memory[i].node <= k->node + 1; i++) {
-    const double d = away(&c->memory[i], k, at);
-    if (c->memory[i].obstacle == id && c->memory[i].kept.normal_force > 0 && d < nearest)
-      best = &c->memory[i], nearest = d;
-  }
-  return best;
-}
-
 /* Returns `best` or the touch of the last iterate on an edge of the same obstacle, whichever is
  * nearer. */
 static const sw_touch *nearer(const sw_touch *last, const sw_candidate *k, double at,
@@ -110,10 +64,10 @@ static const sw_touch *nearer(const sw_touch *last, const sw_candidate *k, doubl
 static const sw_touch *last_for(const sw_contact *c, const sw_candidate *k, double at,
                                 int feature) {
   const sw_touch *best = NULL;
-  double nearest = within(k, SW_SAME_TOUCH);
+  double nearest = sw_contact_within(k, SW_SAME_TOUCH);
   for (size_t i = k->last; i < k->last_end; i++) {
     const sw_touch *t = &c->last[i];
-    const double d = fabs(t->at - at) + (t->feature == feature ? 0.0 : ALMOST);
+    const double d = fabs(t->at - at) + (t->feature == feature ? 0.0 : SW_ALMOST_THERE);
     if (d < nearest) best = t, nearest = d;
   }
   if (!k->smooth || !k->segment) return best;
@@ -165,18 +119,6 @@ static sw_vec shift_since(const sw_contact *c, const sw_system *s, const sw_touc
   const sw_mean spot = spot_of(s, k, t, m->at);
   const sw_vec now = sw_mean_place(c, y, &spot);
   return sw_sub(now, sw_pose_point(c->now[t->obstacle].pose, m->seen));
-}
-
-/* Returns the memory of a pressing touch, on this or a neighbouring part of the wire, or NULL. */
-static const sw_memory *pressed_memory(const sw_contact *c, const sw_system *s,
-                                       const sw_candidate *k, double at, int feature) {
-  const sw_memory *own = sw_contact_remembered(c, k, at, feature);
-  const int pressed = own && own->kept.normal_force > 0;
-  if (pressed && !(k->smooth && k->segment)) return own;
-  if (s->bodies[k->body].plan->web || k->samples) return NULL;
-  const sw_memory *other = inherited(c, k, at);
-  if (!pressed) return other;
-  return other && other->segment && away(other, k, at) < away(own, k, at) ? other : own;
 }
 
 /* A predicted slide of a mesh's particle counts only if a spring of this multiple of its inertia
@@ -356,7 +298,7 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
                                const double *y, const sw_place *place) {
   const sw_closest *near = &place->near;
   const double at = k->segment ? near->at : 0.0;
-  const sw_memory *m = pressed_memory(c, s, k, at, near->feature);
+  const sw_memory *m = sw_contact_recalled(c, s, k, at, near->feature);
   const sw_touch *last = last_for(c, k, at, near->feature);
   const sw_vec out = sw_rotate(c->now[k->obstacle].pose.q, near->normal);
   const sw_plan *plan = s->bodies[k->body].plan;

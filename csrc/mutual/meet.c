@@ -194,7 +194,7 @@ sw_met sw_meet_remember(const sw_system *s, const sw_meet *t) {
   sw_met out = {.of = t->of,
                 .kind = t->kind,
                 .at = {t->at[0], t->at[1]},
-                .kept = sw_press_keep(&t->press, t->usual, t->stiffer, deepest),
+                .kept = sw_press_keep(&t->press, t->usual, t->stiffer, deepest, 1.0),
                 .normal = t->press.normal,
                 .emerges = t->let_out > 0 || (t->emerges && t->forgiven > 0)};
   out.kept.left = t->left;

@@ -2,6 +2,7 @@
 /* Steps by `tolerance`: the size of a step follows its error. */
 #include <math.h>
 
+#include "base/each.h"
 #include "grip/jaws.h"
 #include "scene/course.h"
 #include "scene/parts.h"
@@ -61,6 +62,25 @@ static double next_of(const sw_ladder *p, double h, double over) {
  * with this bound, two with half of it and two with twice of it. */
 static const double SHORTEST_ASKED = 1e-4;
 
+/* A step shorter than this share of the time in which an axial wave passes an edge moves nothing:
+ * energy that it makes is a jump of forces, which no smaller step avoids [-]. */
+static const double OF_WAVE = 1.0 / 64;
+
+/* Returns the size below which a step that makes energy is not repeated with a smaller one: a share
+ * of the shortest time of an axial wave in an edge of a line, but at least rounding of dt [s]. */
+static double smallest_judged(const sw_ladder *p) {
+  const sw_system *system = sw_scene_system(p->s);
+  double wave = HUGE_VAL;
+  SW_ITEMS(const sw_body, b, system->bodies, system->body_count) {
+    const double rate2 = b->plan->beam.mass / b->EA;
+    for (size_t e = 0; !b->plan->web && rate2 > 0 && e < b->plan->edges; e++)
+      wave = fmin(wave, b->plan->rest[e] * sqrt(rate2));
+  }
+  const double least = SW_SMALLEST_SHARE * SW_SMALLEST_SHARE * p->args->dt;
+  return isfinite(wave) ? fmax(least, fmin(OF_WAVE * wave, SW_SMALLEST_SHARE * p->args->dt))
+                        : least;
+}
+
 /* Takes an adaptive step of at most `left`; refuses steps whose error is too large. */
 sw_status sw_step_adaptive(sw_ladder *p, double left, double t1, sw_error *err) {
   sw_scene *s = p->s;
@@ -74,11 +94,11 @@ sw_status sw_step_adaptive(sw_ladder *p, double left, double t1, sw_error *err) 
   SW_TRY(sw_ladder_make_room(p, &h, err));
   SW_TRY(sw_restart_at_jerk(s, h, err));
   p->changed = sw_restart_changed(s);
+  const double judged = smallest_judged(p);
   p->asked = fmax(SHORTEST_ASKED, fmax(h, 0.5 * p->asked));
   for (double uncut = 0;;) { /* uncut: size of the step that was cut at a rebound [s] */
     const int last = h >= left * (1 - 1e-9);
-    const sw_status status =
-        sw_ladder_try(p, h, 0.25 * h < SW_SMALLEST_SHARE * SW_SMALLEST_SHARE * p->args->dt, err);
+    const sw_status status = sw_ladder_try(p, h, 0.25 * h < judged, err);
     if (sw_ladder_hopeless(status)) return status;
     sw_outer_look outer = {.speed = 0};
     if (status == SW_OK) SW_TRY(sw_outer_look_at(p, h, &outer, err));

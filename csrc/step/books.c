@@ -264,10 +264,10 @@ sw_status sw_ledger_pose(sw_scene *s, double t0, int jumped, double rubbed, doub
   return SW_OK;
 }
 
-static void tell_retries(sw_scene *s, const char *what, const sw_retries *r) {
+static void tell_retries(sw_scene *s, const char *one, const char *more, const sw_retries *r) {
   if (!r->count) return;
-  sw_scene_tell(s, "energy", r->object, r->s, r->largest, "%zu step%s %s, the worst at t = %.6g s",
-                r->count, r->count == 1 ? " was" : "s were", what, r->time);
+  sw_scene_tell(s, "energy", r->object, r->s, r->largest, "%zu %s, the worst at t = %.6g s",
+                r->count, r->count == 1 ? one : more, r->time);
 }
 
 /* Logs energy that appeared outside steps: work or losses unknown to the steps. */
@@ -303,10 +303,13 @@ sw_status sw_scene_end_run(sw_scene *s, sw_error *why) {
   sw_scene_end_bends(s);
   sw_scene_end_inside(s);
   sw_scene_end_joints(s);
-  tell_retries(s, "accepted although they made energy, because smaller steps made energy too",
-               &l->accepted);
+  tell_retries(
+      s, "step was accepted although it made energy, because smaller steps made energy too",
+      "steps were accepted although they made energy, because smaller steps made energy too",
+      &l->accepted);
   if (l->redone.count > FEW && (double)l->redone.count > 0.01 * (double)l->steps)
-    tell_retries(s, "redone, more than 1 % of all, because they made energy", &l->redone);
+    tell_retries(s, "", "steps were redone, more than 1 % of all, because they made energy",
+                 &l->redone);
   if (!(share > REMARK)) {
     tell_unknown(s);
     return SW_OK;

@@ -43,7 +43,7 @@ static const double DEEPER = 0.1; /* allowed increase of depth in short steps [-
 static const double EARLY = 0.4;    /* stiffened from this share on [-] */
 static const double AT_ONCE = 2.0;  /* the same at once, for a load that grows fast [-] */
 static const double NEEDLESS = 0.1; /* below this share, stiffness is higher than needed [-] */
-static const double EASING = 0.8;   /* factor on such stiffness per step [-] */
+static const double EASING = 0.8;   /* factor on such stiffness per full step [-] */
 static const double SHORT = 0.25;   /* a step is short below this share of the nominal step [-] */
 
 void sw_press_activate(sw_press *p, const sw_press *last) {
@@ -330,10 +330,9 @@ double sw_press_stiffer(const sw_press *p, double usual, double axial, double de
   return forgiven - p->gap_after < before + DEEPER * deepest ? p->k : p->k * LARGEST_STEP;
 }
 
-static double eased(const sw_press *p, double usual, double k, double deepest) {
-  const double depth = p->normal_force / p->k;
-  if (!(k > usual) || !(depth < NEEDLESS * deepest)) return k;
-  return sw_larger(usual, EASING * k);
+static double eased(const sw_press *p, double usual, double k, double deepest, double share) {
+  if (!(k > usual) || !(p->normal_force / p->k < NEEDLESS * deepest)) return k;
+  return sw_larger(usual, pow(EASING, sw_smaller(share, 1.0)) * k);
 }
 
 static const double STIFFER = 2.0; /* of friction that holds, over the edge's stiffness [-] */
@@ -352,13 +351,14 @@ sw_vec sw_press_stretch(const sw_press *p, const sw_kept *kept, int gives_way) {
 }
 
 int sw_press_eases(const sw_press *p, double usual, double stiffer, double deepest) {
-  return eased(p, usual, stiffer, deepest) < stiffer;
+  return eased(p, usual, stiffer, deepest, 1.0) < stiffer;
 }
 
-sw_kept sw_press_keep(const sw_press *p, double usual, double stiffer, double deepest) {
+sw_kept sw_press_keep(const sw_press *p, double usual, double stiffer, double deepest,
+                      double share) {
   sw_kept out = {.normal_force = p->normal_force,
                  .depth = p->normal_force / p->k,
-                 .k = eased(p, usual, stiffer, deepest),
+                 .k = eased(p, usual, stiffer, deepest, share),
                  .steady = p->normal_force,
                  .grip = sw_press_grip(p),
                  .sliding = p->next_sliding};

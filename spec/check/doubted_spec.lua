@@ -197,6 +197,8 @@ describe("an event doubts", function()
     assert.truthy(why(made))
     made.text = "11 steps were redone, more than 1 % of all, because they made energy, the worst at"
     assert.is_nil(why(made))
+    made.text = "1 step was accepted although it made energy, because smaller steps made energy too"
+    assert.truthy(why(made):find("forces jumped", 1, true))
   end)
 
   it("forces of grippers by the share of energy from nowhere", function()

@@ -23,6 +23,8 @@ local kinds = {
   rebound = { "an end strikes again: small differences decide its peaks", own = true, places = true },
   jam = { "friction of a slider locks: small differences decide forces and places", places = true },
   energy = { "steps made energy: take smaller steps", only = "^steps made .* from nowhere" },
+  ["energy at once"] = { "forces jumped in steps that made energy at any size: take another dt",
+    places = true, only = "accepted although" },
   buckling = { "a straight or plane wire should have buckled", own = true, places = true, always = true },
   integrator = { "the integrator gains energy in contact: take tr-bdf2", always = true },
   crash = { "forces are wrong after a crash", always = true },
@@ -47,6 +49,12 @@ local kinds = {
   held = { "a feed without its force at rest was let go", always = true },
   hand = { "something was moved by hand: this is not the script's process", all = true, always = true },
 }
+
+-- Returns what is wrong after an event. Events `energy` have two meanings.
+local function kind_of(e)
+  if e.kind == "energy" and e.text:find(kinds["energy at once"].only) then return kinds["energy at once"] end
+  return kinds[e.kind]
+end
 
 local UNKNOWN = "come from nowhere" -- in events `energy` about a gap that no step made
 
@@ -84,7 +92,7 @@ function doubted.why(member, value, entry, run)
   local peaks, leapt = member.peaks or mean[member.name], jumped(member, run)
   if leapt then return leapt end
   for _, e in ipairs(run.events) do
-    local kind = kinds[e.kind]
+    local kind = kind_of(e)
     local met = kind and (kind.all or peaks or kind.places and member.places)
     local asked = met and (kind.always or not value.error)
     if asked and concerns(kind, e, member, entry) then

@@ -16,6 +16,10 @@ local refine = {}
 -- Error allowed per step with n segments, over L / n^3. With this value the steps' error in a
 -- swing is about that of the edges.
 local step_share = 0.02
+-- Least error allowed per step beside obstacles, over the length. Friction agrees with its law to 1 % of the
+-- force: below this value the estimate of a step's error shows only that. With three pegs 1e-9 m and 1e-10 m
+-- end with the same tension within 0.15 %, in three to four times as many steps.
+local least_share = 1e-9
 local longest_step = 0.01 -- default dt [s]
 local at_rest = 1e-6      -- a scene is at rest if settling moves a wire by less, over its length [-]
 
@@ -34,16 +38,18 @@ end
 local function steps_of(job, args)
   local dt = args.dt or longest_step
   local adaptive = not args.quasistatic and method_of(args.integrator).adaptive
-  local error_of_step = math.huge
-  for i, w in ipairs(build.data(job.scene).wires) do
+  local error_of_step, least, data = math.huge, math.huge, build.data(job.scene)
+  for i, w in ipairs(data.wires) do
     error_of_step = math.min(error_of_step, step_share * w.object.length / job.first[i] ^ 3)
+    least = math.min(least, least_share * w.object.length)
   end
+  if #data.obstacles == 0 then least = 0 end
   return function(k)
     local options = {}
     for key, value in pairs(args) do options[key] = value end
     options.dt = dt / job.share / 2 ^ (k - 1)
     if options.parts == nil then options.parts = false end -- all levels have the same kind of steps
-    if adaptive then options.tolerance = error_of_step / 8 ^ (k - 1) end
+    if adaptive then options.tolerance = math.max(least, error_of_step / 8 ^ (k - 1)) end
     return options
   end
 end
