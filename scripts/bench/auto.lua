@@ -167,7 +167,7 @@ local function one(kind, random, share)
   local build, moves, known = kind.of(random)
   local truth, why, took = { quantities = known }, nil, SLOW
   if not known then
-    truth, why, took = autotruth.values(build, moves, share * (kind.truth or 1 / 8), kind.flat)
+    truth, why, took = autotruth.values(build, moves, share * (kind.truth or 1 / 8), kind)
   end
   if not truth then return nil, why end
   for name, t in pairs(truth.quantities) do
@@ -198,7 +198,7 @@ local function one(kind, random, share)
     if asked and word:sub(4) == "o" then out.enough[word], out.times[word] = false, 0 -- lines have no squeeze
     elseif asked then out.enough[word], out.times[word] = autopressed.suffices(build, word, share, known) end
   end
-  for _, word in ipairs(kind.pressed and {} or fixed_of(out.rungs, took, kind.flat)) do
+  for _, word in ipairs(kind.pressed and {} or fixed_of(out.rungs, took, kind.flat or kind.joined)) do
     local options = { rolls = word:sub(2, 2) == "r", contact = word:sub(3, 3) == "w", settle = not moves }
     local static = word:sub(1, 1) == "p" or nil
     local plain = run(build, options, share, nil, static) -- with the tolerance of the choice
@@ -272,7 +272,7 @@ function auto.figures(list)
       f.choices = f.choices + (r.some and 1 or 0)
       f.cheapest, f.too_cheap = f.cheapest + (r.cheapest and 1 or 0), f.too_cheap + (r.too_cheap and 1 or 0)
       f.choosing, f.run = f.choosing + r.probes, f.run + r.cost
-      local rods, meshes = r.times.drwo or 0, r.times.phne or 0
+      local rods, meshes = r.times.drwo or r.times.dhwo or 0, r.times.phne or 0
       f.rods, f.finest = f.rods + rods, f.finest + math.max(r.finest or 0, rods, meshes)
       if auto.is_over(r) then f.over = f.over + 1 end
       if r.steady then

@@ -102,7 +102,8 @@ end
 -- Error of the true values over the tolerance [-]. The usual eighth would take several minutes a scene.
 local TRUTH = 1 / 4
 
-autoharness.scenes = { { name = "harness", of = harness, truth = TRUTH },
-  { name = "hanging", of = hanging }, { name = "tied", of = tied, truth = TRUTH } }
+-- joined: wires that roll pass no twist at a joint, so a harness is known without them.
+autoharness.scenes = { { name = "harness", of = harness, truth = TRUTH, joined = true },
+  { name = "hanging", of = hanging, joined = true }, { name = "tied", of = tied, truth = TRUTH } }
 
 return autoharness
