@@ -29,8 +29,8 @@ end
 
 --- Returns the true values, from far finer runs of the most expensive model; nil and the reason if that would
 -- take too long. kind.joined: wires do not roll, because such wires pass no twist at joints. kind.flat: a
--- single wire that stays in a plane. There friction does not twist it, and a wire that does not roll touches pegs
--- with a smooth curve, so much coarser edges are enough.
+-- single wire that stays in a plane. There friction does not twist it, and a wire that does not roll touches
+-- pegs with a smooth curve, so much coarser edges are enough.
 function autotruth.values(build, moves, share, kind)
   local options = { rolls = not (kind.flat or kind.joined), contact = not kind.flat, settle = not moves }
   local truth, why, took = autotruth.run(build, options, share, COARSE)
