@@ -48,16 +48,16 @@ static int presses(const sw_touch *t, int obstacle, const sw_memory *m) {
          t->press.active && fabs(t->at - m->at) < SW_SAME_TOUCH;
 }
 
-/* 1 if the touch of a neighbour's memory goes on at its own place, in this iterate or, if its
- * candidate comes later, in the previous one. A new touch beside it, such as that of a chord which
- * begins at a node that presses, then begins without force: the same force twice would make energy
- * at any size of step. */
+/* 1 if the touch of a neighbour's memory goes on at its own place, in the previous iterate. In a
+ * step's first one it is assumed to. A new touch beside it, such as that of a chord which begins at
+ * a node that presses, then begins without force: the same force twice would make energy at any
+ * size of step. */
 static int goes_on_beside(const sw_contact *c, const sw_candidate *k, const sw_memory *m) {
   if (c->regime != SW_CONTACT_IMPLICIT) return 0;
-  for (size_t i = c->touch_count; i-- > c->parts.touch && c->touches[i].node + 2 >= k->node;)
-    if (presses(&c->touches[i], k->obstacle, m)) return 1;
-  const int later = m->node > k->node || (m->node == k->node && m->segment > k->segment);
-  for (size_t i = k->last; later && i < c->last_count && c->last[i].node <= k->node + 1; i++)
+  if (c->last_count == 0) return 1;
+  for (size_t i = k->last; i-- > 0 && c->last[i].node + 2 >= k->node;)
+    if (presses(&c->last[i], k->obstacle, m)) return 1;
+  for (size_t i = k->last; i < c->last_count && c->last[i].node <= k->node + 1; i++)
     if (presses(&c->last[i], k->obstacle, m)) return 1;
   return 0;
 }
