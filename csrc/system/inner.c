@@ -127,3 +127,16 @@ sw_status sw_inner_check(sw_system *s, double t, sw_error *err) {
   }
   return SW_OK;
 }
+
+/* An edge e of the state turns to e' without strain by the stage's rule if (e' - e) t' = 0: its
+ * length is then e t'. */
+void sw_inner_felt_lengths(const sw_system *s, sw_body *b) {
+  sw_field *f = &b->field;
+  if (!(s->inner > 0) || !b->carried || b->plan->web) return;
+  const double *x = s->x + 3 * b->first_node;
+  for (size_t e = 0; e < b->plan->edges; e++) {
+    const sw_vec was = sw_sub(sw_vec_at(x, e + 1), sw_vec_at(x, e));
+    const sw_vec t = sw_v(f->tangent[0][e], f->tangent[1][e], f->tangent[2][e]);
+    f->length[e] += sw_norm(was) - sw_dot(was, t);
+  }
+}

@@ -13,4 +13,11 @@
  * matters less than the force by which the difference would stretch it. */
 sw_status sw_inner_check(sw_system *system, double t, sw_error *err);
 
+/* Call when a body's edges were measured at the iterate. In an inner stage an edge that turns becomes
+ * shorter by half of its turn squared, if the velocities at its ends are those of turning. This is
+ * no strain, and the field's lengths become those without it. Only for lines that an obstacle turns
+ * (sw_body.carried): friction would be at its limit from the false axial forces. For other wires
+ * see integrate/turning.h. */
+void sw_inner_felt_lengths(const sw_system *system, sw_body *body);
+
 #endif
