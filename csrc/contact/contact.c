@@ -86,17 +86,6 @@ static void find_pressing(sw_contact *c) {
   }
 }
 
-/* Marks the bodies that pressed on an obstacle that turns at the step's start. */
-static void find_carried(const sw_contact *c, sw_system *s) {
-  for (size_t b = 0; b < s->body_count; b++) s->bodies[b].carried = 0;
-  for (size_t i = 0; c->broad.mover_count && i < c->memory_count; i++) {
-    const sw_memory *m = &c->memory[i];
-    const size_t o = sw_contact_index(c, m->obstacle);
-    if (o < c->count && m->kept.normal_force > 0 && sw_norm2(c->start[o].omega) > 0)
-      s->bodies[sw_system_body_of(s, m->node)].carried = 1;
-  }
-}
-
 sw_status sw_contact_open(sw_contact *c, double t, double h, sw_error *err) {
   c->time = t;
   c->h = h;
@@ -115,7 +104,7 @@ sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime r
   sw_contact_forget_blows(c);
   if (sw_contact_calm(c, s->nodes) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "contact: out of memory");
-  find_pressing(c), find_carried(c, s);
+  find_pressing(c), sw_contact_find_carried(c, s);
   if (sw_contact_sink(c, s) != SW_OK) return sw_fail(err, SW_ENOMEM, "contact: out of memory");
   return sw_contact_find_candidates(c, s, err);
 }

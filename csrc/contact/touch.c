@@ -133,20 +133,6 @@ static sw_mean spot_of(const sw_system *s, const sw_candidate *k, const sw_touch
   return on_chord ? sw_mean_chord(k->node, k->other, at) : sw_contact_spot(s, k, at);
 }
 
-/* Where the obstacle has carried a point since the step's start, by the stage's rule. An inner stage
- * moves a node by its length times the velocity at its end, which on a turn lies inside the
- * obstacle's path by half of turn x way. A wire that sticks must go there too, with the velocity of
- * the obstacle under it; kept on the path it would need 0.5 and 3.4 times the force in the stages,
- * and slide outwards in each step. The last stage ends on the path. */
-static sw_vec carried_to(const sw_contact *c, const sw_system *s, int obstacle, sw_vec from) {
-  const sw_pose *start = &c->start[obstacle].pose, *now = &c->now[obstacle].pose;
-  const sw_vec to = sw_pose_point(*now, sw_pose_local(*start, from));
-  if (!(s->inner > 0) || !(sw_norm2(c->now[obstacle].omega) > 0)) return to;
-  const sw_vec turn = sw_quat_log(sw_quat_mul(now->q, sw_quat_conj(start->q)));
-  const sw_vec inward = sw_scale(sw_cross(turn, sw_sub(to, from)), 0.5);
-  return sw_add(to, sw_madd(inward, sw_cross(turn, inward), 1.0 / 6.0));
-}
-
 /* Displacement of the wire's material at the touch since the step's start, relative to the
  * obstacle's; of a rolling wire that of its surface. Sunk nodes count with their own place: the
  * sinking is computed at the step's start and does not turn with the obstacle. */
@@ -154,7 +140,7 @@ static sw_vec relative_shift(const sw_contact *c, const sw_system *s, const sw_t
                              const double *y) {
   const sw_vec from = sw_mean_of(s->x, 0, &t->spot);
   const sw_vec to = sw_mean_of(y, 0, &t->spot);
-  const sw_vec carried = carried_to(c, s, t->obstacle, from);
+  const sw_vec carried = sw_contact_carried(c, s, t, from);
   const sw_body *b = &s->bodies[t->body];
   if (!b->roll_block) return sw_sub(to, carried);
   const sw_levers levers = sw_touch_levers(s, t);

@@ -7,6 +7,7 @@
 #include <math.h>
 
 #include "base/each.h"
+#include "system/part.h"
 
 /* Shifts are the same if they differ by less than this share of the larger one [-]. */
 static const double SAME = 1e-6;
@@ -128,11 +129,19 @@ sw_status sw_inner_check(sw_system *s, double t, sw_error *err) {
   return SW_OK;
 }
 
-/* An edge e of the state turns to e' without strain by the stage's rule if (e' - e) t' = 0: its
- * length is then e t'. */
+static int is_joined(const sw_body *b) { return b->coupled & SW_JOINED; }
+
+int sw_inner_goes_inside(const sw_system *s, const sw_body *body) {
+  if (!(s->inner > 0) || !body->carried || body->held) return 0;
+  for (size_t i = 0; is_joined(body) && i < s->body_count; i++)
+    if (is_joined(&s->bodies[i]) && s->bodies[i].held) return 0;
+  return 1;
+}
+
+/* An edge e of the state becomes e' without strain, by the stage's rule, if (e' - e) t' = 0. */
 void sw_inner_felt_lengths(const sw_system *s, sw_body *b) {
   sw_field *f = &b->field;
-  if (!(s->inner > 0) || !b->carried || b->plan->web) return;
+  if (!b->lies_flat || b->plan->web || !sw_inner_goes_inside(s, b)) return;
   const double *x = s->x + 3 * b->first_node;
   for (size_t e = 0; e < b->plan->edges; e++) {
     const sw_vec was = sw_sub(sw_vec_at(x, e + 1), sw_vec_at(x, e));
