@@ -32,7 +32,7 @@ void sw_contact_find_carried(const sw_contact *c, sw_system *s) {
     const sw_vec normal = sw_rotate(c->start[o].pose.q, m->normal);
     if (at != last) first = normal, last = at;
     if (sw_norm2(sw_cross(first, normal)) > FLAT * FLAT) s->bodies[at].lies_flat = 0;
-    if (sw_norm2(c->start[o].omega) > 0) s->bodies[at].carried = 1;
+    s->bodies[at].carried = sw_larger(s->bodies[at].carried, sw_norm(c->start[o].omega));
   }
 }
 
