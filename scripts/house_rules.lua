@@ -72,8 +72,8 @@ rules.OPEN = { base = true, bind = true,
   state = { "angle.h", "clamp.h", "crease.h", "field.h", "first_stage.h", "hinge.h", "mesh.h", "plan.h",
     "slide.h", "state_tape.h", "tie.h", "web.h" },
   solve = { "band3.h", "band4.h", "blocks.h", "dense.h", "rotation.h", "sparse.h" },
-  system = { "axial.h", "axis.h", "energy.h", "join.h", "linear.h", "outer.h", "part.h", "pushed.h",
-    "rail.h", "system.h", "wait.h" } }
+  system = { "axial.h", "axis.h", "energy.h", "inner.h", "join.h", "linear.h", "outer.h", "part.h",
+    "pushed.h", "rail.h", "system.h", "wait.h" } }
 
 -- The rooms of a scene. Each of them may also include the private headers of those in its row.
 rules.INSIDE = { "record", "strand", "scene", "body", "grip", "edit", "read", "watch", "save",

@@ -104,7 +104,7 @@ sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime r
   sw_contact_forget_blows(c);
   if (sw_contact_calm(c, s->nodes) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "contact: out of memory");
-  find_pressing(c);
+  find_pressing(c), sw_contact_find_carried(c, s);
   if (sw_contact_sink(c, s) != SW_OK) return sw_fail(err, SW_ENOMEM, "contact: out of memory");
   return sw_contact_find_candidates(c, s, err);
 }

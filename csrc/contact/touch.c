@@ -94,8 +94,7 @@ static sw_vec relative_shift(const sw_contact *c, const sw_system *s, const sw_t
                              const double *y) {
   const sw_vec from = sw_mean_of(s->x, 0, &t->spot);
   const sw_vec to = sw_mean_of(y, 0, &t->spot);
-  const sw_vec carried =
-      sw_pose_point(c->now[t->obstacle].pose, sw_pose_local(c->start[t->obstacle].pose, from));
+  const sw_vec carried = sw_contact_carried(c, s, t, from);
   const sw_body *b = &s->bodies[t->body];
   if (!b->roll_block) return sw_sub(to, carried);
   const sw_levers levers = sw_touch_levers(s, t);

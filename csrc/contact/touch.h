@@ -183,6 +183,11 @@ double sw_contact_coefficient(const sw_contact *c, const sw_system *s, const sw_
 double sw_contact_softer(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                          double stiffness);
 
+/* Marks the bodies that press on an obstacle that turns at the step's start. sw_contact_carried:
+ * place to which the touch's obstacle has carried a point since then, by the stage's rule [m]. */
+void sw_contact_find_carried(const sw_contact *c, sw_system *s);
+sw_vec sw_contact_carried(const sw_contact *c, const sw_system *s, const sw_touch *t, sw_vec from);
+
 /* 1 if the wire is pinched between the touch's obstacle and another one. */
 int sw_contact_is_pinched(const sw_contact *c, const sw_touch *t);
 

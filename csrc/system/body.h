@@ -82,6 +82,9 @@ typedef struct sw_body {
     double sum, most; /* [N] */
     size_t with;      /* the other body */
   } together;
+  double carried; /* fastest turn of an obstacle on which it presses at the step's start; 0: none
+                     turns (system/inner.h) [rad/s] */
+  int lies_flat;  /* 1: it presses only on surfaces with one normal */
   int waits;      /* 1: it rests and is not solved in this step (system/wait.h) */
   int stops;      /* 1: it came to rest in the step accepted last */
   double watched; /* until then its friction is watched as after a sudden stop of a drive; 0: not

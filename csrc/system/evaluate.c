@@ -5,6 +5,7 @@
 #include "base/each.h"
 #include "base/interrupt.h"
 #include "system/assemble.h"
+#include "system/inner.h"
 #include "system/join_twist.h"
 #include "system/spin.h"
 #include "system/strain.h"
@@ -62,6 +63,7 @@ sw_status sw_body_evaluate(sw_system *s, sw_body *b, double time, double hbar, c
   }
   sw_strain_show_past(s, b);
   sw_body_begin(b);
+  sw_inner_felt_lengths(s, b);
   if (b->has_twist || b->spin_block) sw_system_measure(s, b);
   SW_TRY(eval_terms(b, err));
   const double *dead = s->dead ? s->dead + 3 * b->first_node : NULL;

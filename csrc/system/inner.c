@@ -7,6 +7,7 @@
 #include <math.h>
 
 #include "base/each.h"
+#include "system/part.h"
 
 /* Shifts are the same if they differ by less than this share of the larger one [-]. */
 static const double SAME = 1e-6;
@@ -126,4 +127,30 @@ sw_status sw_inner_check(sw_system *s, double t, sw_error *err) {
     s->stays = 1;
   }
   return SW_OK;
+}
+
+static int is_joined(const sw_body *b) { return b->coupled & SW_JOINED; }
+
+int sw_inner_goes_inside(const sw_system *s, const sw_body *body) {
+  if (!(s->inner > 0) || !(body->carried > 0) || body->held) return 0;
+  for (size_t i = 0; is_joined(body) && i < s->body_count; i++)
+    if (is_joined(&s->bodies[i]) && s->bodies[i].held) return 0;
+  return 1;
+}
+
+/* Edges that turn this much faster than the obstacle do not go with it. Theirs are waves, which the
+ * iterations follow better with the length itself [-]. */
+static const double FASTER = 2.0;
+
+/* An edge e of the state becomes e' without strain, by the stage's rule, if (e' - e) t' = 0. */
+void sw_inner_felt_lengths(const sw_system *s, sw_body *b) {
+  sw_field *f = &b->field;
+  if (!b->lies_flat || b->plan->web || !sw_inner_goes_inside(s, b)) return;
+  const double *x = s->x + 3 * b->first_node, turn = FASTER * b->carried * s->inner;
+  for (size_t e = 0; e < b->plan->edges; e++) {
+    const sw_vec was = sw_sub(sw_vec_at(x, e + 1), sw_vec_at(x, e));
+    const sw_vec t = sw_v(f->tangent[0][e], f->tangent[1][e], f->tangent[2][e]);
+    const double length = sw_norm(was), most = 0.5 * turn * turn * length;
+    f->length[e] += fmin(length - sw_dot(was, t), most);
+  }
 }

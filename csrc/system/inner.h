@@ -13,4 +13,15 @@
  * matters less than the force by which the difference would stretch it. */
 sw_status sw_inner_check(sw_system *system, double t, sw_error *err);
 
+/* 1 in an inner stage, for a body that obstacles carry round and no hold keeps on its path. What
+ * goes round with the obstacle is then moved, as the wire is, by the stage's length times its
+ * velocity at the end: to a place inside its path, by half of its turn squared times the radius. */
+int sw_inner_goes_inside(const sw_system *system, const sw_body *body);
+
+/* Call when a body's edges were measured at the iterate. Edges of such a body become shorter by
+ * half of their turn squared. This is no strain, and the field's lengths become those without it.
+ * Otherwise false axial forces would load friction up to its limit. Only for lines that lie flat: a
+ * curved surface keeps them from going inside. For other wires see integrate/turning.h. */
+void sw_inner_felt_lengths(const sw_system *system, sw_body *body);
+
 #endif
