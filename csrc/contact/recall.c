@@ -4,8 +4,6 @@
 
 #include <math.h>
 
-#include "touch/same.h"
-
 const sw_memory *sw_contact_remembered(const sw_contact *c, const sw_candidate *k, double at,
                                        int feature) {
   const sw_memory *best = NULL;
@@ -42,34 +40,27 @@ static const sw_memory *inherited(const sw_contact *c, const sw_candidate *k, do
   return best;
 }
 
-/* 1 if the touch is that of the memory and presses. */
-static int presses(const sw_touch *t, int obstacle, const sw_memory *m) {
-  return t->node == m->node && t->segment == m->segment && t->obstacle == obstacle &&
-         t->press.active && fabs(t->at - m->at) < SW_SAME_TOUCH;
-}
-
-/* 1 if the touch of a neighbour's memory goes on at its own place, in the previous iterate. In a
- * step's first one it is assumed to. A new touch beside it, such as that of a chord which begins at
- * a node that presses, then begins without force: the same force twice would make energy at any
- * size of step. */
-static int goes_on_beside(const sw_contact *c, const sw_candidate *k, const sw_memory *m) {
-  if (c->regime != SW_CONTACT_IMPLICIT) return 0;
-  if (c->last_count == 0) return 1;
-  for (size_t i = k->last; i-- > 0 && c->last[i].node + 2 >= k->node;)
-    if (presses(&c->last[i], k->obstacle, m)) return 1;
-  for (size_t i = k->last; i < c->last_count && c->last[i].node <= k->node + 1; i++)
-    if (presses(&c->last[i], k->obstacle, m)) return 1;
-  return 0;
+/* 1 if the memory is that of a node that still touches the obstacle at positions y. A new touch
+ * beside it, such as that of a chord which begins there, then begins without force: the same force
+ * twice would make energy at any size of step. A place on a segment slides over to the next one and
+ * leaves nothing behind. The answer must not depend on the order along the wire. */
+static int goes_on_beside(const sw_contact *c, const sw_candidate *k, const sw_memory *m,
+                          const double *y) {
+  sw_closest near;
+  if (c->regime != SW_CONTACT_IMPLICIT || m->segment) return 0;
+  const sw_vec local = sw_pose_local(c->now[k->obstacle].pose, sw_vec_at(y, m->node));
+  return sw_shape_point(c->obstacles[k->obstacle].shape, local, k->skin, &near) &&
+         near.gap < k->skin;
 }
 
 /* Returns the memory of a pressing touch, on this or a neighbouring part of the wire, or NULL. */
 const sw_memory *sw_contact_recalled(const sw_contact *c, const sw_system *s, const sw_candidate *k,
-                                     double at, int feature) {
+                                     double at, int feature, const double *y) {
   const sw_memory *own = sw_contact_remembered(c, k, at, feature);
   const int pressed = own && own->kept.normal_force > 0;
   if (pressed && !(k->smooth && k->segment)) return own;
   if (s->bodies[k->body].plan->web || k->samples) return NULL;
   const sw_memory *other = inherited(c, k, at);
-  if (!pressed) return other && !goes_on_beside(c, k, other) ? other : NULL;
+  if (!pressed) return other && !goes_on_beside(c, k, other, y) ? other : NULL;
   return other && other->segment && away(other, k, at) < away(own, k, at) ? other : own;
 }

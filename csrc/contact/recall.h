@@ -6,9 +6,9 @@
 #include "contact/touch.h"
 
 /* Returns the memory with which a touch of the candidate goes on, its own or that of a neighbour
- * from which it slid here, or NULL. */
+ * from which it slid here, at positions y; or NULL. */
 const sw_memory *sw_contact_recalled(const sw_contact *c, const sw_system *s, const sw_candidate *k,
-                                     double at, int feature);
+                                     double at, int feature, const double *y);
 /* Largest distance along the segment between places of one touch: the given share, or half the
  * distance of samples [-]. */
 static inline double sw_contact_within(const sw_candidate *k, double share) {

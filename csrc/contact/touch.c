@@ -297,7 +297,7 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
                                const double *y, const sw_place *place) {
   const sw_closest *near = &place->near;
   const double at = k->segment ? near->at : 0.0;
-  const sw_memory *m = sw_contact_recalled(c, s, k, at, near->feature);
+  const sw_memory *m = sw_contact_recalled(c, s, k, at, near->feature, y);
   const sw_touch *last = last_for(c, k, at, near->feature);
   const sw_vec out = sw_rotate(c->now[k->obstacle].pose.q, near->normal);
   const sw_plan *plan = s->bodies[k->body].plan;

@@ -41,7 +41,9 @@ double sw_drawn_depth(const sw_system *s, size_t body, size_t node, size_t end, 
   const size_t first = node < end ? node : end, last = node < end ? end : node;
   const size_t i = first - b->first_node, after = last - b->first_node, edges = b->plan->edges;
   if (i == 0 || after >= edges) return HUGE_VAL;
-  const double stretch = s->tension[b->first_edge + i] / b->EA * b->plan->rest[i];
+  const size_t other = after > i ? i : i - 1; /* a node has two edges: the same from both ends */
+  const double *tension = s->tension + b->first_edge, *rest = b->plan->rest;
+  const double stretch = 0.5 * (tension[i] * rest[i] + tension[other] * rest[other]) / b->EA;
   const sw_vec turns = sw_sub(tangent(b, after), tangent(b, i - 1));
   const double turn = fabs(sw_dot(turns, normal)) / (double)(after - i + 1);
   return turn > 0 && stretch > 0 ? fmax(SHORTENS * stretch / turn, least) : HUGE_VAL;

@@ -1,6 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- model = "auto" does not compute more than it needs: dynamics whose steps collapse on the coarsest edges are
--- computed on the next ones; a comparison that two levels agree on is not made on a third; the levels of the
+-- model = "auto" does not compute more than it needs: a comparison with dynamics takes few steps; a comparison that two levels agree on is not made on a third; the levels of the
 -- run serve as comparisons.
 local probe = require "softworld.model.probe"
 local refine = require "softworld.run.refine"
@@ -35,7 +34,8 @@ local function first(list, f)
 end
 
 -- A cable lies over a peg without friction. Its end is drawn away and down within 20 s. On 10 edges, a node
--- meets the peg, and steps of dynamics collapse to 0.1 us after 2 s. From 20 edges on they do not.
+-- meets the peg. A chord that began to touch there took the node's force once more, and steps of dynamics
+-- collapsed to 0.1 us after 2 s; the comparison was then made on 20 edges.
 local function pegged(turned)
   local scene, r, peg = sw.scene { name = "pegged" }, 0.0025, 0.033557287888891
   local function at(x, z) return turned and { 0, x, z } or { x, 0, z } end
@@ -51,17 +51,18 @@ local function pegged(turned)
   return scene:run { duration = 20, model = "auto", tolerance = { ["hand.force"] = { relative = 0.1 } } }
 end
 
-describe("choosing a model, where steps of dynamics collapse on the coarsest edges,", function()
+describe("choosing a model, where a node meets a peg on the coarsest edges,", function()
   for _, turned in ipairs { false, true } do
-    it(turned and "does the same in the turned scene" or "compares on the next edges", function()
+    it(turned and "does the same in the turned scene" or "compares without a collapse of steps", function()
       local run, list = counted(function() return pegged(turned) end)
       assert.equal("poses", run.model.motion)
       assert.equal("compared", run.model.choices[1].by, tostring(run:why()))
       assert.is_true(run.met, tostring(run:why()))
       -- without this, dynamics took 40000 steps on the coarsest edges, twice; poses take 125
       for _, c in ipairs(list) do assert.is_true(c.steps < 4000, ("%d steps"):format(c.steps)) end
-      local on_next = first(list, function(c) return not c.poses and c.segments == 20 end)
-      assert.truthy(on_next, tostring(run:why()))
+      local compared = first(list, function(c) return not c.poses end)
+      assert.truthy(compared, tostring(run:why()))
+      assert.truthy(compared.segments <= 20)
     end)
   end
 end)
