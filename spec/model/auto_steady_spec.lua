@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- model = "auto" does not compute more than it needs: a comparison with dynamics takes few steps; one that two
--- levels agree on is not made on a third; the levels of the run serve as comparisons.
+-- model = "auto" does not compute more than it needs: a comparison with dynamics takes few steps; one that
+-- two levels agree on is not made on a third; the levels of the run serve as comparisons.
 local probe = require "softworld.model.probe"
 local refine = require "softworld.run.refine"
 local sw = require "softworld"
