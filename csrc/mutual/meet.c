@@ -149,7 +149,7 @@ static double deepest(const sw_mutual *m, const sw_system *s, const sw_meet *t) 
   if (m->regime == SW_CONTACT_EXPLICIT || (still ? !s->poses : t->kind == SW_CROSSING)) return most;
   for (int k = 0; k < 2; k++) {
     const uint32_t body = t->of.body[k], node = t->of.node[k], end = t->of.end[k];
-    if (sw_drawn_has(&m->drawn[body], node, end))
+    if (sw_drawn_has(&m->drawn[body], node, end) && (!still || sw_drawn_is_taut(s, body, node)))
       most = fmin(most, sw_drawn_depth(s, body, node, end, t->square, least));
   }
   return most;

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdint.h>
 
+#include "contact/contact.h"
 #include "system/join.h"
 
 /* Share of an edge's stretch by which a touch may shorten the wire's way. The tension is too low by
@@ -31,6 +32,19 @@ sw_drawn sw_drawn_of(const sw_system *s, size_t body) {
     if (spring->j - b->first_node < p->nodes) sw_drawn_take(&d, spring->j);
   }
   return d;
+}
+
+/* In statics a wire is drawn if its tension is above this multiple of its weight, or of EI /
+ * length^2. Below it hangs, and its pull follows from its sag. Without the limit poses of two wires
+ * that hang on each other need a hundred times the iterations; with 15 and 50 taut pairs have the
+ * same pull within 0.5 % [-]. */
+static const double TAUT = 5.0;
+
+int sw_drawn_is_taut(const sw_system *s, size_t body, size_t node) {
+  const sw_body *b = &s->bodies[body];
+  const size_t i = node - b->first_node, e = i < b->plan->edges ? i : i - 1;
+  const double usual = sw_contact_usual_force(s, b->plan);
+  return s->tension[b->first_edge + e] > TAUT * usual;
 }
 
 static sw_vec tangent(const sw_body *b, size_t e) { return sw_vec_across(b->field.tangent, e); }

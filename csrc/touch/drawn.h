@@ -19,6 +19,8 @@ void sw_drawn_take(sw_drawn *drawn, size_t node);
 static inline int sw_drawn_has(const sw_drawn *drawn, size_t node, size_t end) {
   return node >= drawn->first && end <= drawn->last;
 }
+/* 1 if the line does not just hang, in statics. */
+int sw_drawn_is_taut(const sw_system *system, size_t body, size_t node);
 /* Largest depth of a touch on the segment from node to end, or on a node with end = node, at which
  * the way of a drawn wire is short by less than 1 % of its stretch; HUGE_VAL: any [m]. normal: of
  * the touch [-]; least: no smaller depth is returned [m]. */
