@@ -81,9 +81,9 @@ static inline double sw_depth_for(double depth, double radius) {
 
 /* Makes the memory of a touch at a step's end. usual: stiffness of a new touch, stiffer: stiffness
  * from the next iterate on [N/m]. A touch keeps its stiffness, because a change would be a kick; a
- * stiffness higher than needed decreases slowly. share: the step over the size that was first
- * tried; a decrease per step would take the force away in a few microseconds of short steps, each
- * of which would be a kick, and the wire would sink in (spec/contact/eased_spec) [-]. */
+ * stiffness higher than needed decreases slowly. share: the step over a full one; a decrease per
+ * step would take the force away in a few microseconds of short steps, each of which would be a
+ * kick, and the wire would sink in (spec/contact/eased_spec) [-]. */
 sw_kept sw_press_keep(const sw_press *press, double usual, double stiffer, double deepest,
                       double share);
 /* 1 if friction's spring was stiffer than its touch, by more than rounding. */
