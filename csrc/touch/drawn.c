@@ -36,9 +36,10 @@ sw_drawn sw_drawn_of(const sw_system *s, size_t body) {
 
 /* In statics a wire is drawn if its tension is above this multiple of its weight, or of EI /
  * length^2. Below it hangs, and its pull follows from its sag. Without the limit poses of two wires
- * that hang on each other need a hundred times the iterations; with 15 and 50 taut pairs have the
- * same pull within 0.5 % [-]. */
-static const double TAUT = 5.0;
+ * that hang on each other need a hundred times the iterations; with 5, friction of a wire that a
+ * feed settles round a peg creeps as a run begins (spec/link/feed_settle_spec); with 15 a cable
+ * that is drawn a little stays slack (spec/contact/round_spec) [-]. */
+static const double TAUT = 10.0;
 
 int sw_drawn_is_taut(const sw_system *s, size_t body, size_t node) {
   const sw_body *b = &s->bodies[body];
