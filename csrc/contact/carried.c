@@ -9,10 +9,15 @@
 #include "contact/touch.h"
 #include "system/inner.h"
 
+/* Slower turns are rounding of a trajectory without turns [rad/s]. */
+static const double TURNS = 1e-9;
+
+static int turns(sw_vec omega) { return sw_norm2(omega) > TURNS * TURNS; }
+
 /* 1 if some obstacle turns at the step's start. */
 static int any_turns(const sw_contact *c) {
   for (size_t k = 0; k < c->broad.mover_count; k++)
-    if (sw_norm2(c->start[c->broad.mover[k]].omega) > 0) return 1;
+    if (turns(c->start[c->broad.mover[k]].omega)) return 1;
   return 0;
 }
 
@@ -39,7 +44,7 @@ void sw_contact_find_carried(const sw_contact *c, sw_system *s) {
 sw_vec sw_contact_carried(const sw_contact *c, const sw_system *s, const sw_touch *t, sw_vec from) {
   const sw_contact_at *start = &c->start[t->obstacle], *now = &c->now[t->obstacle];
   const sw_vec to = sw_pose_point(now->pose, sw_pose_local(start->pose, from));
-  if (!(s->inner > 0) || !(sw_norm2(now->omega) > 0)) return to;
+  if (!(s->inner > 0) || !turns(now->omega)) return to;
   if (!sw_inner_goes_inside(s, &s->bodies[t->body])) return to;
   const sw_vec turn = sw_quat_log(sw_quat_mul(now->pose.q, sw_quat_conj(start->pose.q)));
   const sw_vec inward = sw_scale(sw_cross(turn, sw_sub(to, from)), 0.5);

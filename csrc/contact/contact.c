@@ -305,7 +305,9 @@ int sw_contact_steady(const sw_contact *c) {
 
 void sw_contact_cut(sw_contact *c, double least) { c->least = least; }
 void sw_contact_brake(sw_contact *c) { c->brakes = 1; }
-void sw_contact_ask(sw_contact *c, double part) { c->asked = fmin(c->nominal, part); }
+void sw_contact_ask(sw_contact *c, double part, int adaptive) {
+  c->asked = fmin(c->nominal, part), c->adaptive = adaptive;
+}
 double sw_contact_soonest(const sw_contact *c) { return c->soonest; }
 size_t sw_contact_impacts(const sw_contact *c) { return c->impact_count; }
 double sw_contact_struck(const sw_contact *c) { return c->struck; }

@@ -143,7 +143,7 @@ void sw_contact_cut(sw_contact *contact, double least);
 void sw_contact_brake(sw_contact *contact);
 /* Sets the wanted size of the part (substep) [s]. Touches that slowly get deeper in parts of this
  * size are stiffened as in whole steps. */
-void sw_contact_ask(sw_contact *contact, double part);
+void sw_contact_ask(sw_contact *contact, double part, int adaptive);
 
 /* Reviews a static solution x1. Segments that passed an obstacle are kept on their side from now
  * on. Returns 1 if there are any: solve again. */

@@ -38,7 +38,7 @@ static const double LEAST = 1e-6, LEAST_AT_REST = 1e-8;
 static double shortening(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                          const sw_touch *t) {
   const int still = c->regime == SW_CONTACT_STATIC;
-  if (!k->drawn || (still && !sw_drawn_is_taut(s, t->body, t->node))) return HUGE_VAL;
+  if (!k->drawn) return HUGE_VAL;
   return sw_drawn_depth(s, t->body, t->node, t->other, t->press.normal,
                         sw_depth_for(still ? LEAST_AT_REST : LEAST, k->radius));
 }

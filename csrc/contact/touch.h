@@ -73,6 +73,7 @@ struct sw_contact {
   double first; /* share of the step's first stage in the starting state of this stage [-] */
   double time, h, stage_time; /* the step's start and size; when obstacles were placed last [s] */
   double nominal;             /* the run's full step [s] */
+  int adaptive;               /* 1: steps follow their error */
   double asked;               /* part (substep) that was first tried, before refusals [s] */
   int brakes;                 /* 1: a drive with which wires slide comes to rest soon */
   sw_contact_regime regime;

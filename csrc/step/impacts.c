@@ -66,7 +66,7 @@ sw_status sw_rung_strike(sw_ladder *p, const sw_rung *below, double h, sw_error 
   sw_status status = sw_scene_begin_contact(s, implicit ? SW_CONTACT_IMPLICIT : SW_CONTACT_EXPLICIT,
                                             sw_scene_time(s), h, sw_blow_part(s, p->args->dt), err);
   if (contact) sw_contact_cut(contact, shortest_cut(p));
-  if (contact && p->asked > 0) sw_contact_ask(contact, p->asked);
+  if (contact && p->asked > 0) sw_contact_ask(contact, p->asked, p->args->tolerance > 0);
   if (contact && p->brakes) sw_contact_brake(contact);
   if (stops) c->stepper.plastic = 1;
   int expected = status == SW_OK && begin_dully(p, h);

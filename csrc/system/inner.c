@@ -132,7 +132,7 @@ sw_status sw_inner_check(sw_system *s, double t, sw_error *err) {
 static int is_joined(const sw_body *b) { return b->coupled & SW_JOINED; }
 
 int sw_inner_goes_inside(const sw_system *s, const sw_body *body) {
-  if (!(s->inner > 0) || !(body->carried > 0) || body->held) return 0;
+  if (!(s->inner > 0) || !(body->carried > 0) || !body->lies_flat || body->held) return 0;
   for (size_t i = 0; is_joined(body) && i < s->body_count; i++)
     if (is_joined(&s->bodies[i]) && s->bodies[i].held) return 0;
   return 1;

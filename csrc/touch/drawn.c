@@ -17,6 +17,13 @@ void sw_drawn_take(sw_drawn *d, size_t node) {
   if (node > d->last) d->last = node;
 }
 
+/* 1 if the wire slides through one of its holds: its length gives way. */
+static int passes(const sw_system *s, size_t body) {
+  for (size_t k = 0; k < s->held_count; k++)
+    if (s->held[k].body == body && s->held[k].slides) return 1;
+  return 0;
+}
+
 sw_drawn sw_drawn_of(const sw_system *s, size_t body) {
   const sw_body *b = &s->bodies[body];
   const sw_plan *p = b->plan;
@@ -25,6 +32,7 @@ sw_drawn sw_drawn_of(const sw_system *s, size_t body) {
   if (p->web) return d;
   while (i < end && p->held[i] == SW_FREE) i++;
   while (end > i && p->held[end - 1] == SW_FREE) end--;
+  if (i + 1 < end && passes(s, body)) return d;
   if (i < end) d = (sw_drawn){b->first_node + i, b->first_node + end - 1};
   for (size_t k = 0; s->joins && k < s->joins->spring_count; k++) {
     const sw_join_spring *spring = &s->joins->springs[k];
@@ -34,11 +42,10 @@ sw_drawn sw_drawn_of(const sw_system *s, size_t body) {
   return d;
 }
 
-/* In statics a wire is drawn if its tension is above this multiple of its weight, or of EI /
- * length^2. Below it hangs, and its pull follows from its sag. Without the limit poses of two wires
- * that hang on each other need a hundred times the iterations; with 5, friction of a wire that a
- * feed settles round a peg creeps as a run begins (spec/link/feed_settle_spec); with 15 a cable
- * that is drawn a little stays slack (spec/contact/round_spec) [-]. */
+/* In poses, wires that touch each other are drawn if the tension is above this multiple of the
+ * weight, or of EI / length^2. Below it they hang, and their pull follows from their sag. Without
+ * the limit poses of two wires that hang on each other need a hundred times the iterations; with 5,
+ * 15 and 50 taut pairs have the same pull within 0.5 % [-]. */
 static const double TAUT = 10.0;
 
 int sw_drawn_is_taut(const sw_system *s, size_t body, size_t node) {
