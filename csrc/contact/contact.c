@@ -94,7 +94,7 @@ sw_status sw_contact_open(sw_contact *c, double t, double h, sw_error *err) {
 
 sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime regime,
                                 double nominal, sw_error *err) {
-  c->nominal = c->asked = nominal, c->brakes = 0;
+  c->nominal = c->asked = nominal, c->brakes = c->adaptive = 0;
   c->regime = regime;
   c->pressed_count = 0;
   c->plastic = c->hasty = c->careful = 0;

@@ -142,7 +142,7 @@ void sw_contact_cut(sw_contact *contact, double least);
  * wire. */
 void sw_contact_brake(sw_contact *contact);
 /* Sets the wanted size of the part (substep) [s]. Touches that slowly get deeper in parts of this
- * size are stiffened as in whole steps. */
+ * size are stiffened as in whole steps. adaptive: 1: steps follow their error. */
 void sw_contact_ask(sw_contact *contact, double part, int adaptive);
 
 /* Reviews a static solution x1. Segments that passed an obstacle are kept on their side from now

@@ -145,7 +145,7 @@ static const double FASTER = 2.0;
 /* An edge e of the state becomes e' without strain, by the stage's rule, if (e' - e) t' = 0. */
 void sw_inner_felt_lengths(const sw_system *s, sw_body *b) {
   sw_field *f = &b->field;
-  if (!b->lies_flat || b->plan->web || !sw_inner_goes_inside(s, b)) return;
+  if (b->plan->web || !sw_inner_goes_inside(s, b)) return;
   const double *x = s->x + 3 * b->first_node, turn = FASTER * b->carried * s->inner;
   for (size_t e = 0; e < b->plan->edges; e++) {
     const sw_vec was = sw_sub(sw_vec_at(x, e + 1), sw_vec_at(x, e));

@@ -13,7 +13,7 @@
  * matters less than the force by which the difference would stretch it. */
 sw_status sw_inner_check(sw_system *system, double t, sw_error *err);
 
-/* 1 in an inner stage, for a body that obstacles carry round and no hold keeps on its path. What
+/* 1 in an inner stage, for a body that lies flat on what carries it round, kept by no hold. What
  * goes round with the obstacle is then moved, as the wire is, by the stage's length times its
  * velocity at the end: to a place inside its path, by half of its turn squared times the radius. */
 int sw_inner_goes_inside(const sw_system *system, const sw_body *body);
