@@ -137,6 +137,9 @@ const char *lsw_name(lua_State *L, int index, const char *what);
 /* Returns the integer at index; what names it in the error. */
 lua_Integer lsw_integer(lua_State *L, int index, const char *what);
 
+/* Sets the fields `vector` and `rotation` of the module on top of the stack: the metatables of the
+ * lists that the next two push, empty here (lua/softworld/vector.lua fills them). */
+void lsw_open_vectors(lua_State *L);
 void lsw_push_vector(lua_State *L, sw_vec a);      /* {x, y, z} */
 void lsw_push_quaternion(lua_State *L, sw_quat q); /* {w, x, y, z} */
 

@@ -35,6 +35,7 @@ int luaopen_softworld_core(lua_State *L) {
   lsw_open_quiet(L);
   lsw_open_classes(L);
   lua_setfield(L, -2, "class");
+  lsw_open_vectors(L);
   lsw_locale_open(L);
   lsw_mesh_child_open();
   lsw_motion_open_functions(L);

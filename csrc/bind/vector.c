@@ -138,15 +138,29 @@ sw_quat lsw_rotation(lua_State *L, int index, const char *what) {
   return sw_quat_unit((sw_quat){q[0], q[1], q[2], q[3]});
 }
 
+/* Keys of the metatables in the registry. */
+static const char vector_class = 0, rotation_class = 0;
+
+void lsw_open_vectors(lua_State *L) {
+  lua_newtable(L), lua_pushvalue(L, -1);
+  lua_setfield(L, -3, "vector"), lua_rawsetp(L, LUA_REGISTRYINDEX, &vector_class);
+  lua_newtable(L), lua_pushvalue(L, -1);
+  lua_setfield(L, -3, "rotation"), lua_rawsetp(L, LUA_REGISTRYINDEX, &rotation_class);
+}
+
+static void set_class(lua_State *L, const char *key) {
+  lua_rawgetp(L, LUA_REGISTRYINDEX, key), lua_setmetatable(L, -2);
+}
+
 void lsw_push_vector(lua_State *L, sw_vec a) {
-  lua_createtable(L, 3, 0);
+  lua_createtable(L, 3, 0), set_class(L, &vector_class);
   lua_pushnumber(L, a.x), lua_rawseti(L, -2, 1);
   lua_pushnumber(L, a.y), lua_rawseti(L, -2, 2);
   lua_pushnumber(L, a.z), lua_rawseti(L, -2, 3);
 }
 
 void lsw_push_quaternion(lua_State *L, sw_quat q) {
-  lua_createtable(L, 4, 0);
+  lua_createtable(L, 4, 0), set_class(L, &rotation_class);
   lua_pushnumber(L, q.w), lua_rawseti(L, -2, 1);
   lua_pushnumber(L, q.x), lua_rawseti(L, -2, 2);
   lua_pushnumber(L, q.y), lua_rawseti(L, -2, 3);

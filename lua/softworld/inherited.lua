@@ -4,6 +4,7 @@
 -- metatables have a __name, inherit none.
 -- @module softworld.inherited
 local core = require "softworld.core"
+local vector = require "softworld.vector"
 
 local inherited = {}
 
@@ -77,7 +78,8 @@ function inherited.flat(args, names, what)
     end
     base = base_of(base)
   end
-  if what and base and type(base) ~= "table" then refuse(what, args, names, taken) end
+  local by_function = base and type(base) ~= "table" and not vector.kind(args)
+  if what and by_function then refuse(what, args, names, taken) end
   return flat
 end
 

@@ -23,6 +23,7 @@ local methods = require "softworld.methods"
 local record = require "softworld.scene.record" -- of calls, for scene:script and scene:describe
 local remarks = require "softworld.remarks"
 local rows = require "softworld.rows"
+require "softworld.vector" -- fills the classes of the core's vectors
 
 local sw = {
   version = core.version,

@@ -5,6 +5,7 @@
 -- @module softworld.units
 local checks = require "softworld.checks"
 local place = require "softworld.place"
+local vector = require "softworld.vector"
 
 local units = {}
 local to = {}
@@ -50,8 +51,8 @@ local function convert(value, times, by, name, depth)
   if depth > DEEPEST then
     fail("%s: the table holds itself, or more than %d tables within each other", name, DEEPEST)
   end
-  local out = {}
-  for key, item in pairs(value) do out[key] = convert(item, times, by, name, depth + 1) end
+  local out = vector.kind(value) == "vector" and vector.of{} or {}
+  for key, item in next, value do out[key] = convert(item, times, by, name, depth + 1) end
   return out
 end
 

@@ -201,6 +201,14 @@ describe("an event doubts", function()
     assert.truthy(why(made):find("forces jumped", 1, true))
   end)
 
+  it("peaks beside more than a tenth of energy from nowhere, which no step made", function()
+    local gap = { kind = "energy", object = "", value = 0.99,
+      text = "1 J come from nowhere, 99 % of the energy in play" }
+    assert.truthy(why(gap):find("energy comes from nowhere", 1, true))
+    gap.value = 0.07
+    assert.is_nil(why(gap))
+  end)
+
   it("forces of grippers by the share of energy from nowhere", function()
     local gap = { kind = "energy", object = "", value = 0.07,
       text = "1 J come from nowhere, 7 % of the energy in play" }

@@ -35,6 +35,7 @@ local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
 local target = require "softworld.grip.target"
 local vec = require "softworld.vec"
+local vector = require "softworld.vector"
 
 local Gripper = { __name = "gripper" }
 keep.class("gripper", Gripper)
@@ -254,7 +255,8 @@ end
 function Gripper:position()
   local carrier = self.tool or self.carrier
   if carrier then return (carrier:pose()) end
-  return self.hold and (self.hold:pose()) or self.at
+  if self.hold then return (self.hold:pose()) end
+  return self.at and vector.of{ table.unpack(self.at, 1, 3) }
 end
 
 local shortcuts = { peak_force = true, mean_force = true, peak_moment = true, mean_moment = true,

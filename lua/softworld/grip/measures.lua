@@ -8,15 +8,15 @@ local rows = require "softworld.rows"
 local vec = require "softworld.vec"
 local loads = require "softworld.run.loads"
 local window = require "softworld.run.window"
+local vector = require "softworld.vector"
 
 local Measures = {}
 
 local function in_axes(self, v, axes)
-  if axes == nil or axes == "world" then return v end
-  local held = self.tool or self.hold and (self.carrier or self.hold)
-  if not held then return v end
+  local held = axes == "gripper" and (self.tool or self.hold and (self.carrier or self.hold))
+  if not held then return vector.of(v) end
   local _, q = held:pose()
-  return vec.rotate(vec.conjugate(q), v)
+  return vector.of(vec.rotate(vec.conjugate(q), v))
 end
 
 -- Returns the hold of one of several wires.

@@ -14,6 +14,7 @@ local build = require "softworld.scene.build"
 local fixing = require "softworld.link.fixing"
 local rows = require "softworld.rows"
 local vec = require "softworld.vec"
+local vector = require "softworld.vector"
 
 local dot, cross, add, unit, norm = vec.dot, vec.cross, vec.add, vec.unit, vec.norm
 
@@ -217,7 +218,7 @@ function Channel:force(given)
   nothing("force", given, "it is the force of all wires")
   local sum = { 0, 0, 0 }
   for _, part in ipairs(all_parts(self)) do sum = add(sum, (part:force())) end
-  return sum
+  return vector.of(sum)
 end
 
 local moment = rows.call("channel:moment", "{...}", "of all wires on it", {
@@ -231,7 +232,7 @@ function Channel:moment(args)
   for _, part in ipairs(all_parts(self)) do
     sum = add(sum, part:moment{ at = at })
   end
-  return sum
+  return vector.of(sum)
 end
 
 -- True if the point is between the mitres of the leg, its walls, the floor and `top`.

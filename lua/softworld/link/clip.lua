@@ -20,6 +20,7 @@ local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
 local vec = require "softworld.vec"
 local fixshape = require "softworld.link.fixshape"
+local vector = require "softworld.vector"
 
 local properties = {}
 local Clip = fixing.class("clip", properties, { "on", "radius", "damper", "stiffness" })
@@ -207,7 +208,7 @@ function Clip:force(wire)
   for _, r in ipairs(chosen(self, wire, "force")) do
     sum = vec.add(sum, { r.force_x, r.force_y, r.force_z })
   end
-  return sum
+  return vector.of(sum)
 end
 
 --- Returns how near the seated wire was to being pulled out: largest pull so far over retention. For a wire

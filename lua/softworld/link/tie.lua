@@ -16,6 +16,7 @@ local remarks = require "softworld.remarks"
 local rows = require "softworld.rows"
 local window = require "softworld.run.window"
 local vec = require "softworld.vec"
+local vector = require "softworld.vector"
 
 local properties = {}
 local Tie = fixing.class("tie", properties, { "other", "strength" })
@@ -132,7 +133,7 @@ function Tie:distance() return reading(self).distance end
 function Tie:force()
   if self.other then return self.object:force(1) end
   local r = reading(self)
-  return { r.force_x, r.force_y, r.force_z }
+  return vector.of{ r.force_x, r.force_y, r.force_z }
 end
 
 --- Cuts the tie.

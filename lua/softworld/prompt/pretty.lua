@@ -7,6 +7,8 @@
 -- line or summarised. Keys are sorted, metamethods other than __tostring are
 -- not called, cycles are named.
 
+local core = require "softworld.core"
+
 local DEPTH = 4 -- deepest nesting of tables that is shown
 local SORTED = 20000 -- most keys that are sorted; beyond, sorting costs more than it helps
 
@@ -46,8 +48,10 @@ local function function_text(value)
   return ("function (%s:%d)"):format(info.short_src, info.linedefined)
 end
 
+-- Vectors are shown as the lists that they are: their own __tostring calls this module.
 local function has_tostring(value)
   local meta = debug.getmetatable(value)
+  if meta == core.vector or meta == core.rotation then return false end
   return type(meta) == "table" and rawget(meta, "__tostring") ~= nil
 end
 

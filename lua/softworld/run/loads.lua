@@ -7,6 +7,7 @@ local build = require "softworld.scene.build"
 local rows = require "softworld.rows"
 local vec = require "softworld.vec"
 local window = require "softworld.run.window"
+local vector = require "softworld.vector"
 
 local loads = {}
 
@@ -88,7 +89,7 @@ end
 -- between t1 and t2; the row holds from t0 on [s].
 -- @treturn table of gripper:over, without what pads have
 function loads.over(list, o)
-  local m = { impulse = { 0, 0, 0 }, duration = 0, window = o.width }
+  local m = { impulse = vector.of{ 0, 0, 0 }, duration = 0, window = o.width }
   local forces, moments, last = {}, {}, o.t1 < o.t2 and o.t1 or -math.huge
   for _, r in ipairs(list) do
     r.moment = moment_about(r, o.at)

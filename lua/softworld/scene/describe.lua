@@ -7,6 +7,7 @@ local fixing = require "softworld.link.fixing"
 local record = require "softworld.scene.record"
 local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
+local vector = require "softworld.vector"
 
 local describe = {}
 
@@ -33,7 +34,7 @@ local function plain(value, above)
   above = above or {}
   local of = record.trajectory(value)
   if of then return plain(of.args[1], above) end
-  if kind ~= "table" or getmetatable(value) ~= nil or above[value] then
+  if not vector.is_plain(value) or above[value] then
     return name_of(value) or tostring(value)
   end
   local copy = {}
@@ -150,7 +151,7 @@ local function of_scene(scene)
   if core.type(scene) ~= "scene" then error("scene:describe is a method: call it with a colon", 0) end
   local data = build.data(scene)
   local given = given_of(scene)
-  return { name = scene.name, time = scene.time, gravity = scene:gravity(),
+  return { name = scene.name, time = scene.time, gravity = plain(scene:gravity()),
     wires = list_of(data.wires, given, of_wire),
     particles = list_of(data.particles, given, of_particles),
     obstacles = obstacles_of(data, given), holds = list_of(data.holds, given, of_hold),

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Turns Lua values into a string and back, for the Lua side's part of a saved scene. Numbers keep their
--- bits. Objects of a scene are stored by their numbers, a table that occurs several times stays one table,
--- and tables of a known class (a gripper) get their class again:
+-- bits, and vectors stay vectors. Objects of a scene are stored by their numbers, a table that occurs several
+-- times stays one table, and tables of a known class (a gripper) get their class again:
 --
 --     keep.class("gripper", Gripper)
 --
@@ -10,6 +10,7 @@
 -- @module softworld.scene.keep
 local core = require "softworld.core"
 local sealed = require "softworld.sealed"
+local vector = require "softworld.vector"
 
 local keep = {}
 local classes, class_names = {}, {}
@@ -67,8 +68,8 @@ local function write_table(out, value, path, depth)
   if depth > DEEPEST then fail(path, "in too many tables, one inside the other") end
   out.count = out.count + 1
   out.numbers[value] = out.count
-  local metatable = getmetatable(value)
-  if metatable ~= nil then
+  local metatable, list = getmetatable(value), vector.kind(value)
+  if metatable ~= nil and not list then
     class = class_names[metatable]
     if not class then
       local kind = type(metatable) == "table" and rawget(metatable, "__name")
@@ -76,7 +77,7 @@ local function write_table(out, value, path, depth)
     end
   end
   out[#out + 1] = class and string.pack("<c1s4s4", "C", class, name_of(value))
-    or "T"
+    or list == "vector" and "V" or list == "rotation" and "W" or "T"
   write_fields(out, value, path, depth + 1)
 end
 
@@ -153,6 +154,10 @@ local function remember(from, value)
   return value
 end
 
+local function list_of(from, class, depth)
+  return read_fields(from, remember(from, setmetatable({}, class)), depth + 1)
+end
+
 local readers = {
   N = function() return nil end,
   t = function() return true end,
@@ -171,6 +176,8 @@ local readers = {
     return from.object(class, slot, generation)
   end,
   T = function(from, depth) return read_fields(from, remember(from, {}), depth + 1) end,
+  V = function(from, depth) return list_of(from, core.vector, depth) end,
+  W = function(from, depth) return list_of(from, core.rotation, depth) end,
   C = function(from, depth)
     local class, name = unpack(from, "<s4s4")
     if not classes[class] then
@@ -217,6 +224,8 @@ local function copy(value, seen, own)
   seen[value] = value
   if class_names[metatable] then
     own[value], from = to, sealed.fields(value)
+  elseif vector.kind(value) then
+    seen[value] = setmetatable(to, metatable)
   elseif metatable ~= nil or value.object ~= nil then
     return value
   else

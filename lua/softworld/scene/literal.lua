@@ -1,6 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Writes values as Lua source that gives the same bits again.
 -- @module softworld.scene.literal
+local vector = require "softworld.vector"
+
 local literal = {}
 
 local WIDTH = 100 -- widest line [characters]
@@ -77,7 +79,7 @@ function literal.of(value, object, path, indent, above)
   if kind == "number" then return literal.number(value) end
   if kind == "string" then return (("%q"):format(value):gsub("\\\n", "\\n")) end
   if kind == "boolean" or kind == "nil" then return tostring(value) end
-  if kind ~= "table" or getmetatable(value) ~= nil then return object(value, path) end
+  if not vector.is_plain(value) then return object(value, path) end
   indent, above = indent or "", above or {}
   if above[value] then error(path .. " is a table that contains itself", 0) end
   if #indent > 2 * DEEPEST then error(path .. " is in too many tables, one inside the other", 0) end

@@ -8,6 +8,7 @@ local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local inherited = require "softworld.inherited"
 local trajectory = require "softworld.trajectory"
+local vector = require "softworld.vector"
 
 local record = {}
 
@@ -47,7 +48,7 @@ local function copied(value, seen, depth)
   if type(value) == "function" then return record.a_function end
   if type(value) ~= "table" or depth > DEEPEST then return value end
   local flat = inherited.flat(value)
-  if rawequal(flat, value) and getmetatable(value) ~= nil then return value end
+  if rawequal(flat, value) and not vector.is_plain(value) then return value end
   if seen[value] then return seen[value] end
   local copy = {}
   seen[value] = copy
