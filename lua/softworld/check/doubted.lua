@@ -53,8 +53,8 @@ local kinds = {
 
 local UNKNOWN = "come from nowhere" -- in events `energy` about a gap that no step made
 -- Above this share of the energy in play all peaks are in doubt [-]. Below it, from 0.05 on, forces of
--- grippers get a range. With 0.2 a limit may pass that the force exceeds by a fifth; with 0.05 a row has no range any
--- more, but is OPEN (spec/check/doubted_spec).
+-- grippers get a range. With 0.2 a limit may pass that the force exceeds by a fifth; with 0.05 no row has a
+-- range any more (spec/check/doubted_spec).
 local MUCH = 0.1
 
 -- Returns what is wrong after an event. Events `energy` have three meanings.
