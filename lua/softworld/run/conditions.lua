@@ -3,6 +3,7 @@
 -- @module softworld.run.conditions
 local core = require "softworld.core"
 local checks = require "softworld.checks"
+local feeling = require "softworld.run.feeling"
 local vec = require "softworld.vec"
 
 local conditions = {}
@@ -40,8 +41,9 @@ function kinds.force(t, level)
     error("p:wait_until: force needs on = a gripper, hold or obstacle", level)
   end
   check_scene(t.on, "what force is on", level + 1)
-  return function() return vec.norm(t.on:force()) >= least end,
-    least > 0 and function() return holds_nothing(t.on) end or nil
+  local felt, last = feeling.of(t.on, conditions.scene)
+  return function() return felt() >= least end,
+    least > 0 and function() return holds_nothing(t.on) end or nil, { force = least, on = t.on, last = last }
 end
 
 -- The wire has slid a distance through a gripper's pads.
@@ -105,8 +107,8 @@ end
 local known = { on = true, between = true }
 for kind in pairs(kinds) do known[kind] = true end
 
---- Returns the function for a condition given as a table, and a function (or nil) that says why it cannot
--- come true as long as nobody acts.
+--- Returns the function for a condition given as a table, a function (or nil) that says why it cannot come
+-- true as long as nobody acts, and for a force what feeling.tell needs.
 function conditions.of(t, level, scene)
   conditions.scene = scene
   checks.keys("p:wait_until", t, known, level + 1)
@@ -118,8 +120,8 @@ function conditions.of(t, level, scene)
     end
   end
   if not found then error("p:wait_until: no condition; give force, slip, contact or distance", level) end
-  local holds, impossible = kinds[found](t, level + 1)
-  return holds, impossible -- no tail call, it would hide a level
+  local holds, impossible, wanted = kinds[found](t, level + 1)
+  return holds, impossible, wanted -- no tail call, it would hide a level
 end
 
 return conditions
