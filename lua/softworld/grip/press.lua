@@ -18,7 +18,8 @@ local FINEST = 1.01e-9 -- least way to set it by: motions take ways below 1e-9 a
 local AIM = 1.05     -- push that it is set to, as a share of the wanted one [-]
 local STILL = 4      -- steps after which a push is taken as that of rest, ...
 local REST = 0.01    -- ... and the least time [s]
-local SURE = 0.1     -- time for which the wanted push must stay: a cable that a blow bent swings [s]
+local SURE = 0.1     -- time for which the wanted push must stay: a cable that a blow bent swings, ... [s]
+local LOST = 0.1     -- ... and loses more than this share of the wanted push [-]
 
 -- Returns the acceleration of the move's start [m/s2], or nil for an empty gripper. The speed is reached
 -- within an eighth of the distance at the latest.
@@ -88,8 +89,9 @@ local function set_back(p, held, way, args, seen, push)
   for _ = 1, MOST do
     if is_set() then
       p:wait(SURE)
-      f = push()
-      if is_set() then break end
+      local later = push()
+      if math.abs(later - f) <= LOST * args.force then break end
+      f = later
     end
     local x = next_way(ends, now, f, args)
     if math.abs(x - now) < FINEST then break end
