@@ -9,6 +9,8 @@ local vec = require "softworld.vec"
 local conditions = {}
 local kinds = {}
 
+local TOUCH = 1e-12 -- smaller forces are the rounding that a touch leaves [N]
+
 local function number(what, value, unit, level)
   return checks.number("p:wait_until: " .. what, value, 0, unit, level)
 end
@@ -56,14 +58,20 @@ function kinds.slip(t, level)
   return function() return t.on:state().slip >= least end, function() return holds_nothing(t.on) end
 end
 
--- Something touches an obstacle.
+-- Something touches an obstacle, or has touched it since the last look.
 function kinds.contact(t, level)
   if core.type(t.contact) ~= "obstacle" then
     error("p:wait_until: contact needs an obstacle, got " .. (core.type(t.contact) or type(t.contact)),
       level)
   end
   check_scene(t.contact, "the obstacle", level + 1)
-  return function() return vec.norm(t.contact:force()) > 0 end
+  local scene, last = conditions.scene, nil
+  return function()
+    local most, now = vec.norm(t.contact:force()), scene.time -- of the last part of a step that was divided
+    if last and now > last then most = math.max(most, t.contact:over(last, now).raw_peak_force) end
+    last = now
+    return most > TOUCH
+  end
 end
 
 -- Returns a function that gives a place: a point, a gripper, an obstacle, { wire, s = }; and true if it is

@@ -1,8 +1,10 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- The force that a process waits for, as a sensor feels it: where steps are shorter than the sensor's time,
 -- it is their mean. A hold that starts at once drives a stiff cable with a force that has no exact value: it
--- grows as steps get shorter, to a hundred newtons for half a microsecond.
+-- grows as steps get shorter, to a hundred newtons for half a microsecond. Of an obstacle the sensor feels
+-- blows in all parts of a step.
 -- @module softworld.run.feeling
+local core = require "softworld.core"
 local number = require "softworld.output.number"
 local vec = require "softworld.vec"
 
@@ -32,12 +34,13 @@ end
 --- Returns a function that looks at the force of an object and returns what a sensor feels [N], and a table
 -- of the last looks: .before, .now [N] and .step, the time between them [s].
 function feeling.of(object, scene)
-  local seen, first, time = {}, nil, nil
+  local seen, first, start, time = {}, nil, nil, nil
   local told = {}
+  local blows = core.type(object) == "obstacle"
   local function look()
     local f, now = object:force(), scene.time
     if not time or (now == time and #seen == 0) then
-      first, time = f, now
+      first, start, time = f, now, now
       return vec.norm(f)
     end
     if now > time then
@@ -45,9 +48,14 @@ function feeling.of(object, scene)
       seen[#seen + 1], time, told.step = { h = now - time }, now, now - time
       forget(seen)
     end
-    seen[#seen].f = f -- another process may have gone on at this time
-    if seen[#seen].h >= SENSE then return vec.norm(f) end
-    return vec.norm(mean_of(seen, first))
+    local last = seen[#seen]
+    last.f = f -- another process may have gone on at this time
+    if blows then
+      local from = math.max(start, now - last.h - SENSE)
+      last.blow = last.blow or object:over(from, now, { window = SENSE }).peak_force
+      return last.blow
+    end
+    return vec.norm(last.h < SENSE and mean_of(seen, first) or f)
   end
   return function()
     told.now = look()
