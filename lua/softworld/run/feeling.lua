@@ -39,8 +39,8 @@ function feeling.of(object, scene)
   local blows = core.type(object) == "obstacle"
   local function look()
     local f, now = object:force(), scene.time
-    if not time or (now == time and #seen == 0) then
-      first, start, time = f, now, now
+    if not time or now < time or (now == time and #seen == 0) then
+      seen, first, start, time = {}, f, now, now
       return vec.norm(f)
     end
     if now > time then
