@@ -15,9 +15,11 @@
 #include "watch/observe.h"
 
 static const double LIMIT = 0.4714, BUCKLES = 0.381; /* maximum of the moment; buckling [-] */
-/* A fold has a curvature over the limit above the first value, and an ovalisation above the second
- * [-]. */
-static const double BEYOND = 1.5, FLAT = 0.35;
+/* A fold has a curvature over the limit above the first value, and an ovalisation above the second,
+ * that of an endless tube shortly before it buckles [-]. Rings of few particles fold gradually, or
+ * bear more than a tube can: they are bent beyond the limit all the same. Walls meet above the
+ * third. */
+static const double BEYOND = 1.2, FLAT = 0.12, NEAR = 0.35;
 
 static double radius2(const sw_beam *beam) { return 2.0 * beam->EI_axis[0] / beam->EA; }
 
@@ -59,7 +61,7 @@ void sw_scene_watch_kink(sw_scene *s, size_t wire, const sw_wire_extremes *now) 
   const sw_scene_wire *w = sw_scene_wire_in(s, wire);
   const sw_web *web = w->strand.web;
   if (!web || !web->per_ring || !(now->ovalisation.value > FLAT)) return;
-  watch_walls(s, wire, now);
+  if (now->ovalisation.value > NEAR) watch_walls(s, wire, now);
   if (!(web->wall > 0)) return;
   const double unit = unit_curvature(&w->beam, web->wall);
   if (!(now->curvature.value > BEYOND * LIMIT * unit)) return;

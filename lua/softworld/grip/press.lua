@@ -12,11 +12,14 @@ local press = {}
 
 local START = 0.05   -- push by the wire's inertia as the move starts, as a share of the wanted one [-]
 local BEYOND = 1.08   -- a push above this share of the wanted one is set back [-]
-local MOST = 24      -- tries to set it back
+local MOST = 60      -- tries to set it back
+local SAME = 5       -- tries with too small, or too large a push, after which the other end is measured anew
 local FINEST = 1.01e-9 -- least way to set it by: motions take ways below 1e-9 as none [m]
 local AIM = 1.05     -- push that it is set to, as a share of the wanted one [-]
 local STILL = 4      -- steps after which a push is taken as that of rest, ...
 local REST = 0.01    -- ... and the least time [s]
+local SURE = 0.1     -- time for which the wanted push must stay: a cable that a blow bent swings, ... [s]
+local LOST = 0.1     -- ... and loses more than this share of the wanted push [-]
 
 -- Returns the acceleration of the move's start [m/s2], or nil for an empty gripper. The speed is reached
 -- within an eighth of the distance at the latest.
@@ -45,20 +48,52 @@ local function between(low, high, higher, force)
   return 0.5 * (low.x + high.x)
 end
 
+-- Returns the way to try after the push f at the way `now`. ends: .low, .high, .higher, places with too small
+-- and too large a push, the last two of the latter; .short, .same: what the last pushes were, and how many;
+-- .stride [m], .grow: how far to go where an end is missing. A cable that was drawn taut, or that a blow has
+-- bent, may lie otherwise than it lay when an end was measured: then no place between the ends has the push.
+-- The end is measured anew, and from there on it is looked for in strides that grow.
+local function next_way(ends, now, f, args)
+  local short = f < args.force
+  ends.same, ends.short = short == ends.short and ends.same + 1 or 1, short
+  if short then
+    ends.low = { x = now, f = f }
+  else
+    ends.high, ends.higher = { x = now, f = f }, ends.high
+  end
+  local other = ends[short and "high" or "low"]
+  if other and ends.same < SAME then
+    local x = between(ends.low, ends.high, ends.higher, args.force)
+    if math.abs(x - now) >= FINEST then return x end
+  end
+  if short then ends.high, ends.higher = nil, nil else ends.low = nil end
+  if other and math.abs(other.x - now) >= FINEST then
+    ends.same, ends.stride, ends.grow = 0, math.abs(other.x - now), 2
+    return other.x
+  end
+  ends.stride = ends.grow * math.max(ends.stride, FINEST)
+  return short and math.min(args.distance, now + ends.stride) or math.max(0, now - ends.stride)
+end
+
 -- Sets the tool to where the push at rest is the wanted one. Returns the push [N].
 local function set_back(p, held, way, args, seen, push)
-  local low, now, stride = seen.before, seen.last.x, seen.last.x - seen.before.x
-  local high, higher
+  local now = seen.last.x
+  local ends = { low = seen.before, stride = now - seen.before.x, grow = 1 }
   p:wait(math.max(STILL * seen.step, REST))
   local f = push()
   if f > BEYOND * args.force then -- the blow bends a cable and turns its end aside: it comes free first
-    high, now = { x = now, f = f }, low.x
-    f = go_to(p, held, way, now, high.x, args.speed, seen.step, push)
+    ends.high, now = { x = now, f = f }, ends.low.x
+    f = go_to(p, held, way, now, ends.high.x, args.speed, seen.step, push)
   end
+  local function is_set() return f >= args.force and f <= BEYOND * args.force end
   for _ = 1, MOST do
-    if f >= args.force and f <= BEYOND * args.force then break end
-    if f < args.force then low = { x = now, f = f } else high, higher = { x = now, f = f }, high end
-    local x = high and between(low, high, higher, args.force) or math.min(args.distance, now + stride)
+    if is_set() then
+      p:wait(SURE)
+      local later = push()
+      if math.abs(later - f) <= LOST * args.force then break end
+      f = later
+    end
+    local x = next_way(ends, now, f, args)
     if math.abs(x - now) < FINEST then break end
     f = go_to(p, held, way, x, now, args.speed, seen.step, push)
     now = x
@@ -76,11 +111,17 @@ local function tell(self, args, seen, f)
       number.text(f, "N")) }
 end
 
--- Tells that nothing stopped the wire.
-local function tell_unreached(self, args, f, way)
-  self.scene:tell{ kind = "unreached", object = self.name, value = f, text = ("gripper '%s': the press was "
-    .. "to end at %s, and went all of its %s with a push of %s at its end"):format(self.name,
-      number.text(args.force, "N"), number.text(way, "m"), number.text(f, "N")) }
+-- Tells that nothing stopped the wire, or that its push was lost as the tool was set back.
+local function tell_unreached(self, args, f, way, lost)
+  local text = ("gripper '%s': the press was to end at %s, "):format(self.name, number.text(args.force, "N"))
+  if lost then
+    text = text .. ("but after its force had jumped no place with this push was found: %s at %s of %s")
+      :format(number.text(f, "N"), number.text(way, "m"), number.text(args.distance, "m"))
+  else
+    text = text .. ("and went all of its %s with a push of %s at its end"):format(number.text(way, "m"),
+      number.text(f, "N"))
+  end
+  self.scene:tell{ kind = "unreached", object = self.name, value = f, text = text }
 end
 
 --- Presses by the held object in the process p; way: a unit vector. Returns the push [N], the way [m], and
@@ -102,14 +143,15 @@ function press.run(self, p, held, way, args)
     return seen.last.f >= args.force
   end, { timeout = args.distance / args.speed + (a and args.speed / a or 0) })
   held:follow(nil)
-  local f = push()
+  local f, lost = push(), false
   if done and f > BEYOND * args.force and seen.last.x > seen.before.x then
     f = set_back(p, held, way, args, seen, push)
     tell(self, args, seen, f)
     held:follow(nil)
     done = f >= args.force
+    lost = args.distance - gone() > FINEST
   end
-  if not done then tell_unreached(self, args, f, gone()) end
+  if not done then tell_unreached(self, args, f, gone(), lost) end
   return f, gone(), done
 end
 

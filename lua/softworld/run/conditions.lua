@@ -3,10 +3,13 @@
 -- @module softworld.run.conditions
 local core = require "softworld.core"
 local checks = require "softworld.checks"
+local feeling = require "softworld.run.feeling"
 local vec = require "softworld.vec"
 
 local conditions = {}
 local kinds = {}
+
+local TOUCH = 1e-12 -- smaller forces are the rounding that a touch leaves [N]
 
 local function number(what, value, unit, level)
   return checks.number("p:wait_until: " .. what, value, 0, unit, level)
@@ -40,8 +43,9 @@ function kinds.force(t, level)
     error("p:wait_until: force needs on = a gripper, hold or obstacle", level)
   end
   check_scene(t.on, "what force is on", level + 1)
-  return function() return vec.norm(t.on:force()) >= least end,
-    least > 0 and function() return holds_nothing(t.on) end or nil
+  local felt, last = feeling.of(t.on, conditions.scene)
+  return function() return felt() >= least end,
+    least > 0 and function() return holds_nothing(t.on) end or nil, { force = least, on = t.on, last = last }
 end
 
 -- The wire has slid a distance through a gripper's pads.
@@ -54,14 +58,20 @@ function kinds.slip(t, level)
   return function() return t.on:state().slip >= least end, function() return holds_nothing(t.on) end
 end
 
--- Something touches an obstacle.
+-- Something touches an obstacle, or has touched it since the last look.
 function kinds.contact(t, level)
   if core.type(t.contact) ~= "obstacle" then
     error("p:wait_until: contact needs an obstacle, got " .. (core.type(t.contact) or type(t.contact)),
       level)
   end
   check_scene(t.contact, "the obstacle", level + 1)
-  return function() return vec.norm(t.contact:force()) > 0 end
+  local scene, last = conditions.scene, nil
+  return function()
+    local most, now = vec.norm(t.contact:force()), scene.time -- of the last part of a step that was divided
+    if last and now > last then most = math.max(most, t.contact:over(last, now).raw_peak_force) end
+    last = now
+    return most > TOUCH
+  end
 end
 
 -- Returns a function that gives a place: a point, a gripper, an obstacle, { wire, s = }; and true if it is
@@ -105,8 +115,8 @@ end
 local known = { on = true, between = true }
 for kind in pairs(kinds) do known[kind] = true end
 
---- Returns the function for a condition given as a table, and a function (or nil) that says why it cannot
--- come true as long as nobody acts.
+--- Returns the function for a condition given as a table, a function (or nil) that says why it cannot come
+-- true as long as nobody acts, and for a force what feeling.tell needs.
 function conditions.of(t, level, scene)
   conditions.scene = scene
   checks.keys("p:wait_until", t, known, level + 1)
@@ -118,8 +128,8 @@ function conditions.of(t, level, scene)
     end
   end
   if not found then error("p:wait_until: no condition; give force, slip, contact or distance", level) end
-  local holds, impossible = kinds[found](t, level + 1)
-  return holds, impossible -- no tail call, it would hide a level
+  local holds, impossible, wanted = kinds[found](t, level + 1)
+  return holds, impossible, wanted -- no tail call, it would hide a level
 end
 
 return conditions

@@ -19,6 +19,7 @@ local blame = require "softworld.scene.blame"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local conditions = require "softworld.run.conditions"
+local feeling = require "softworld.run.feeling"
 local remarks = require "softworld.remarks"
 local sealed = require "softworld.sealed"
 local stages = require "softworld.run.stages"
@@ -185,10 +186,10 @@ end
 -- { contact = obstacle }, { distance = [m], between = { a, b } }. Returns true, or false
 -- if timeout [s] passed first.
 function Process:wait_until(condition, options)
-  local impossible
+  local impossible, wanted
   local told, asked, again = type(condition) == "table", false, false
   if told then
-    condition, impossible = conditions.of(condition, 3, self.scene)
+    condition, impossible, wanted = conditions.of(condition, 3, self.scene)
     condition = build.placed(condition)
   end
   if type(condition) ~= "function" then
@@ -210,6 +211,7 @@ function Process:wait_until(condition, options)
     coroutine.yield()
   end
   waiting.ended(self)
+  if wanted then feeling.tell(self, wanted) end
   return true
 end
 
