@@ -207,6 +207,7 @@ describe("an event doubts", function()
     assert.truthy(why(gap):find("energy comes from nowhere", 1, true))
     gap.value = 0.07
     assert.is_nil(why(gap))
+    assert.truthy(why{ kind = "late", object = "hand", text = "" }:find("(event 'late')", 1, true))
   end)
 
   it("forces of grippers by the share of energy from nowhere", function()
