@@ -28,6 +28,7 @@ static const double flat = 1e-3, blunt = 0.42;
  * the cable tilts a little more, so there is no balance between the two. Of 150 drawn cables none
  * fails with this share, and 3 of 12 with 0.003 (spec/contact/faceted_capstan_spec) [-]. */
 static const double as_near = 0.01;
+static const double most_nearer = 1e-4; /* upper limit of it, for queries with any reach [m] */
 /* The same tilt for corners, as a cosine [-]. */
 static const double corner_slack = 1e-6;
 /* Places nearer to the segment's ends are left to the ends' own queries [-]. */
@@ -148,15 +149,16 @@ static int in_edge_cone(const sw_trimesh_edge *edge, sw_vec n) {
   return edge->tri[1] < 0 || sw_dot(n, edge->into[1]) <= slack;
 }
 
+static double nearer_by(const query *q) { return fmin(as_near * q->reach, most_nearer); }
+
 /* 1 if the edge is one of a round surface's facets, and the next edge that n leans to is nearer to
- * the segment by less than the share `as_near` of reach. */
+ * the segment by little enough. */
 static int beside_cone(const query *q, const sw_trimesh_edge *edge, sw_vec n) {
   if (edge->tri[1] < 0 || !(edge->sine > flat) || !(edge->sine < blunt)) return 0;
   if (!(sw_dot(n, edge->normal) > 0)) return 0;
   for (int side = 0; side < 2; side++) {
     const double lean = sw_dot(n, edge->into[side]);
-    if (lean > hand_over * edge->sine &&
-        lean * height_over(q->mesh, edge, side) > as_near * q->reach)
+    if (lean > hand_over * edge->sine && lean * height_over(q->mesh, edge, side) > nearer_by(q))
       return 0;
   }
   return 1;
@@ -235,8 +237,7 @@ static void try_triangle(void *context, int tri) {
 static void drop_farther(query *q) {
   int kept = 0;
   for (int i = 0; i < q->count; i++)
-    if (!q->beside[i] || q->out[i].gap < q->out[0].gap + as_near * q->reach)
-      q->out[kept++] = q->out[i];
+    if (!q->beside[i] || q->out[i].gap < q->out[0].gap + nearer_by(q)) q->out[kept++] = q->out[i];
   q->count = kept;
 }
 
