@@ -194,14 +194,19 @@ static void try_edge(query *q, int number) {
   if (gap >= 0 || (gap > -q->reach && cut(q, edge, w, at))) offer(q, &c, beside);
 }
 
-static int in_corner_cone(const sw_trimesh *mesh, int v, sw_vec n) {
+/* 1 if n leans out of a corner's cone by so little that no neighbour is nearer by more than this.
+ * slack: share of the distance to the neighbour [-]; nearer [m]; facets: 1 if all edges there must
+ * be those of a round surface's facets. */
+static int in_corner_cone(const sw_trimesh *mesh, int v, sw_vec n, double slack, double nearer,
+                          int facets) {
   const sw_trimesh_corner *corner = &mesh->corners[v];
   const sw_vec p = sw_trimesh_vertex(mesh, v);
   for (int i = 0; i < corner->count; i++) {
     const sw_trimesh_edge *edge = &mesh->edges[mesh->corner_edges[corner->first + i]];
     const int other = edge->v[0] == v ? edge->v[1] : edge->v[0];
     const sw_vec along = sw_sub(sw_trimesh_vertex(mesh, other), p);
-    if (sw_dot(n, along) > corner_slack * sw_norm(along)) return 0;
+    if (facets && (edge->tri[1] < 0 || !(edge->sine < blunt))) return 0;
+    if (sw_dot(n, along) > slack * sw_norm(along) + nearer) return 0;
   }
   return 1;
 }
@@ -217,9 +222,10 @@ static void try_corner(query *q, int v) {
   const sw_vec along = sw_scale(q->d, 1 / q->length), up = q->mesh->corners[v].normal;
   sw_vec n = sw_unit_or(sw_madd(up, along, -sw_dot(up, along)), sw_perpendicular(along));
   if (gap > touching * q->mesh->size) n = sw_scale(w, 1 / gap);
-  if (!in_corner_cone(q->mesh, v, n)) return; /* only edges cut in */
+  const int beside = !in_corner_cone(q->mesh, v, n, corner_slack, 0, 0);
+  if (beside && !in_corner_cone(q->mesh, v, n, 0, nearer_by(q), 1)) return; /* only edges cut in */
   const sw_closest c = {gap, at, n, p, sw_trimesh_corner_feature(q->mesh, v)};
-  offer(q, &c, 0);
+  offer(q, &c, beside);
 }
 
 /* Tries the edges and corners that this triangle owns. */
