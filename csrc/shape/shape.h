@@ -104,8 +104,10 @@ int sw_shape_point(const sw_shape *shape, sw_vec p, double reach, sw_closest *ou
  * segment that bridges a flat face or a straight side has a contact at both ends of the bridge; one
  * of them fades away as the segment tilts. normal is perpendicular to the segment, except at the
  * second edge of such a bridge. For a segment cut by an edge, gap is minus the way out along
- * normal. A mesh finds places with |gap| below reach, other shapes with gap below reach. Fills up
- * to SW_CLOSEST_MAX contacts, nearest first, and returns their number. */
+ * normal. On the facets of a round surface a mesh or hull also gives places on edges beside the
+ * nearest one, nearly as near (up to 1 % of reach, and 0.1 mm), so that a segment rocks from edge
+ * to edge without a jump. A mesh finds places with |gap| below reach, other shapes with gap below
+ * reach. Fills up to SW_CLOSEST_MAX contacts, nearest first, and returns their number. */
 int sw_shape_segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach,
                      sw_closest out[SW_CLOSEST_MAX]);
 
