@@ -29,6 +29,8 @@ local kinds = {
   integrator = { "the integrator gains energy in contact: take tr-bdf2", always = true },
   crash = { "forces are wrong after a crash", always = true },
   pressed = { "a hold presses a wire into something: depth or edges decide the force" },
+  ["pressed in each other"] = { "wires are in each other where they press: tensions are too small",
+    own = true, named = true, always = true, only = "mm in each other where they press" },
   caught = { "pads hold a mesh by more than their friction: forces are too large", always = true },
   overload = { "a hold overloads a wire: forces are wrong", always = true },
   breaking = { "the wire would have broken; the run went on as if it held", always = true },
@@ -50,9 +52,12 @@ local kinds = {
   hand = { "something was moved by hand: this is not the script's process", all = true, always = true },
 }
 
--- Returns what is wrong after an event. Events `energy` have two meanings.
+local second = { energy = kinds["energy at once"], pressed = kinds["pressed in each other"] }
+
+-- Returns what is wrong after an event. Events `energy` and `pressed` have two meanings.
 local function kind_of(e)
-  if e.kind == "energy" and e.text:find(kinds["energy at once"].only) then return kinds["energy at once"] end
+  local other = second[e.kind]
+  if other and e.text:find(other.only) then return other end
   return kinds[e.kind]
 end
 
