@@ -127,7 +127,7 @@ sw_status sw_scene_watch_sunk(sw_scene *s, sw_error *err) {
 }
 
 /* Above this share the touches would be pushed out further than small motions can say [-]. */
-static const double MUCH = 0.3;
+static const double MUCH = 0.15;
 
 static void tell(sw_scene *s, const sw_scene_wire *w) {
   const sw_sunk *k = &w->sunk;
