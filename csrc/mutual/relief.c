@@ -54,18 +54,24 @@ static int span_at(const sw_system *s, size_t body, size_t node, span *out) {
   return 1;
 }
 
-/* Share of a touch's depth that a line takes if both give way as far as they are stretched [-].
- * other: a stretch of the other line, or an empty one; mostly the next touch is on the same. */
+/* Force against a way at a touch, by stretching, by tension and by bending [N/m]. */
+static double resists(const sw_system *s, const span *p, const sw_met *t, int k) {
+  const double turn = shortens(s, p, t, k), L = p->length;
+  const double across = 4.0 * fmax(p->tension, 0.0) + 192.0 * p->body->plan->beam.EI / (L * L);
+  return (p->body->EA * turn * turn + across) / L;
+}
+
+/* Share of a touch's depth that a line takes if both give way as they resist; all of it if nothing
+ * holds the other one, which may lie on something [-]. other: a stretch of the other line, or an
+ * empty one; mostly the next touch is on the same. */
 static double share_of(const sw_system *s, const sw_met *t, int k, const span *p, span *other) {
   const size_t body = t->of.body[!k], node = t->of.node[!k];
   const int same = other->body == &s->bodies[body] && node >= other->from && node < other->to;
   if (!same && !span_at(s, body, node, other)) {
     other->body = NULL;
-    return 0;
+    return 1;
   }
-  const double one = shortens(s, p, t, k), two = shortens(s, other, t, !k);
-  const double own = p->body->EA / p->length * one * one;
-  const double others = other->body->EA / other->length * two * two;
+  const double own = resists(s, p, t, k), others = resists(s, other, t, !k);
   return own + others > 0 ? others / (own + others) : 0;
 }
 
