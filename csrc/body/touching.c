@@ -314,3 +314,11 @@ int sw_scene_next_place(const sw_scene *s, size_t body, size_t next[2], sw_pair_
   if (s->pairs && sw_mutual_next_place(s->pairs, body, &next[0], out)) return 1;
   return s->grains && sw_mutual_next_place(s->grains, body, &next[1], out);
 }
+
+int sw_scene_relief(const sw_scene *s, size_t body, sw_relief *out) {
+  return s->pairs && sw_mutual_relief(s->pairs, &s->system, body, out);
+}
+
+void sw_scene_push_out(const sw_scene *s, size_t body, const sw_relief *relief, double *out) {
+  sw_mutual_part(s->pairs, &s->system, body, relief, out);
+}

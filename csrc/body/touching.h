@@ -7,6 +7,7 @@
 #include "contact/contact.h"
 #include "mutual/crowd.h"
 #include "mutual/mutual.h"
+#include "mutual/relief.h"
 #include "scene/scene.h"
 #include "touch/tally.h"
 
@@ -53,5 +54,8 @@ double sw_scene_rubbed(const sw_scene *scene);         /* lost by friction in th
  * system (SIZE_MAX: of any); 0: there are no more. next: {0, 0} for the first one. */
 size_t sw_scene_places(const sw_scene *scene);
 int sw_scene_next_place(const sw_scene *scene, size_t body, size_t next[2], sw_pair_place *out);
+/* See sw_mutual_relief and sw_mutual_part. */
+int sw_scene_relief(const sw_scene *scene, size_t body, sw_relief *out);
+void sw_scene_push_out(const sw_scene *scene, size_t body, const sw_relief *relief, double *out);
 
 #endif

@@ -139,6 +139,11 @@ static double softness(const sw_mutual *m, const sw_system *s, const sw_meet *t,
  * it do not come to rest [m]. */
 static const double LEAST = 1e-6;
 
+static int is_taut(const sw_mutual *m, const sw_system *s, uint32_t body, uint32_t node) {
+  const double usual = sw_contact_usual_force(s, s->bodies[body].plan);
+  return sw_drawn_is_taut(s, body, node, m->drawn[body].taken, usual);
+}
+
 /* Largest allowed depth within a step [m]. Equilibria for their own sake keep the usual depth:
  * pairs that hang would not come to rest. So do crossings in motion: a drawn cable that stops on
  * others lost its friction (spec/contact/pair_stop_spec). */
@@ -146,10 +151,10 @@ static double deepest(const sw_mutual *m, const sw_system *s, const sw_meet *t) 
   const int still = m->regime == SW_CONTACT_STATIC;
   const double least = sw_depth_for(LEAST, 0.5 * t->reach);
   double most = sw_depth_for(SW_DEEPEST, 0.5 * t->reach);
-  if (m->regime == SW_CONTACT_EXPLICIT || (still ? !s->poses : t->kind == SW_CROSSING)) return most;
+  if (m->regime == SW_CONTACT_EXPLICIT || (still ? !s->tight : t->kind == SW_CROSSING)) return most;
   for (int k = 0; k < 2; k++) {
     const uint32_t body = t->of.body[k], node = t->of.node[k], end = t->of.end[k];
-    if (sw_drawn_has(&m->drawn[body], node, end) && (!still || sw_drawn_is_taut(s, body, node)))
+    if (sw_drawn_has(&m->drawn[body], node, end) && (!still || is_taut(m, s, body, node)))
       most = fmin(most, sw_drawn_depth(s, body, node, end, t->square, least));
   }
   return most;
@@ -210,6 +215,13 @@ static const double PASSED = 0.5;
 void sw_meet_side(const sw_met *met, double reach, sw_vec *normal, double *distance) {
   if (met && *distance < PASSED * reach && sw_dot(*normal, met->normal) < 0)
     *normal = sw_neg(*normal), *distance = -*distance;
+}
+
+double sw_meet_excess(const sw_system *s, const sw_bow bow[2], double reach, sw_vec normal,
+                      double h) {
+  const double gap = sw_dot(normal, sw_bows_apart(s->x, bow)) - reach;
+  const double approach = -sw_dot(sw_bows_apart(s->v, bow), normal);
+  return approach - (gap > 0 ? gap : 0.0) / h;
 }
 
 /* --- before a solve ---------------------------------------------------------------- */

@@ -105,6 +105,9 @@ typedef struct sw_finder {
   void (*note)(const sw_mutual *mutual, const sw_system *system, const sw_meet *touch, sw_met *out);
 } sw_finder;
 
+/* Finds how much tension the depth of touches takes from wires (mutual/relief.h). */
+void sw_mutual_find_taken(sw_mutual *mutual, const sw_system *system);
+
 /* Touches between bodies that wait (mutual/wait.c). */
 typedef struct sw_still_meets {
   sw_meet *list, *room; /* in the order of sw_ends_order; room for the next list */

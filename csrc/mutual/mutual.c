@@ -118,6 +118,7 @@ sw_status sw_mutual_begin_step(sw_mutual *m, sw_system *s, sw_contact_regime reg
                          &m->base[b], &m->rate2);
     m->drawn[b] = sw_drawn_of(s, b);
   }
+  if (regime == SW_CONTACT_STATIC && s->tight) sw_mutual_find_taken(m, s);
   const sw_status status = sw_mutual_choose(m, s);
   return status == SW_OK ? SW_OK : fail(m, status, err);
 }
@@ -175,13 +176,6 @@ static size_t strikes(const sw_mutual *m, const sw_system *s, double h) {
     count += sw_meet_excess(s, t->bow, t->reach, t->normal, h) > SW_SLOWEST_IMPACT;
   }
   return count;
-}
-
-double sw_meet_excess(const sw_system *s, const sw_bow bow[2], double reach, sw_vec normal,
-                      double h) {
-  const double gap = sw_dot(normal, sw_bows_apart(s->x, bow)) - reach;
-  const double approach = -sw_dot(sw_bows_apart(s->v, bow), normal);
-  return approach - (gap > 0 ? gap : 0.0) / h;
 }
 
 static sw_contact_verdict review(sw_mutual *m, sw_system *s, const double *x1, double h, int dull) {

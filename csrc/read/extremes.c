@@ -325,6 +325,7 @@ void sw_scene_reset_extremes(sw_scene *s) {
     sw_scene_wire_in(s, w)->extremes =
         (sw_wire_extremes){least, least, least, least, least, least, least, 0, {0, 0, 0, 0, 0}};
     sw_scene_wire_in(s, w)->blow = 0;
+    sw_scene_wire_in(s, w)->sunk = (sw_sunk){0};
     sw_window_forget(&sw_scene_wire_in(s, w)->window);
     sw_wear_free(&sw_scene_wire_in(s, w)->wear);
     sw_zones_forget(&sw_scene_wire_in(s, w)->zones);

@@ -76,7 +76,7 @@ static void tape_poke(sw_tape *t, sw_poke *x) {
 }
 
 void sw_tape_wire(sw_tape *t, sw_scene_wire *x, int placed) {
-  SW_TAPE_STRUCT(t, sw_scene_wire, 1328);
+  SW_TAPE_STRUCT(t, sw_scene_wire, 1392);
   SW_TAPE_STRUCT(t, sw_twisted, 24);
   UINT32(generation), SIZE(number), NAME(name);
   SW_TAPE_CLASS(t, x->cls, sw_scene_body_class);
@@ -90,6 +90,7 @@ void sw_tape_wire(sw_tape *t, sw_scene_wire *x, int placed) {
   sw_tape_zone_watch(t, &x->zones);
   for (int end = 0; end < 2; end++) tape_poke(t, &x->pokes[end]);
   DOUBLE(blow), DOUBLE(grown), INT(untwisted), INT(remade);
+  if (sw_tape_reads(t)) x->sunk = (sw_sunk){0};
   sw_tape_expect(t, x->blow >= 0 && isfinite(x->blow), "the hardest blow of a wire");
   sw_tape_expect(t, x->grown >= 0 && isfinite(x->grown), "how far a pushed wire has bent");
   sw_tape_list(t, &x->twisted, &x->twisted_count, sizeof *x->twisted);

@@ -44,6 +44,16 @@ typedef struct sw_poke {
   double bend;     /* and how fast this changed [1/s2] */
 } sw_poke;
 
+/* Tension that a wire loses because it is in another one, where its tension is largest. */
+typedef struct sw_sunk {
+  double most;           /* upper bound of what it would have without this [N] */
+  double tension, taken; /* what it has and what it loses [N] */
+  double depth;          /* [m] */
+  double s, time;        /* where and when [m], [s] */
+  size_t with;           /* the other wire's slot */
+  int counts;            /* 1: it loses enough to be reported */
+} sw_sunk;
+
 typedef struct sw_scene_wire {
   uint32_t generation;
   size_t number; /* number in frames: bodies made before it [-] */
@@ -62,6 +72,7 @@ typedef struct sw_scene_wire {
   size_t twisted_count;
   double blow;   /* its hardest blow of this run that was followed in parts [N] */
   double grown;  /* growth of its bend while it is pushed, as a logarithm, see step/buckle.c [-] */
+  sw_sunk sunk;  /* of this run; not in files */
   int untwisted; /* 1: lies as drawn, without its unloaded twist; nothing has moved */
   int remade;    /* 1: has just become a mesh; nothing has moved since */
 } sw_scene_wire;

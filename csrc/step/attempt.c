@@ -61,7 +61,7 @@ sw_status sw_rest_solve(sw_statics *p, double hbar, const sw_newton *newton, sw_
   memcpy(p->from, system->x, system->freedoms * sizeof(double));
   memcpy(p->tension, system->tension, system->edges * sizeof(double));
   sw_system_begin_step(system);
-  system->poses = p->args->poses;
+  system->poses = p->args->poses, system->tight = p->args->tight;
   sw_status status = SW_OK;
   const double h = isfinite(hbar) ? hbar : 0.0;
   status = sw_scene_begin_contact(s, SW_CONTACT_STATIC, p->touched, h, sw_rest_first_step(s), err);

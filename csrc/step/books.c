@@ -302,6 +302,7 @@ sw_status sw_scene_end_run(sw_scene *s, sw_error *why) {
   sw_scene_end_corners(s);
   sw_scene_end_bends(s);
   sw_scene_end_inside(s);
+  sw_scene_end_sunk(s);
   sw_scene_end_joints(s);
   tell_retries(
       s, "step was accepted although it made energy, because smaller steps made energy too",

@@ -127,12 +127,39 @@ static sw_status rest_again(sw_scene *s, const sw_settle_args *args, int (*inter
   return SW_OK;
 }
 
+/* Finds the equilibrium. If none is found with little depth between wires drawn taut, they first
+ * come to rest with more; if they do not from there either, that depth stays, and is reported. */
+static sw_status find_rest(sw_scene *s, double t0, int *too_far, const sw_settle_args *args,
+                           int (*interrupted)(void), sw_settle_report *rest, sw_error *err) {
+  const sw_status first = sw_scene_rest(s, t0, too_far, args, interrupted, rest, err);
+  if (first != SW_ENOCONV || (too_far && *too_far) || !sw_scene_pairs(s)) return first;
+  sw_settle_args loose = *args;
+  sw_settle_report more = {0};
+  sw_error why;
+  loose.tight = 0;
+  sw_status status = sw_scene_rest(s, t0, too_far, &loose, interrupted, &more, &why);
+  rest->iterations += more.iterations;
+  if (status == SW_ENOCONV) return first;
+  if (status != SW_OK) return sw_fail(err, status, "%s", why.text);
+  more.iterations += rest->iterations - more.iterations, *rest = more;
+  sw_tape before = {0};
+  sw_settle_report tight = {0};
+  status = sw_live_take(s, &before);
+  if (status == SW_OK)
+    status = sw_scene_rest(s, sw_scene_time(s), NULL, args, interrupted, &tight, &why);
+  rest->iterations += tight.iterations, rest->jumped |= tight.jumped;
+  rest->rubbed += tight.rubbed;
+  if (status == SW_ENOCONV) status = sw_live_back(s, &before, &why);
+  sw_tape_free(&before);
+  return status == SW_OK ? SW_OK : sw_fail(err, status, "%s", why.text);
+}
+
 /* Moves holds and obstacles to t1 and the wires to their equilibrium there. Without friction the
  * size of the pose step does not matter; with friction, halve it to see how much it does. */
 static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_args *how,
                           sw_run_report *report, kept *start, sw_error *err) {
   sw_settle_args args = {
-      .tolerance = 1e-9, .max_iterations = 4000, .poses = 1, .passing = how->between};
+      .tolerance = 1e-9, .max_iterations = 4000, .poses = 1, .tight = 1, .passing = how->between};
   sw_settle_report rest = {0};
   sw_error why;
   const double t0 = sw_scene_time(s);
@@ -145,7 +172,7 @@ static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_ar
   if (squeezes && halvings) args.max_iterations = FEW_ITERATIONS;
   sw_scene_set_time(s, t1);
   sw_status status = squeezes ? sw_scene_squeezed_rest(s, t0, tells, &args, interrupted, &rest, err)
-                              : sw_scene_rest(s, t0, tells, &args, interrupted, &rest, err);
+                              : find_rest(s, t0, tells, &args, interrupted, &rest, err);
   if (status == SW_OK && !squeezes) status = rest_again(s, &args, interrupted, &rest, err);
   report->iterations += rest.iterations;
   if (status != SW_OK) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* scene:settle: the equilibrium at the scene's time. */
 #include "body/build.h"
+#include "mutual/relief.h"
 #include "read/extremes.h"
 #include "save/life.h"
 #include "scene/course.h"
@@ -97,6 +98,33 @@ static sw_status settle(sw_scene *s, const sw_settle_args *args, int (*interrupt
   }
 }
 
+/* Share of a tension that the depth of touches between wires may take [-]. */
+static const double SUNK = 0.01;
+
+/* Wires that are drawn taut while they are in each other lose tension. They come to rest again with
+ * less depth. This is a second search because loose wires that hang on each other do not come to
+ * rest with it; if the taut ones do not either, the scene stays as it was. */
+static sw_status settle_tight(sw_scene *s, const sw_settle_args *args, int (*interrupted)(void),
+                              sw_settle_report *report, sw_error *err) {
+  const sw_mutual *pairs = sw_scene_pairs(s);
+  if (!pairs || !sw_mutual_is_sunk(pairs, sw_scene_system(s), SUNK)) return SW_OK;
+  sw_settle_args tight = *args;
+  sw_settle_report first = *report;
+  sw_snapshot *before = NULL;
+  sw_error why = {""};
+  tight.tight = 1;
+  SW_TRY(sw_scene_snapshot(s, &before, err));
+  sw_status status = settle(s, &tight, interrupted, report, &why);
+  report->iterations += first.iterations;
+  if (status == SW_ENOCONV) {
+    first.iterations = report->iterations, *report = first;
+    status = sw_scene_restore(s, before, &why);
+    if (status == SW_OK) status = sw_scene_build(s, &why);
+  }
+  sw_snapshot_free(before);
+  return status == SW_OK ? SW_OK : sw_fail(err, status, "%s", why.text);
+}
+
 sw_status sw_scene_settle(sw_scene *s, const sw_settle_args *args, int (*interrupted)(void),
                           sw_settle_report *report, sw_error *err) {
   sw_error why = {""};
@@ -108,10 +136,13 @@ sw_status sw_scene_settle(sw_scene *s, const sw_settle_args *args, int (*interru
   SW_TRY(sw_system_place_holds(sw_scene_system(s), sw_scene_time(s), NULL, NULL, NULL, err));
   sw_scene_watch_rolls(s, 0);
   sw_status status = settle(s, args, interrupted, report, &why);
+  if (status == SW_OK) status = settle_tight(s, args, interrupted, report, &why);
   sw_scene_reset_extremes(s);
   sw_scene_course(s)->span = 0;
   if (status == SW_OK) status = sw_step_observe(s, &why);
   if (status == SW_OK) sw_yield_tell(s);
+  if (status == SW_OK) status = sw_scene_watch_sunk(s, &why);
+  if (status == SW_OK) sw_scene_end_sunk(s);
   conclude(s, status, report, &why);
   return status == SW_ECALLBACK || status == SW_ENOMEM ? sw_fail(err, status, "%s", why.text)
                                                        : SW_OK;

@@ -71,6 +71,7 @@ typedef struct sw_settle_args {
   int relaxes; /* 1: stiff modes come to rest first, and keep that if the full equilibrium is not
                   found */
   int poses;   /* 1: one of many poses, between which jaws need not be exact */
+  int tight;   /* 1: wires drawn taut may be in each other only a little */
   double farthest; /* largest allowed shift of a node on the way to rest; 0: any [m] */
   int passing; /* 1: a pose on the way to the next one that is asked for; it need not be exact */
 } sw_settle_args;

@@ -47,6 +47,7 @@ struct sw_system {
   double inner;                  /* while a stage is solved: see sw_stage [s] */
   int still;                     /* 1: holds count as standing even if they move (statics) */
   int poses; /* 1: a pose of a quasi-static run is solved; 0: equilibrium for its own sake */
+  int tight; /* 1: taut wires may be in each other only a little; see mutual/meet.c */
   int rough; /* 1: the last update turned edges too far to be the stage's last; see above */
   sw_hold_state *hold_states; /* (hold_count) at the last stage */
   sw_hold_load *loads;        /* (hold_count) of the last stage about the holds' places, */

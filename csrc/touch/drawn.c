@@ -5,7 +5,6 @@
 #include <math.h>
 #include <stdint.h>
 
-#include "contact/contact.h"
 #include "system/join.h"
 
 /* Share of an edge's stretch by which a touch may shorten the wire's way. The tension is too low by
@@ -19,21 +18,21 @@ void sw_drawn_take(sw_drawn *d, size_t node) {
 
 /* 1 if the wire slides through one of its holds: its length gives way. */
 static int passes(const sw_system *s, size_t body) {
+  size_t held = 0, slides = 0;
   for (size_t k = 0; k < s->held_count; k++)
-    if (s->held[k].body == body && s->held[k].slides) return 1;
-  return 0;
+    if (s->held[k].body == body) held++, slides += s->held[k].slides != 0;
+  return held > 1 && slides;
 }
 
-sw_drawn sw_drawn_of(const sw_system *s, size_t body) {
+sw_drawn sw_drawn_between(const sw_system *s, size_t body) {
   const sw_body *b = &s->bodies[body];
   const sw_plan *p = b->plan;
-  sw_drawn d = {SIZE_MAX, 0};
+  sw_drawn d = {SIZE_MAX, 0, 0};
   size_t i = 0, end = p->nodes;
   if (p->web) return d;
   while (i < end && p->held[i] == SW_FREE) i++;
   while (end > i && p->held[end - 1] == SW_FREE) end--;
-  if (i + 1 < end && passes(s, body)) return d;
-  if (i < end) d = (sw_drawn){b->first_node + i, b->first_node + end - 1};
+  if (i < end) d = (sw_drawn){b->first_node + i, b->first_node + end - 1, 0};
   for (size_t k = 0; s->joins && k < s->joins->spring_count; k++) {
     const sw_join_spring *spring = &s->joins->springs[k];
     if (spring->i - b->first_node < p->nodes) sw_drawn_take(&d, spring->i);
@@ -42,17 +41,20 @@ sw_drawn sw_drawn_of(const sw_system *s, size_t body) {
   return d;
 }
 
+sw_drawn sw_drawn_of(const sw_system *s, size_t body) {
+  return passes(s, body) ? (sw_drawn){SIZE_MAX, 0, 0} : sw_drawn_between(s, body);
+}
+
 /* In poses, wires that touch each other are drawn if the tension is above this multiple of the
  * weight, or of EI / length^2. Below it they hang, and their pull follows from their sag. Without
  * the limit poses of two wires that hang on each other need a hundred times the iterations; with 5,
  * 15 and 50 taut pairs have the same pull within 0.5 % [-]. */
 static const double TAUT = 10.0;
 
-int sw_drawn_is_taut(const sw_system *s, size_t body, size_t node) {
+int sw_drawn_is_taut(const sw_system *s, size_t body, size_t node, double taken, double usual) {
   const sw_body *b = &s->bodies[body];
   const size_t i = node - b->first_node, e = i < b->plan->edges ? i : i - 1;
-  const double usual = sw_contact_usual_force(s, b->plan);
-  return s->tension[b->first_edge + e] > TAUT * usual;
+  return s->tension[b->first_edge + e] + taken > TAUT * usual;
 }
 
 static sw_vec tangent(const sw_body *b, size_t e) { return sw_vec_across(b->field.tangent, e); }

@@ -10,18 +10,21 @@
  * of the system's arrays. */
 typedef struct sw_drawn {
   size_t first, last;
+  double taken; /* tension that the depth of its touches takes; 0: not known [N] */
 } sw_drawn;
 
-/* The stretch of a line between its holds and joins; none for a web, and for a wire that slides
- * through a hold. */
+/* The stretch of a line between its holds and joins; none for a web. */
+sw_drawn sw_drawn_between(const sw_system *system, size_t body);
+/* The same; none for a wire that slides through a hold. */
 sw_drawn sw_drawn_of(const sw_system *system, size_t body);
 /* Something else fixes the node. */
 void sw_drawn_take(sw_drawn *drawn, size_t node);
 static inline int sw_drawn_has(const sw_drawn *drawn, size_t node, size_t end) {
   return node >= drawn->first && end <= drawn->last;
 }
-/* 1 if the line does not just hang. */
-int sw_drawn_is_taut(const sw_system *system, size_t body, size_t node);
+/* 1 if the line does not just hang. taken: tension to be added, see sw_drawn; usual: force of the
+ * line by its weight or bending, sw_contact_usual_force [N]. */
+int sw_drawn_is_taut(const sw_system *system, size_t body, size_t node, double taken, double usual);
 /* Largest depth of a touch on the segment from node to end, or on a node with end = node, at which
  * the way of a drawn wire is short by less than 1 % of its stretch; HUGE_VAL: any [m]. normal: of
  * the touch [-]; least: no smaller depth is returned [m]. */

@@ -116,6 +116,10 @@ sw_status sw_scene_look_for_buckling(sw_scene *scene, sw_error *err);
 void sw_scene_watch_unbent(sw_scene *scene, size_t wire);
 /* Reports friction that brakes lines that go round each other. */
 void sw_scene_watch_together(sw_scene *scene);
+/* Notes how much tension wires lose because they are in each other, and reports it at the end of a
+ * run or of settling. Call the first one between steps. SW_ENOMEM, SW_ECALLBACK. */
+sw_status sw_scene_watch_sunk(sw_scene *scene, sw_error *err);
+void sw_scene_end_sunk(sw_scene *scene);
 /* The run ended: reports wires that still stay straight under such a push. Call it after
  * sw_scene_look_for_buckling. */
 void sw_scene_end_unbent(sw_scene *scene);

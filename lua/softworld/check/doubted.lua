@@ -30,6 +30,8 @@ local kinds = {
   integrator = { "the integrator gains energy in contact: take tr-bdf2", always = true },
   crash = { "forces are wrong after a crash", always = true },
   pressed = { "a hold presses a wire into something: depth or edges decide the force" },
+  ["pressed in each other"] = { "wires are in each other where they press: tensions are too small",
+    own = true, named = true, always = true, only = "mm in each other where they press" },
   caught = { "pads hold a mesh by more than their friction: forces are too large", always = true },
   overload = { "a hold overloads a wire: forces are wrong", always = true },
   breaking = { "the wire would have broken; the run went on as if it held", always = true },
@@ -58,12 +60,16 @@ local UNKNOWN = "come from nowhere" -- in events `energy` about a gap that no st
 -- range any more (spec/check/doubted_spec).
 local MUCH = 0.1
 
--- Returns what is wrong after an event. Events `energy` have three meanings.
+local second = { energy = kinds["energy at once"], pressed = kinds["pressed in each other"] }
+
+-- Returns what is wrong after an event. Events `energy` have three meanings, `pressed` two.
 local function kind_of(e)
-  if e.kind ~= "energy" then return kinds[e.kind] end
-  if e.text:find(kinds["energy at once"].only) then return kinds["energy at once"] end
-  if e.text:find(UNKNOWN, 1, true) then return (e.value or 0) > MUCH and kinds["energy unknown"] or nil end
-  return kinds.energy
+  local other = second[e.kind]
+  if other and e.text:find(other.only) then return other end
+  if e.kind == "energy" and e.text:find(UNKNOWN, 1, true) then
+    return (e.value or 0) > MUCH and kinds["energy unknown"] or nil
+  end
+  return kinds[e.kind]
 end
 
 -- Members without `peaks` that depend on forces all the same.
