@@ -24,8 +24,8 @@ static sw_status open_view(const sw_scene *s, size_t wire, const sw_hold *fresh,
   const size_t slots = sw_scene_hold_slots(s), living = sw_scene_living_holds(s);
   const size_t joins = sw_scene_join_places(s, wire, NULL);
   sw_hold_place *places SW_LOCAL = sw_alloc(living + 1, sizeof *places);
-  *v = (sw_held_wire){.mesh = &sw_scene_wire_in((sw_scene *)s, wire)->mesh, .fresh = fresh};
-  v->unloaded = unloaded;
+  sw_scene_wire *w = sw_scene_wire_in((sw_scene *)s, wire);
+  *v = (sw_held_wire){.mesh = &w->mesh, .fresh = fresh, .unloaded = unloaded};
   v->nodes = unloaded ? v->mesh->rest : v->mesh->x;
   v->normals = unloaded ? v->mesh->rest_normal : v->mesh->normal;
   /* NOLINTNEXTLINE(bugprone-sizeof-expression): a list of pointers */
@@ -43,8 +43,7 @@ static sw_status open_view(const sw_scene *s, size_t wire, const sw_hold *fresh,
         (sw_hold_place){h->s1, h->s2, h->cls->hold->direction, (int)k, {h->give[0], h->give[1]}};
   }
   v->joins = sw_scene_join_places(s, wire, v->joined);
-  return sw_plan_new(&sw_scene_wire_in((sw_scene *)s, wire)->beam, v->mesh->s, v->mesh->n, places,
-                     v->count, &v->plan);
+  return sw_plan_new(&w->beam, v->mesh->s, v->mesh->n, places, v->count, &v->plan);
 }
 
 static void close_view(sw_held_wire *v) {
