@@ -18,9 +18,9 @@ for i = 1, 10 do
 end
 
 local weight = 0.03 * 9.81 * cable.length
-print(("sag %.5f m"):format(-cable:position(cable.length / 2)[3]))
+print(("sag %.5f m"):format(-cable:position(cable.length / 2).z))
 for _, clamp in ipairs { left, right } do
   local force, moment = clamp:force(), clamp:moment()
-  print(("clamp: %.5f N along, %.5f N up, moment %.5f N m"):format(force[1], force[3], moment[2]))
+  print(("clamp: %.5f N along, %.5f N up, moment %.5f N m"):format(force.x, force.z, moment.y))
 end
 print(("weight %.5f N, tension in the middle %.5f N"):format(weight, cable:tension(cable.length / 2)))

@@ -15,6 +15,6 @@ for _, length in ipairs { 0.2, 0.5, 1 } do
   scene:clamp(cable, { s = 0 })
   local rest = scene:settle()
   assert(rest.ok, rest.reason)
-  print(("%.1f m   %9.5f m   %9.5f m"):format(length, -cable:position(length)[3],
+  print(("%.1f m   %9.5f m   %9.5f m"):format(length, -cable:position(length).z,
     weight * length ^ 4 / (8 * EI)))
 end

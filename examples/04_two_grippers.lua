@@ -34,13 +34,13 @@ scene:process(function(p)
   p:wait_until(function() return lifted == 2 end)
   p:wait(4)
   local l, r = left:force(), right:force()
-  print(("both hold: left %.4f N, right %.4f N, together %.4f N up"):format(l[3], r[3], l[3] + r[3]))
+  print(("both hold: left %.4f N, right %.4f N, together %.4f N up"):format(l.z, r.z, l.z + r.z))
   right:release()
   alone = true
 end)
 
 local run = scene:run { tolerance = 1e-5 }
 assert(run.ok, run.reason)
-print(("left alone: %.4f N up; weight %.4f N"):format(left:force()[3],
+print(("left alone: %.4f N up; weight %.4f N"):format(left:force().z,
   wire.beam.mass_per_length * 9.81 * wire.length))
 print(("largest moment: left %.4f N m, right %.4f N m"):format(left.peak_moment, right.peak_moment))

@@ -11,7 +11,7 @@ local study = sw.study { name = "stiffness", parameters = { EI = { 0.005, 0.2, u
       from = { 0, 0, 0 }, to = { length, 0, 0 }, segments = 60 }
     scene:clamp(cable, { s = 0 })
     assert(scene:settle().ok)
-    local droop = -cable:position(length)[3]
+    local droop = -cable:position(length).z
     return { droop = droop, off = (droop - measured) ^ 2 }
   end }
 

@@ -27,7 +27,7 @@ local function springback(angle)
   gripper:release()
   local rest = scene:settle()
   assert(rest.ok, rest.reason)
-  local along = wire:tangent(wire.length)[1] -- cosine of the remaining angle
+  local along = wire:tangent(wire.length).x -- cosine of the remaining angle
   return math.acos(math.min(along, 1)), scene:energy().dissipated
 end
 

@@ -18,8 +18,8 @@ scene:process(function(p)
     p:feed(feeder, { length = reach - wire.length, speed = 0.1 })
     p:wait(3) -- until the wire is at rest
     print(("reach %6.2f mm: droop %6.2f mm, drive %7.4f N, walls and drive %7.4f N along"):format(
-      1e3 * wire.length, -1e3 * wire:position(wire.length)[3], feeder:drive_force(),
-      feeder:force()[1]))
+      1e3 * wire.length, -1e3 * wire:position(wire.length).z, feeder:drive_force(),
+      feeder:force().x))
   end
   gripper:grasp(wire, { s = wire.length - mm(10) })
   feeder:feed { length = mm(900), duration = 4 }
@@ -30,5 +30,5 @@ end)
 local run = scene:run { dt = 0.005 }
 assert(run.ok, run.reason)
 print(("fed %.1f mm; feeder %.4f N, gripper %.4f N, table %.4f N: together %.4f N; weight %.4f N"):format(
-  1e3 * feeder:fed(), feeder:force()[3], gripper:force()[3], -floor:force()[3],
+  1e3 * feeder:fed(), feeder:force().z, gripper:force().z, -floor:force().z,
   feeder:force()[3] + gripper:force()[3] - floor:force()[3], 0.03 * 9.81 * wire.length))

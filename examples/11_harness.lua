@@ -43,4 +43,4 @@ for k, wire in ipairs { trunk, left, right } do
     wire.name, f[1], f[2], f[3], wire:min_bend_radius() * 1e3, wire:bend_limit().limit * 1e3))
 end
 for _, event in ipairs(run.events) do print(event.text) end
-print(("the joint is %.1f mm above the table"):format(left:position(0)[3] * 1e3))
+print(("the joint is %.1f mm above the table"):format(left:position(0).z * 1e3))

@@ -7,7 +7,7 @@
 --                              from = {0, 0, 0}, to = {1, 0, 0} }
 --     scene:clamp(wire, { s = 0 })
 --     scene:settle()
---     print(wire:position(wire.length)[3])
+--     print(wire:position(wire.length).z)
 --
 -- SI units throughout; sw.units converts. sw.help() lists what there is.
 -- @module softworld
