@@ -67,7 +67,8 @@ static sw_status keep_loosely(const sw_scene *s, kept *k, sw_error *err) {
 static sw_status put_back(sw_scene *s, const kept *k, double t0, sw_error *err) {
   sw_scene_set_time(s, t0);
   sw_scene_course(s)->next = k->next;
-  for (size_t i = 0; i < sw_scene_tool_slots(s); i++) sw_scene_tool_in(s, i)->jaw = k->jaws[i];
+  for (size_t i = 0; k->jaws && i < sw_scene_tool_slots(s); i++)
+    sw_scene_tool_in(s, i)->jaw = k->jaws[i];
   return sw_live_back(s, &k->live, err);
 }
 
@@ -141,7 +142,7 @@ static sw_status find_rest(sw_scene *s, double t0, int *too_far, const sw_settle
   rest->iterations += more.iterations;
   if (status == SW_ENOCONV) return first;
   if (status != SW_OK) return sw_fail(err, status, "%s", why.text);
-  more.iterations += rest->iterations - more.iterations, *rest = more;
+  more.iterations = rest->iterations, *rest = more;
   sw_tape before = {0};
   sw_settle_report tight = {0};
   status = sw_live_take(s, &before);
