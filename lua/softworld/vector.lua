@@ -107,6 +107,15 @@ local function name_items(class, places, others)
   end
   function class.__newindex(list, key, value) rawset(list, places[key] or key, value) end
   class.__tostring = pretty
+
+  -- For completion and help at the prompt.
+  function class.__names()
+    local names = {}
+    for _, list in ipairs{ places, others } do
+      for name in pairs(list) do names[#names + 1] = name end
+    end
+    return names
+  end
 end
 
 name_items(Vector, { x = 1, y = 2, z = 3 }, methods)
