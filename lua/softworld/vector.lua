@@ -32,6 +32,14 @@ function vector.of(list)
   return setmetatable(list, #list == 4 and Rotation or Vector)
 end
 
+-- Returns what an operand is, in one line.
+local function got(value)
+  if type(value) == "number" then return "number " .. value end
+  if type(value) ~= "table" then return core.type(value) or type(value) end
+  local text = pretty(value)
+  return text:find "\n" and ("a list of %d items"):format(rawlen(value)) or text
+end
+
 -- Returns the items of an operand.
 local function items(value, operation)
   if type(value) == "table" then
@@ -40,11 +48,8 @@ local function items(value, operation)
       return x, y, z
     end
   end
-  error(("%s takes vectors, lists of three numbers; got %s"):format(operation,
-    type(value) == "number" and "number " .. value or type(value) == "table" and pretty(value)
-      or type(value)), 3)
+  error(("%s takes vectors, lists of three numbers; got %s"):format(operation, got(value)), 3)
 end
-
 
 function Vector.__add(a, b)
   local x, y, z = items(a, "vector +")

@@ -46,8 +46,14 @@ describe("a vector", function()
   end)
 
   it("refuses what it cannot compute, at the line of the script", function()
-    local a = straight():position(0)
+    local wire = straight()
+    local a, long = wire:position(0), {}
+    for k = 1, 300 do long[k] = { k, k } end
     for text, f in pairs{
+      ["vector - takes vectors, lists of three numbers; got wire"] = function() return a - wire end,
+      ["vector + takes vectors, lists of three numbers; got a list of 300 items"] = function()
+        return a + long
+      end,
       ["vector + takes vectors, lists of three numbers; got number 1"] = function() return a + 1 end,
       ["vector - takes vectors, lists of three numbers; got { 1, 2 }"] = function() return a - { 1, 2 } end,
       ["a:dot(b) and a:cross(b)"] = function() return a * a end,
