@@ -203,10 +203,17 @@ end
 local axes, turns = { "x", "y", "z" }, { "w", "x", "y", "z", "axis", "angle" }
 local FARTHEST = 1e100 -- largest coordinate of a place, as in the core [m]
 
+local function check_count(what, value, count, level)
+  if type(value) == "table" and rawlen(value) > count then
+    error(("%s must have %d numbers, got %d"):format(what, count, rawlen(value)), level)
+  end
+end
+
 --- Returns a copy of the vector {x, y, z}, or raises an error. Coordinates of places [m] are within 1e100 m.
 function checks.vector(what, value, unit, level)
   local copy = {}
   if type(value) == "table" then checks.only(what, value, axes, level > 0 and level + 1 or 0) end
+  check_count(what, value, 3, level > 0 and level + 1 or 0)
   for k, axis in ipairs(axes) do
     local v = checks.field(value, k) or checks.field(value, axis)
     if type(v) ~= "number" or v - v ~= 0 then
@@ -233,6 +240,7 @@ function checks.rotation(what, value, level)
     checks.number(what .. ".angle", value.angle, -math.huge, " rad", level + 1)
     return
   end
+  check_count(what, value, 4, level > 0 and level + 1 or 0)
   local size = 0
   for k, name in ipairs{ "w", "x", "y", "z" } do
     local v = checks.field(value, k) or checks.field(value, name)

@@ -32,6 +32,14 @@ function vector.of(list)
   return setmetatable(list, #list == 4 and Rotation or Vector)
 end
 
+-- Returns what an operand is, in one line.
+local function got(value)
+  if type(value) == "number" then return "number " .. value end
+  if type(value) ~= "table" then return core.type(value) or type(value) end
+  local text = pretty(value)
+  return text:find "\n" and ("a list of %d items"):format(rawlen(value)) or text
+end
+
 -- Returns the items of an operand.
 local function items(value, operation)
   if type(value) == "table" then
@@ -40,11 +48,8 @@ local function items(value, operation)
       return x, y, z
     end
   end
-  error(("%s takes vectors, lists of three numbers; got %s"):format(operation,
-    type(value) == "number" and "number " .. value or type(value) == "table" and pretty(value)
-      or type(value)), 3)
+  error(("%s takes vectors, lists of three numbers; got %s"):format(operation, got(value)), 3)
 end
-
 
 function Vector.__add(a, b)
   local x, y, z = items(a, "vector +")
@@ -107,6 +112,15 @@ local function name_items(class, places, others)
   end
   function class.__newindex(list, key, value) rawset(list, places[key] or key, value) end
   class.__tostring = pretty
+
+  -- For completion and help at the prompt.
+  function class.__names()
+    local names = {}
+    for _, list in ipairs{ places, others } do
+      for name in pairs(list) do names[#names + 1] = name end
+    end
+    return names
+  end
 end
 
 name_items(Vector, { x = 1, y = 2, z = 3 }, methods)

@@ -89,6 +89,7 @@ describe("sw.calibration refuses", function()
     ["sag: length: there is no 'sigm'"] = with { length = { 1, sigm = 1 } },
     ["sag: to is required"] = with({}, "to"),
     ["sag: to must be { x, z }: in the plane, without y"] = with { to = { 1, 0, 0 } },
+    ["sag: points[1] must be { x [m], z [m] }, got 3 numbers"] = with { points = { { 0.1, 0, -0.1 } } },
     ["sag: from must be { x, z } [m], two finite numbers in the plane, z upwards; got 'a'"]
       = with { from = "a" },
     ["a cantilever has a free end"] = with { ends = "cantilever" },

@@ -4,6 +4,7 @@
 local json = require "softworld.output.json"
 local keep = require "softworld.scene.keep"
 local pretty = require "softworld.prompt.pretty"
+local repl = require "softworld.prompt.repl"
 local sw = require "softworld"
 
 local function straight()
@@ -45,8 +46,14 @@ describe("a vector", function()
   end)
 
   it("refuses what it cannot compute, at the line of the script", function()
-    local a = straight():position(0)
+    local wire = straight()
+    local a, long = wire:position(0), {}
+    for k = 1, 300 do long[k] = { k, k } end
     for text, f in pairs{
+      ["vector - takes vectors, lists of three numbers; got wire"] = function() return a - wire end,
+      ["vector + takes vectors, lists of three numbers; got a list of 300 items"] = function()
+        return a + long
+      end,
       ["vector + takes vectors, lists of three numbers; got number 1"] = function() return a + 1 end,
       ["vector - takes vectors, lists of three numbers; got { 1, 2 }"] = function() return a - { 1, 2 } end,
       ["a:dot(b) and a:cross(b)"] = function() return a * a end,
@@ -86,6 +93,33 @@ describe("a vector", function()
     assert.equal("{ 1.0, 2.0, 3.5 }", pretty(p))
     assert.truthy(scene:script():find("at = { 2.0, 2.0, 3.5 }", 1, true))
     assert.same({ 2, 2, 3.5 }, scene:describe().obstacles[1].given.at)
+  end)
+
+  it("is completed at the prompt", function()
+    local wire, scene = straight()
+    local _, turn = scene:clamp(wire, { s = 0 }):pose()
+    local names = { p = wire:position(0), turn = turn }
+    assert.equal("cross dot norm x y z", table.concat(repl.complete("p.", "", names), " "))
+    assert.equal("norm", table.concat(repl.complete("p:", "n", names), " "))
+    assert.equal("w x y z", table.concat(repl.complete("turn.", "", names), " "))
+  end)
+
+  -- Grippers, ties, channels and cameras left the fourth number out.
+  it("of more than three numbers is refused, such as a rotation in a vector's place", function()
+    local wire, scene = straight()
+    local hand = scene:gripper{ name = "hand", at = { 0, 0, 0 } }
+    local _, turn = scene:clamp(wire, { s = 0 }):pose()
+    for text, f in pairs{
+      ["gripper:move: by must have 3 numbers, got 4"] = function() hand:move{ by = turn, speed = 1 } end,
+      ["scene:gripper: at must have 3 numbers, got 4"] = function() scene:gripper{ at = turn } end,
+      ["scene:gripper: rotation must have 4 numbers, got 5"] = function()
+        scene:gripper{ at = { 0, 0, 0 }, rotation = { 1, 0, 0, 0, 0 } }
+      end,
+      ["to must have 3 numbers, got 4"] = function() scene:tie(wire, { s = 0, to = turn }) end,
+    } do
+      local _, message = pcall(f)
+      assert.matches("vector_spec.lua:%d+: .*" .. text, message)
+    end
   end)
 
   it("keeps its items in a snapshot", function()

@@ -101,4 +101,55 @@ describe("gripper:press", function()
     t.below(1.1 * 0.02, force, "push")
     assert.equal(0, #run.events)
   end)
+
+  -- The wall comes up while the tool is set back: 2.66 N for 0.3 N.
+  it("is not reached with more than a tenth above the wanted push", function()
+    local scene = sw.scene{ name = "moving" }
+    local wall = scene:obstacle{ name = "wall", shape = "box", size = { 0.2, 0.2, 0.02 },
+      at = { 0, 0, -0.03 } }
+    local wire = scene:wire{ name = "wire", E = 1e7, density = 1200, radius = 0.002, from = { 0, 0, 0.1 },
+      to = { 0, 0, 0.02 }, segments = 20 }
+    scene:force{ kind = "damping", mass = 5, stiffness = 0.002 }
+    local hand, force, way, there = scene:gripper{ name = "hand" }, nil, nil, nil
+    scene:process(function(p)
+      hand:grasp(wire, { s = 0.02 })
+      p:wait(0.2)
+      force, way, there = hand:press{ force = 0.3, distance = 0.1, speed = 0.05 }
+    end)
+    scene:process(function()
+      wall:follow{ points = { { 0, 0, -0.03 }, { 0, 0, -0.06 }, { 0, 0, -0.03 } }, speed = 0.03 }
+    end)
+    local run = t.fine(scene:run{ dt = 0.002 })
+    assert.equal(there, force >= 0.3 and force <= 0.33)
+    local told
+    for _, e in ipairs(run.events) do told = told or e.kind == "unreached" end
+    assert.equal(not there, told or false)
+    t.above(0, way, "way")
+  end)
+
+  -- The press stopped the move of the other process at the end of its own time, without a word.
+  it("that a move of another process replaces leaves this move alone", function()
+    local scene = sw.scene{ name = "replaced" }
+    local wire = scene:wire{ name = "wire", cable = "GXL 1.5", from = { 0, 0, 0.1 }, to = { 0, 0, 0.02 },
+      segments = 20 }
+    local hand = scene:gripper{ name = "hand" }
+    local there, ended, from, to
+    scene:process(function(p)
+      hand:grasp(wire, { s = 0.02 })
+      there = select(3, hand:press{ force = 5, distance = 0.1, speed = 0.05 })
+      ended = p.time
+    end)
+    scene:process(function(p)
+      p:wait(0.5)
+      from = hand:position()
+      hand:move{ by = { 0.1, 0, 0 }, speed = 0.1 }
+      to = hand:position()
+    end)
+    local run = t.fine(scene:run{ dt = 0.01 })
+    assert.is_false(there)
+    t.near(0.5, ended, 0.011, "end of the press")
+    t.near(0.1, to[1] - from[1], 1e-9, "way of the move")
+    assert.equal("replaced", run.events[1].kind)
+    assert.equal(1, #run.events)
+  end)
 end)

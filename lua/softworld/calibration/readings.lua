@@ -98,6 +98,9 @@ local function from_table(what, points, columns)
   for k = 1, #points do
     rows[k] = {}
     if type(points[k]) == "table" then checks.only(("%s: points[%d]"):format(what, k), points[k], nil, 0) end
+    if type(points[k]) == "table" and rawlen(points[k]) > #columns then
+      fail("%s: points[%d] must be %s, got %d numbers", what, k, wanted, rawlen(points[k]))
+    end
     for i = 1, #columns do
       local value = checks.field(points[k], i)
       if type(value) ~= "number" or value - value ~= 0 then

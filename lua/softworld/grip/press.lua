@@ -15,6 +15,7 @@ local BEYOND = 1.08   -- a push above this share of the wanted one is set back [
 local MOST = 60      -- tries to set it back
 local SAME = 5       -- tries with too small, or too large a push, after which the other end is measured anew
 local FINEST = 1.01e-9 -- least way to set it by: motions take ways below 1e-9 as none [m]
+local REACHED = 1.1  -- largest push that counts as the wanted one, as a share of it [-]
 local AIM = 1.05     -- push that it is set to, as a share of the wanted one [-]
 local STILL = 4      -- steps after which a push is taken as that of rest, ...
 local REST = 0.01    -- ... and the least time [s]
@@ -135,20 +136,26 @@ function press.run(self, p, held, way, args)
   held:follow{ points = { { 0, 0, 0 }, vec.scale(way, args.distance) }, relative = true, speed = args.speed,
     law = a and "trapezoidal" or "linear", acceleration = a }
   local seen = { last = { x = 0, f = 0 }, time = self.scene.time }
+  local longest = args.distance / args.speed + (a and args.speed / a or 0)
+  local mine = self.scene.time + longest
+  self.busy_until = mine
   local done = p:wait_until(function()
+    if self.busy_until ~= mine then return true end
     if self.scene.time > seen.time then
       seen.step, seen.time = self.scene.time - seen.time, self.scene.time
       seen.before, seen.last = seen.last, { x = gone(), f = push() }
     end
     return seen.last.f >= args.force
-  end, { timeout = args.distance / args.speed + (a and args.speed / a or 0) })
+  end, { timeout = longest })
+  if self.busy_until ~= mine then return push(), gone(), false end -- another process moved or stopped it
   held:follow(nil)
+  self.busy_until = self.scene.time
   local f, lost = push(), false
   if done and f > BEYOND * args.force and seen.last.x > seen.before.x then
     f = set_back(p, held, way, args, seen, push)
     tell(self, args, seen, f)
     held:follow(nil)
-    done = f >= args.force
+    done = f >= args.force and f <= REACHED * args.force
     lost = args.distance - gone() > FINEST
   end
   if not done then tell_unreached(self, args, f, gone(), lost) end

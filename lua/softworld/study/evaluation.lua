@@ -11,6 +11,7 @@ local judge_results = require "softworld.study.judge"
 local counted = require "softworld.output.number".count
 local parameters = require "softworld.study.parameters"
 local rows = require "softworld.rows"
+local vector = require "softworld.vector"
 
 local evaluation = {}
 
@@ -97,7 +98,7 @@ local function flatten(own, results)
     local fine, why = pcall(parameters.check_name, "the result", name)
     if not fine then return nil, wrong(own, "returned %s", why) end
     if own.by_name[name] then return nil, wrong(own, "returned '%s', which is a parameter", name) end
-    if type(value) == "table" and getmetatable(value) == nil then
+    if vector.is_plain(value) then
       local bad, text = add_list(own, flat, name, value)
       if bad then return nil, bad, text end
     else

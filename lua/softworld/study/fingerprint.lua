@@ -5,6 +5,7 @@
 local bytecode = require "softworld.study.bytecode"
 local core = require "softworld.core"
 local place = require "softworld.place"
+local vector = require "softworld.vector"
 
 -- Names that Lua, its libraries and the host program define.
 local standard = {}
@@ -24,7 +25,7 @@ local function of_value(value, parts, seen)
     end
     return
   end
-  if seen[value] or getmetatable(value) ~= nil then return end -- objects do not count
+  if seen[value] or not vector.is_plain(value) then return end -- objects do not count
   seen[value] = true
   local keys = {}
   for key in next, value do

@@ -6,6 +6,7 @@
 -- @module softworld.study.parts
 local core = require "softworld.core"
 local parameters = require "softworld.study.parameters"
+local vector = require "softworld.vector"
 
 local parts = {}
 
@@ -31,7 +32,7 @@ end
 -- Returns a value as text, equal for equal values; for functions and objects their kind.
 function shown(value, depth)
   if type(value) == "number" then return parameters.text(value) end
-  if type(value) == "table" and getmetatable(value) == nil and depth < DEEP then
+  if vector.is_plain(value) and depth < DEEP then
     return of_table(value, depth)
   end
   if type(value) == "string" or type(value) == "boolean" then return tostring(value) end
