@@ -177,7 +177,7 @@ function evaluation.keep(own)
   local list = {}
   for i = 1, own.built.n do
     local value = own.built[i]
-    local many = type(value) == "table" and getmetatable(value) == nil and value or { value }
+    local many = vector.is_plain(value) and value or { value }
     for _, v in pairs(many) do
       if core.type(v) == "scene" then list[#list + 1] = { v, v:snapshot() } end
     end
