@@ -156,7 +156,8 @@ describe("a soft wire that is dropped over two that lie on a table between clamp
     it(("settles, friction %g"):format(friction), function()
       local scene <close> = require("softworld").scene{}
       local function soft(from, to, segments)
-        return scene:wire{ E = 2e6, density = 1200, radius = 0.002, from = from, to = to, segments = segments }
+        return scene:wire{ E = 2e6, density = 1200, radius = 0.002, from = from, to = to,
+          segments = segments }
       end
       scene:obstacle{ shape = "plane", friction = 0.3 }
       for k = 1, 2 do
