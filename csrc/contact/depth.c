@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "contact/contact.h"
 #include "touch/drawn.h"
 
 /* A wire is limp if tension times edge^2 is above this multiple of EI: it bends within a small part
@@ -35,10 +36,24 @@ void sw_contact_find_drawn(sw_contact *c, const sw_system *s, size_t body, size_
  * (spec/contact/together_spec) [m]. */
 static const double LEAST = 1e-6, LEAST_AT_REST = 1e-8;
 
+/* 1 if the usual depth may take more tension from a line than its weight, or the line has more.
+ * Lines with less only lie or hang: with little depth soft ones do not come to rest. */
+static int may_be_taut(const sw_system *s, const sw_touch *t, double usual) {
+  const sw_body *b = &s->bodies[t->body];
+  const size_t i = t->node - b->first_node;
+  if (i == 0 || i >= b->plan->edges) return 0;
+  const sw_vec before = sw_vec_across(b->field.tangent, i - 1);
+  const sw_vec turns = sw_sub(sw_vec_across(b->field.tangent, i), before);
+  const double turn = fabs(sw_dot(turns, t->press.normal));
+  return sw_drawn_is_taut(s, t->body, t->node, b->EA * usual * turn / b->plan->rest[i],
+                          0.1 * sw_contact_usual_force(s, b->plan));
+}
+
 static double shortening(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                          const sw_touch *t) {
   const int still = c->regime == SW_CONTACT_STATIC;
   if (!k->drawn) return HUGE_VAL;
+  if (still && !may_be_taut(s, t, sw_depth_for(SW_DEEPEST, k->radius))) return HUGE_VAL;
   return sw_drawn_depth(s, t->body, t->node, t->other, t->press.normal,
                         sw_depth_for(still ? LEAST_AT_REST : LEAST, k->radius));
 }

@@ -76,7 +76,7 @@ static void tape_poke(sw_tape *t, sw_poke *x) {
 }
 
 void sw_tape_wire(sw_tape *t, sw_scene_wire *x, int placed) {
-  SW_TAPE_STRUCT(t, sw_scene_wire, 1392);
+  SW_TAPE_STRUCT(t, sw_scene_wire, 1400);
   SW_TAPE_STRUCT(t, sw_twisted, 24);
   UINT32(generation), SIZE(number), NAME(name);
   SW_TAPE_CLASS(t, x->cls, sw_scene_body_class);

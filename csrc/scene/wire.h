@@ -46,7 +46,8 @@ typedef struct sw_poke {
 
 /* Tension that a wire loses because it is in another one, where its tension is largest. */
 typedef struct sw_sunk {
-  double most;           /* upper bound of what it would have without this [N] */
+  double most;           /* what it would have without this [N] */
+  double bound;          /* largest upper bound of this so far [N] */
   double tension, taken; /* what it has and what it loses [N] */
   double depth;          /* [m] */
   double s, time;        /* where and when [m], [s] */

@@ -98,18 +98,26 @@ static int is_given(const sw_scene *s, size_t body) {
   return 0;
 }
 
-static sw_status note(sw_scene *s, size_t body, double from, sw_error *err) {
-  sw_scene_wire *w = sw_scene_wire_in(s, body);
-  const sw_body *b = &sw_scene_system(s)->bodies[body];
+/* Notes the state if it has a larger tension than the last one; at the end of a run also one that
+ * is not much smaller. Only the closer look says how large it would be: the bound of wires that
+ * just begin to touch may be above all tensions that follow. */
+static sw_status note(sw_scene *s, size_t body, int ends, sw_error *err) {
+  const sw_system *system = sw_scene_system(s);
+  const sw_body *b = &system->bodies[body];
+  sw_sunk *last = &sw_scene_wire_in(s, body)->sunk;
+  const double from = ends ? LITTLE * last->most : fmax(usual_of(b), GROWN * last->most);
   sw_relief r;
-  if (!sw_scene_relief(s, body, &r)) return SW_OK;
-  const double pull = fmax(r.tension, 0.0), right = pull + r.taken;
-  if (!(right > from)) return SW_OK;
+  if (!sw_scene_relief(s, body, &r)) r.node = b->first_node, r.tension = largest_pull(system, b);
+  const double pull = fmax(r.tension, 0.0), bound = pull + r.taken;
+  if (!(bound > from) || (!ends && !(pull > from) && !(bound > GROWN * last->bound))) return SW_OK;
   double taken = r.taken;
-  if (taken > TOLD * right) SW_TRY(look_closer(s, body, &r, &taken, err));
+  last->bound = fmax(last->bound, bound);
+  if (taken > TOLD * bound) SW_TRY(look_closer(s, body, &r, &taken, err));
+  if (!(pull + taken > from)) return SW_OK;
   const double at = b->plan->s[r.node - b->first_node] - b->plan->s[0];
   const int counts = taken > TOLD * (pull + taken);
-  w->sunk = (sw_sunk){right, pull, taken, r.depth, at, sw_scene_time(s), r.with, counts};
+  *last = (sw_sunk){pull + taken, last->bound,      pull,   taken, r.depth,
+                    at,           sw_scene_time(s), r.with, counts};
   return SW_OK;
 }
 
@@ -121,7 +129,7 @@ sw_status sw_scene_watch_sunk(sw_scene *s, sw_error *err) {
     const double from = fmax(usual_of(b), GROWN * sw_scene_wire_in(s, k)->sunk.most);
     if (b->waits || b->plan->web || is_given(s, k) || !(largest_pull(system, b) > 0.1 * from))
       continue;
-    SW_TRY(note(s, k, from, err));
+    SW_TRY(note(s, k, 0, err));
   }
   return SW_OK;
 }
@@ -145,7 +153,7 @@ void sw_scene_end_sunk(sw_scene *s) {
   if (!sw_scene_pairs(s) || !sw_scene_is_built(s)) return;
   for (size_t k = 0; k < sw_scene_system(s)->body_count; k++) {
     sw_scene_wire *w = sw_scene_wire_in(s, k);
-    if (!w->sunk.counts && w->sunk.most > 0) (void)note(s, k, LITTLE * w->sunk.most, &ignored);
+    if (!w->sunk.counts && w->sunk.most > 0) (void)note(s, k, 1, &ignored);
     if (w->sunk.counts) tell(s, w);
   }
 }

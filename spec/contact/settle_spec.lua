@@ -149,3 +149,26 @@ describe("settling", function()
     end
   end)
 end)
+
+-- With the little depth of taut wires the two that lie between clamps did not settle.
+describe("a soft wire that is dropped over two that lie on a table between clamps", function()
+  for _, friction in ipairs{ 0.1, 0.2, 0.5 } do
+    it(("settles, friction %g"):format(friction), function()
+      local scene <close> = require("softworld").scene{}
+      local function soft(from, to, segments)
+        return scene:wire{ E = 2e6, density = 1200, radius = 0.002, from = from, to = to,
+          segments = segments }
+      end
+      scene:obstacle{ shape = "plane", friction = 0.3 }
+      for k = 1, 2 do
+        local wire = soft({ 0.05 * k, -0.15, 0.002 }, { 0.05 * k, 0.15, 0.002 }, 30)
+        for _, s in ipairs{ 0, wire.length } do scene:clamp(wire, { s = s }) end
+      end
+      soft({ -0.1, 0, 0.05 }, { 0.25, 0.01, 0.06 }, 35)
+      scene:wire_contact{ friction = friction }
+      scene:force{ kind = "damping", mass = 5, stiffness = 0.001 }
+      local rest = scene:settle()
+      assert.is_true(rest.ok, rest.reason)
+    end)
+  end
+end)

@@ -100,4 +100,39 @@ describe("depth that takes more than 5 % of a tension", function()
     end)
     assert.equal(0, told)
   end)
+
+  -- Two loops of H07V-K 4 that hook into each other. In poses with little tension depth of 0.03 mm remains.
+  -- The bound of the first touch was above the tensions of all later states, and was told: 9 %.
+  it("is not told of wires that begin to touch, where later tensions are larger", function()
+    local function hooked(settle)
+      local scene <close> = sw.scene{ gravity = { 0, 0, 0 } }
+      local round, leg, ends = 0.03, 0.08, {}
+      local inside = round - 1.02 * sw.cable("H07V-K 4").outer_diameter.value / 2
+      for k, sign in ipairs{ 1, -1 } do
+        local path = {}
+        local function add(x, out)
+          local along, across = sign * (x + inside), round * out
+          path[#path + 1] = { along, k == 1 and across or 0, k == 1 and 0 or across }
+        end
+        for i = 0, 60 do add(leg * (1 - i / 60), 1) end
+        for i = 1, 40 do
+          local phi = math.pi * (0.5 + i / 40)
+          add(round * math.cos(phi), math.sin(phi))
+        end
+        for i = 1, 60 do add(leg * i / 60, -1) end
+        local wire = scene:wire{ cable = "H07V-K 4", path = path, segments = 40, rest = "path" }
+        for _, s in ipairs{ 0, wire.length } do ends[#ends + 1] = scene:clamp(wire, { s = s }) end
+      end
+      scene:wire_contact{ friction = 0.2 }
+      for i = 1, 2 do
+        local p = ends[i]:pose()
+        if settle then ends[i]:pose({ p[1] + 0.004, p[2], p[3] })
+        else ends[i]:follow{ points = { { 0, 0, 0 }, { 0.004, 0, 0 } }, relative = true, duration = 0.5 } end
+      end
+      local result = settle and scene:settle() or scene:run{ duration = 0.6, dt = 0.02, quasistatic = true }
+      for _, e in ipairs(t.fine(result).events) do assert.not_equal("pressed", e.kind) end
+      return ends[1]:force()[1]
+    end
+    t.share(hooked(true), hooked(), 0.01, "pull of the hook [N]")
+  end)
 end)
