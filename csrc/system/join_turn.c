@@ -1,14 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The turn of a hub and the directors of its arms. */
-#include <string.h>
-
 #include "solve/rotation.h"
 #include "system/join.h"
 
 static int is_known(const sw_join_hub *h, const double *x, int now) {
   for (size_t a = 0; a < h->count; a++) {
-    const sw_vec edge = sw_join_edge(&h->arms[a], x);
-    if (memcmp(&edge, &h->edge[now][a], sizeof edge) != 0) return 0;
+    const sw_vec edge = sw_join_edge(&h->arms[a], x), known = h->edge[now][a];
+    if (edge.x != known.x || edge.y != known.y || edge.z != known.z) return 0;
   }
   return h->link_count && !h->line;
 }
