@@ -2,9 +2,9 @@
 -- Two wires wound round each other are drawn taut by scene:settle alone. Touches 0.05 mm deep shorten their
 -- ways and took 50 to 98 % of the pull, without an event. Where depth remains that takes more than 5 % of a
 -- tension, an event tells it, and rows of the tension are open.
-package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
-local t = require "spec.physics.tools"
+local t = require "physics.tools"
+local twisted = require "contact.twisted"
 
 local FLRY = { cables = { "FLRY-B 0.5", "FLRY-B 0.5" }, pitch = 0.02, turns = 6 }
 local GXL = { cables = { "GXL 1.5", "GXL 1.5" }, pitch = 0.04, turns = 3 }
@@ -14,21 +14,7 @@ local MIXED = { cables = { "H07V-K 4", "FLRY-B 0.5" }, pitch = 0.08, turns = 3 }
 -- [m] for a share of the distance.
 local function wound(o, strain, gravity)
   local scene = sw.scene{ gravity = { 0, 0, -(gravity or 0) } }
-  local distance, reach, ends = o.pitch * o.turns, 0, {}
-  for _, cable in ipairs(o.cables) do reach = reach + sw.cable(cable).outer_diameter.value / 2 end
-  for k, cable in ipairs(o.cables) do
-    local path, per, out = {}, 24, (k == 1 and 1 or -1) * 0.5025 * reach
-    for i = 0, 8 * per * o.turns do
-      local x = distance * i / (8 * per * o.turns)
-      local phi = 2 * math.pi * x / o.pitch
-      path[#path + 1] = { x, out * math.cos(phi), out * math.sin(phi) }
-    end
-    local wire = scene:wire{ cable = cable, path = path, segments = per * o.turns, rest = "path" }
-    scene:clamp(wire, { s = 0 })
-    ends[k] = scene:clamp(wire, { s = wire.length })
-  end
-  scene:wire_contact{ friction = 0.2 }
-  scene:force{ kind = "damping", mass = 30, stiffness = 0.001 }
+  local ends, distance = twisted(scene, o)
   return scene, ends, strain * distance
 end
 
