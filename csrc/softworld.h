@@ -36,6 +36,7 @@
 #include "read/reading.h"
 #include "read/readout.h"
 #include "read/section.h"
+#include "record/loads.h"
 #include "remodel/remodel.h"
 #include "save/file.h"
 #include "save/life.h"

@@ -100,63 +100,88 @@ local function carried_at(self, t, width)
   return false
 end
 
--- True if pads bear nothing in this row, and hold nothing.
-local function is_idle(r)
-  for k = 1, 6 do
-    if r[k] ~= 0 then return false end
-  end
-  return r.squeeze == 0 and r.margin ~= r.margin
-end
+local FEWER, ALL = 10, 15 -- numbers in a row of a hold's log, without its span, and in one of a tool [-]
 
--- Returns every recorded step: t, span, force, moment; for a tool also opening, squeeze, margin, slip. span:
--- above 0 = the force is the mean over this time up to t; below 0 = it is the force at the end of a step of
--- this length; 0 = an equilibrium. t1, t2: steps further from these times than one step are left out.
-local function records(self, t1, t2)
-  local list = {}
-  local function add(log, count, spans, wanted, jaws)
-    local width = spans and 10 or 15
-    for i = 0, count - 1 do
-      local b = width * i
-      local step = spans and spans[i + 1] or log[b + 11]
-      if not wanted or wanted(log[b + 1], step) then
-        list[#list + 1] = { t = log[b + 1], log[b + 2], log[b + 3], log[b + 4], log[b + 5],
-          log[b + 6], log[b + 7], at = { log[b + 8], log[b + 9], log[b + 10] },
-          span = step,
-          opening = jaws and log[b + 12] or nil, squeeze = jaws and log[b + 13] or nil,
-          margin = jaws and log[b + 14] or nil, slip = jaws and log[b + 15] or nil }
-        list[#list].idle = jaws and is_idle(list[#list])
-      end
+-- Appends the wanted rows of a log to a flat list with rows of a tool; spans: of a hold, or nil; jaws: they
+-- are of pads.
+local function append(list, log, count, spans, wanted, jaws)
+  local n, each = #list, spans and FEWER or ALL
+  for i = 0, count - 1 do
+    local b = each * i
+    local span = spans and spans[i + 1] or log[b + FEWER + 1]
+    if not wanted or wanted(log[b + 1], span) then
+      table.move(log, b + 1, b + FEWER, n + 1, list)
+      list[n + FEWER + 1] = span
+      for k = FEWER + 2, ALL do list[n + k] = jaws and log[b + k] or 0 / 0 end
+      n = n + ALL
     end
   end
+end
+
+-- Returns the rows of a flat list in the order of time.
+local function in_order(list)
+  local starts, sorted = {}, {}
+  for b = 0, #list - 1, ALL do starts[#starts + 1] = b end
+  table.sort(starts, function(a, b)
+    local t, u = list[a + 1], list[b + 1]
+    return t < u or t == u and a < b
+  end)
+  for i, b in ipairs(starts) do table.move(list, b + 1, b + ALL, ALL * (i - 1) + 1, sorted) end
+  return sorted
+end
+
+-- Returns every recorded step as rows of a tool's log: time, force, moment, point, span, opening, squeeze,
+-- margin, slip; the last four are NaN without pads. span: above 0 = the force is the mean over this time up
+-- to t; below 0 = it is the force at the end of a step of this length; 0 = an equilibrium. Or rows of a
+-- hold's log, and their spans. t1, t2: steps further from these times than one step are left out.
+local function recorded(self, t1, t2)
+  local list = {}
+  local alone = not self.carrier and (#self.past == 0 or #self.past == 1 and not self.tool)
   for i, hold in ipairs(self.past) do
     local held = self.spans[i]
     if not (t1 and held.to and held.to < t1) then
       local log, count, spans = build.call(3, hold.log, hold, t1, t2)
-      local function alone(t, step) return not is_after(t, step, held.carried) end
-      add(log, count, spans, held.carried and alone)
+      if alone and not held.carried then return log, spans end
+      append(list, log, count, spans, held.carried and function(t, step)
+        return not is_after(t, step, held.carried)
+      end)
     end
   end
   if self.carrier then
     local log, count = build.call(3, self.carrier.log, self.carrier, t1, t2)
-    add(log, count, nil, function(t, step) return carried_at(self, t, step) end)
+    append(list, log, count, nil, function(t, step) return carried_at(self, t, step) end)
   end
   if self.tool then
     local log, count = build.call(3, self.tool.log, self.tool, t1, t2)
-    add(log, count, nil, nil, true)
+    if alone then return log end
+    append(list, log, count, nil, nil, true)
   end
-  if #self.past > 1 or self.tool and #self.past > 0 then
-    table.sort(list, function(a, b) return a.t < b.t end)
+  return (#self.past > 1 or self.tool and #self.past > 0) and in_order(list) or list
+end
+
+-- Returns the same as a list of { t =, force and moment, opening =, squeeze =, margin =, slip = }, the last
+-- four of pads.
+local function records(self, t1, t2)
+  local log, spans = recorded(self, t1, t2)
+  local list, each = {}, spans and FEWER or ALL
+  for b = 0, #log - 1, each do
+    local r = { t = log[b + 1], table.unpack(log, b + 2, b + 7) }
+    local pads = not spans and log[b + 13] == log[b + 13]
+    if pads then r.opening, r.squeeze, r.margin, r.slip = table.unpack(log, b + 12, b + 15) end
+    list[#list + 1] = r
   end
   return list
 end
 
--- True if a gripper without pads held nothing at this time.
-local function is_gap(self, t)
-  if self.tool then return false end
+-- Returns the times from, to, ... in which a gripper without pads held something [s]; nil with pads.
+local function held_times(self)
+  if self.tool then return nil end
+  local list = {}
   for _, span in ipairs(self.spans) do
-    if t >= span.from and (not span.to or t <= span.to) then return false end
+    list[#list + 1] = span.from
+    list[#list + 1] = span.to or math.huge
   end
-  return true
+  return list
 end
 
 local over = rows.call("gripper:over", "t1, t2, {...}",
@@ -190,24 +215,16 @@ function Measures:over(t1, t2, options)
   options = over_options(options)
   t1, t2 = window.interval(self.scene, t1, t2, "gripper:over", 3)
   local width = window.of(self.scene, options.window, "gripper:over", 3)
-  local margins, squeeze, slip = {}, nil, nil
-  local list = records(self, t1, t2)
-  local m = loads.over(list, { t1 = t1, t2 = t2, width = width, at = options.at,
-    is_gap = function(t) return is_gap(self, t) end,
-    each = function(r, t0)
-      if not r.squeeze then return end
-      local held = r.margin == r.margin
-      squeeze, slip = math.max(squeeze or 0, r.squeeze), r.slip
-      margins[#margins + 1] = { t0 = t0, t1 = r.t, held and r.margin or 0, 0, 0 }
-      margins.held = margins.held or held
-    end })
-  for name, unit in pairs(#list == 0 and { peak_force = "N", peak_moment = "N m" } or {}) do
+  local log, spans = recorded(self, t1, t2)
+  local m, found = loads.over(log, spans, { t1 = t1, t2 = t2, width = width, at = options.at,
+    held = held_times(self) })
+  for name, unit in pairs(#log == 0 and { peak_force = "N", peak_moment = "N m" } or {}) do
     m[name .. "_note"], m[name .. "_text"] = "it held nothing", ("0 %s (it held nothing)"):format(unit)
   end
-  m.peak_squeeze, m.slip = squeeze, slip
-  if margins.held then
-    local p = window.largest(margins, width)
-    m.peak_margin, m.peak_margin_time, m.raw_peak_margin = p.value, p.time, p.raw
+  m.peak_squeeze, m.slip = found.squeeze, found.slip
+  if found.margin then
+    m.peak_margin, m.peak_margin_time, m.raw_peak_margin = found.margin.value, found.margin.time,
+      found.margin.raw
   end
   return m
 end

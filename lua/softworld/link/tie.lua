@@ -147,8 +147,9 @@ function Tie:over(t1, t2, options)
   fixing.check(self)
   options = options == nil and {} or over:read(options)
   t1, t2 = window.interval(self.scene, t1, t2, "tie:over", 2)
-  return loads.over(loads.forces(self.object:log(t1, t2)), { t1 = t1, t2 = t2,
-    width = window.of(self.scene, options.window, "tie:over", 2), forces_only = true })
+  local log, spans = loads.forces(self.object:log(t1, t2))
+  return (loads.over(log, spans, { t1 = t1, t2 = t2, forces_only = true,
+    width = window.of(self.scene, options.window, "tie:over", 2) }))
 end
 
 --- Largest mean of the pull over the run's window so far [N].

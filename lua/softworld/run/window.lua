@@ -56,116 +56,7 @@ end
 
 local function size(x, y, z) return (x * x + y * y + z * z) ^ 0.5 end
 
--- Returns the integral of the steps up to the start of each.
-local function sums_of(steps)
-  local sums, x, y, z = {}, 0, 0, 0
-  for i, s in ipairs(steps) do
-    sums[i] = { x, y, z }
-    local h = s.t1 - s.t0
-    x, y, z = x + h * s[1], y + h * s[2], z + h * s[3]
-  end
-  return sums
-end
-
--- Returns a function that integrates up to a time; times must not fall from call to call.
-local function integral(steps, sums)
-  local i, n = 1, #steps
-  return function(t)
-    while i < n and steps[i + 1].t0 <= t do i = i + 1 end
-    local s, sum = steps[i], sums[i]
-    local h = math.max(0, math.min(t, s.t1) - s.t0)
-    return sum[1] + h * s[1], sum[2] + h * s[2], sum[3] + h * s[3]
-  end
-end
-
--- Returns the size of the largest mean over whole windows that begin or end with a step, and that window's
--- end.
-local function largest_mean(steps, width)
-  local sums, first, last = sums_of(steps), steps[1].t0, steps[#steps].t1
-  local most, time = 0, nil
-  local function try(begins, stop, from, to)
-    local x0, y0, z0 = from(begins)
-    local x1, y1, z1 = to(stop)
-    local mean = size(x1 - x0, y1 - y0, z1 - z0) / (stop - begins)
-    if mean > most then most, time = mean, stop end
-  end
-  if last - first < width * (1 - SLACK) then
-    try(first, last, integral(steps, sums), integral(steps, sums))
-    return most, time
-  end
-  local from, to = integral(steps, sums), integral(steps, sums)
-  for _, s in ipairs(steps) do
-    if s.t1 - width >= first - SLACK * width then try(math.max(first, s.t1 - width), s.t1, from, to) end
-  end
-  from, to = integral(steps, sums), integral(steps, sums)
-  for _, s in ipairs(steps) do
-    if s.t0 + width <= last then try(s.t0, s.t0 + width, from, to) end
-  end
-  return most, time
-end
-
-local FEW = 3 -- steps in a peak's window that show a blow to 15 % (make stability: laying, drops, pegs) [-]
 local NEAR = 3 -- a blow starts at most this many windows before its peak [-]
-local SHARP = 0.55 -- largest mean before a blow over its own mean [-]
-
--- True if a blow lasts few steps: shorter steps may show another peak.
-local function is_coarse(steps, p, width)
-  local long = math.max(width, p.span)
-  if p.span * FEW < long then return false end
-  local till, first = p.time - long, steps[1].t0
-  local from = math.max(till - long, first)
-  if till - from < 0.25 * long then return false end -- nothing is known before
-  local to = integral(steps, sums_of(steps))
-  local x0, y0, z0 = to(from)
-  local x1, y1, z1 = to(till)
-  return size(x1 - x0, y1 - y0, z1 - z0) / (till - from) < SHARP * p.value
-end
-
--- Returns the longest step within the window that ends at a time.
-local function longest(steps, time, width)
-  local most = 0
-  for _, s in ipairs(steps) do
-    if s.t1 > time - width * (1 - SLACK) and s.t0 < time then most = math.max(most, s.t1 - s.t0) end
-  end
-  return most
-end
-
---- Returns the peaks of a vector.
--- @tparam table steps { { t0 =, t1 =, x, y, z }, ... } in order: the vector from t0 to t1 [s];
--- t0 = t1 at an equilibrium
--- @tparam number width of the window [s]
--- @treturn table value of the largest mean and its time, raw (of single steps) with raw_time and raw_span;
--- steps as long as the window, and equilibria, are not averaged; whole: length of the record, if it is
--- shorter than the window; coarse: true for a blow that lasts few steps
-function window.peak(steps, width)
-  local p = window.largest(steps, width)
-  if p.time and p.value > 0 and width > 0 then
-    p.span = longest(steps, p.time, width)
-    p.coarse = is_coarse(steps, p, width) or nil
-  end
-  return p
-end
-
---- Same without coarse.
-function window.largest(steps, width)
-  local p = { value = 0, raw = 0, raw_span = 0, width = width }
-  local averaged = false
-  for _, s in ipairs(steps) do
-    local now, span = size(s[1], s[2], s[3]), s.t1 - s.t0
-    if now > p.raw then p.raw, p.raw_time, p.raw_span = now, s.t1, span end
-    if span == 0 or span >= width * (1 - SLACK) then
-      if now > p.value then p.value, p.time = now, s.t1 end
-    else
-      averaged = true
-    end
-  end
-  if not averaged then return p end
-  local mean, time = largest_mean(steps, width)
-  if mean > p.value then p.value, p.time = mean, time end
-  local whole = steps[#steps].t1 - steps[1].t0
-  if whole < width * (1 - SLACK) then p.whole = whole end
-  return p
-end
 
 -- 0.01 -> 10 ms. Rounded first: 999.7 us are 1 ms, not 1e+03 us.
 local function short(x, unit)
@@ -195,13 +86,16 @@ end
 --- Same with the value in front: "12.3 N (10 ms mean; raw 41 N in 0.4 ms)".
 function window.text(p, unit) return ("%s (%s)"):format(short(p.value, unit), window.note(p, unit)) end
 
--- Returns the wire's largest tension in each step between two times [s], as in a series.
+-- Returns the wire's largest tension in each step between two times [s]: a flat list for core.peak.
 local function tension_steps(wire, from, to)
   local rows, count = wire:log(from, to)
-  local steps, before = {}, nil
+  local steps, n, before = {}, 0, nil
   for i = 0, count - 1 do
     local t = rows[3 * i + 1]
-    steps[#steps + 1] = before and t > before and { t0 = before, t1 = t, rows[3 * i + 2], 0, 0 } or nil
+    if before and t > before then
+      steps[n + 1], steps[n + 2], steps[n + 3], steps[n + 4], steps[n + 5] = before, t, rows[3 * i + 2], 0, 0
+      n = n + 5
+    end
     before = t
   end
   return steps
@@ -213,10 +107,9 @@ function window.tension(scene, wire)
   local raw, _, _, span = wire:max_tension{ raw = true }
   local p = { value = value, time = t, raw = raw, raw_span = span, width = core.window(scene) }
   if p.width > 0 and value > 0 and span > 0 then
-    local steps = tension_steps(wire, t - p.width, t)
-    p.span = longest(steps, t, p.width)
-    steps = tension_steps(wire, t - NEAR * math.max(p.width, p.span), t)
-    p.coarse = p.span > 0 and is_coarse(steps, p, p.width) or nil
+    local longest = core.longest_span(tension_steps(wire, t - p.width, t), t, p.width)
+    local steps = tension_steps(wire, t - NEAR * math.max(p.width, longest), t)
+    p.coarse = longest > 0 and core.is_coarse(steps, p.width, value, t, longest) or nil
   end
   return value, s, t, window.note(p, "N")
 end
@@ -235,30 +128,31 @@ end
 local over_keys = { window = true }
 
 -- Returns impulse and duration of the force on an obstacle over [t1, t2] [s], the integral of its magnitude
--- [N s], and its steps.
+-- [N s], and its steps as a flat list for core.peak.
 local function sum_over(obstacle, t1, t2)
   local rows, count = obstacle:log(t1, t2)
-  local m, steps = { impulse = { 0, 0, 0 }, duration = 0 }, {}
-  local sum, before = 0, nil
-  local function add(h, s)
+  local m, steps, n = { impulse = { 0, 0, 0 }, duration = 0 }, {}, 0
+  local sum, impulse = 0, m.impulse
+  local function add(h, b) -- the force of the row that begins at b
     if h <= 0 then return end
-    m.duration, sum = m.duration + h, sum + h * size(s[1], s[2], s[3])
-    for k = 1, 3 do m.impulse[k] = m.impulse[k] + h * s[k] end
+    local x, y, z = rows[b + 2], rows[b + 3], rows[b + 4]
+    m.duration, sum = m.duration + h, sum + h * size(x, y, z)
+    impulse[1], impulse[2], impulse[3] = impulse[1] + h * x, impulse[2] + h * y, impulse[3] + h * z
   end
-  for i = 0, count - 1 do
-    local b = 5 * i
+  for b = 0, 5 * (count - 1), 5 do
     local t, span = rows[b + 1], rows[b + 5]
-    local s = { t0 = t - span, t1 = t, rows[b + 2], rows[b + 3], rows[b + 4] }
+    local t0 = t - span
     if t <= t2 and (t > t1 or t == t1 and (span == 0 or t1 == t2)) then
-      steps[#steps + 1] = { t0 = t1 < t2 and math.max(s.t0, t1) or s.t0, t1 = t, s[1], s[2], s[3] }
+      steps[n + 1], steps[n + 2] = t1 < t2 and math.max(t0, t1) or t0, t
+      steps[n + 3], steps[n + 4], steps[n + 5] = rows[b + 2], rows[b + 3], rows[b + 4]
+      n = n + 5
     end
-    add(math.min(t, t2) - math.max(s.t0, t1), s)
-    if span == 0 and before then -- equilibria: linear between them
-      local h = 0.5 * (math.min(t, t2) - math.max(before.t1, t1))
-      add(h, s)
-      add(h, before)
+    add(math.min(t, t2) - math.max(t0, t1), b)
+    if span == 0 and b > 0 then -- equilibria: linear between them
+      local h = 0.5 * (math.min(t, t2) - math.max(rows[b - 4], t1))
+      add(h, b)
+      add(h, b - 5)
     end
-    before = s
   end
   return m, sum, steps
 end
@@ -267,7 +161,7 @@ end
 -- which take most of the time, are not looked for.
 function window.mean_force(obstacle, start)
   local m, sum, steps = sum_over(obstacle, start, math.huge)
-  return m.duration > 0 and sum / m.duration or window.peak(steps, core.window(obstacle)).value
+  return m.duration > 0 and sum / m.duration or core.peak(steps, core.window(obstacle)).value
 end
 
 --- obstacle:over(t1, t2, { window = [s] }): force of wires on the obstacle over [t1, t2] [s], blows included.
@@ -284,7 +178,7 @@ function core.class.obstacle.over(obstacle, t1, t2, options)
   local width = window.of(obstacle, options.window, "obstacle:over", 3)
   local m, sum, steps = build.call(3, sum_over, obstacle, t1, t2)
   m.window = width
-  window.fill(m, "peak_force", window.peak(steps, width), "N")
+  window.fill(m, "peak_force", core.peak(steps, width), "N")
   m.mean_force = m.duration > 0 and sum / m.duration or m.peak_force
   m.impulse_size = size(m.impulse[1], m.impulse[2], m.impulse[3])
   return m
