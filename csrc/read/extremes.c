@@ -251,9 +251,10 @@ static void add_step(sw_scene *s, size_t w, const double *T, sw_extreme *kept) {
   const sw_course *course = sw_scene_course(s);
   sw_window *window = &sw_scene_wire_in(s, w)->window;
   const double *values = T ? T : sw_window_values(window), end = sw_scene_time(s);
-  double from = end - course->span;
+  const double begin = end - course->span;
+  double from = begin;
   /* NOLINTNEXTLINE(cert-flp30-c): from cut to cut, which are found anew each time */
-  for (double at; (at = sw_window_cut(window, end, course->window)) < end; from = at)
+  for (double at; (at = sw_window_cut(window, begin, end, course->window)) < end; from = at)
     if (sw_window_add(window, values, at, at - from, course->window)) count_means(s, w, kept);
   if (sw_window_add(window, values, end, end - from, course->window) && sw_scene_is_averaged(s))
     count_means(s, w, kept);

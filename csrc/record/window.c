@@ -102,10 +102,10 @@ int sw_window_add(sw_window *w, const double *values, double time, double h, dou
   return sw_window_full(w, window);
 }
 
-double sw_window_cut(const sw_window *w, double time, double window) {
+double sw_window_cut(const sw_window *w, double begin, double time, double window) {
   if (!w->edges || !w->marks) return time;
-  const double least = w->now + SLACK * window;
-  for (size_t k = 0; k < w->marks; k++) {
+  const double least = w->now + SLACK * window, latest = begin + SLACK * window;
+  for (size_t k = 0; k < w->marks && w->time[slot(w, k)] <= latest; k++) {
     const double at = w->time[slot(w, k)] + window;
     if (at > least && at <= time - SLACK * window) return at;
   }

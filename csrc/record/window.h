@@ -39,10 +39,11 @@ static inline double *sw_window_values(sw_window *w) { return w->room + w->edges
 /* Adds a step of size h that ends at `time`, with these values. Returns 1 if the mean over the
  * whole window should be evaluated. */
 int sw_window_add(sw_window *w, const double *values, double time, double h, double window);
-/* Returns where to divide a step that ends at `time`, with the same values in both parts: the next
- * moment at which a window ends that begins at a mark. Means are largest where windows begin or end
- * with a step. Returns `time` if there is no such moment [s]. */
-double sw_window_cut(const sw_window *w, double time, double window);
+/* Returns where to divide a step from `begin` to `time`, with the same values in both parts: the
+ * next moment at which a window ends that begins at a mark before the step. Means are largest where
+ * windows begin or end with a step, and windows within the step all have its own values. Returns
+ * `time` if there is no such moment [s]. */
+double sw_window_cut(const sw_window *w, double begin, double time, double window);
 /* Returns the edge with the largest mean over the window that ends at present, and the mean. While
  * the record is shorter than the window, the mean is over the whole record. */
 size_t sw_window_largest(const sw_window *w, double window, double *mean);

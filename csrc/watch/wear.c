@@ -227,9 +227,10 @@ static sw_status press(sw_scene *s, const layout *p, sw_wear *w) {
   }
   double *values = sw_window_values(&w->pressed);
   for (size_t i = 0; i < w->nodes; i++) values[i] = pressure_at(w, i);
-  double from = end - c->span;
+  const double begin = end - c->span;
+  double from = begin;
   /* NOLINTNEXTLINE(cert-flp30-c): from cut to cut, which are found anew each time */
-  for (double at; (at = sw_window_cut(&w->pressed, end, c->window)) < end; from = at)
+  for (double at; (at = sw_window_cut(&w->pressed, begin, end, c->window)) < end; from = at)
     if (sw_window_add(&w->pressed, values, at, at - from, c->window)) keep_mean(w, c->window);
   if (sw_window_add(&w->pressed, values, end, end - from, c->window) && averaged)
     keep_mean(w, c->window);
