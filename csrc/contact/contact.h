@@ -204,6 +204,10 @@ double sw_contact_squeezing_force(const sw_system *system, const sw_plan *plan);
 double sw_contact_edge_stiffness(const sw_system *system, size_t body, size_t node);
 
 /* --- for the energy ledger, after a trial ------------------------------------- */
+/* Moves nodes (x) that pads hold with their force to where the pads carry them from the step's start
+ * to a time, as a first guess of a pose. */
+sw_status sw_contact_carry(sw_contact *contact, const sw_system *system, double time, double *x,
+                           sw_error *err);
 /* Call after a pose that began at t: its start is there, also if it was found in parts. */
 sw_status sw_contact_began(sw_contact *contact, double t, sw_error *err);
 /* Poses of obstacle id (of its owner) at the step's start and as last placed; 0: there is none. */

@@ -65,6 +65,9 @@ sw_status sw_rest_solve(sw_statics *p, double hbar, const sw_newton *newton, sw_
   sw_status status = SW_OK;
   const double h = isfinite(hbar) ? hbar : 0.0;
   status = sw_scene_begin_contact(s, SW_CONTACT_STATIC, p->touched, h, sw_rest_first_step(s), err);
+  sw_contact *contact = sw_scene_contact(s);
+  if (status == SW_OK && contact)
+    status = sw_contact_carry(contact, system, stage.time, p->from, err);
   for (int redo = 0; status == SW_OK; redo++) {
     status = sw_system_stage(system, &stage, newton, &r, err);
     p->report->iterations += (size_t)r.iterations;

@@ -16,7 +16,7 @@ int sw_jaws_let_go(const sw_scene *s) {
   const sw_contact *c = sw_scene_contact(s);
   for (size_t k = 0; c && k < sw_scene_tool_slots(s); k++) {
     const sw_tool *t = sw_scene_tool_in(s, k);
-    if (t->jaw.mode != SW_JAW_FORCE || t->jaw.status != SW_JAW_HOLDS) continue;
+    if (t->frozen || t->jaw.mode != SW_JAW_FORCE || t->jaw.status != SW_JAW_HOLDS) continue;
     if (t->pads && !presses(c, t)) return 1;
   }
   return 0;
