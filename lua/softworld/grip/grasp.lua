@@ -295,7 +295,10 @@ function grasp.release(self, args)
     end
     return self
   end
-  if self.frozen then mixed.thaw(self) end
+  if self.frozen then
+    mixed.thaw(self)
+    if build.data(self.scene).slow then mixed.finish(self) end -- a loose mesh may search for rest for minutes
+  end
   self.held = false
   self:open_jaws{ speed = args.speed, distance = args.distance }
   if not self.wire then return self end -- another process let go meanwhile

@@ -134,13 +134,13 @@ local function drive_shown(scene, args, total, level, hindrance)
   if bar.passing then bar:update(0, total.steps) end -- its first steps may take long
   local data = build.data(scene)
   local fine, reason, cut
-  data.running = true
+  data.running, data.slow = true, args.quasistatic
   if hindrance then
     fine, reason, total.ok = true, ("at t = %.6g s: %s"):format(scene.time, hindrance), false
   else -- protected: a coroutine that dies by an error leaves its variables unclosed
     fine, reason, cut = pcall(drive, scene, args, total, bar)
   end
-  data.running, data.saving = nil, nil
+  data.running, data.slow, data.saving = nil, nil, nil
   if fine and total.ok then bar:finish() elseif fine then bar:fail(reason) end
   observe.finish(scene, fine and total.ok, reason)
   if fine and total.ok and args.frames ~= false then close_frames(scene) end
