@@ -49,7 +49,7 @@ local kinds = {
     named = true, places = true, always = true },
   unbalanced = { "forces after a change of model may be too large", own = true, always = true },
   grasp = { "a gripper held another wire than the one to grasp", places = true, always = true },
-  late = { "a process went on with more than the force that it waited for: peaks depend on dt" },
+  late = { "a process went on after the force or touch that it waited for: peaks depend on dt" },
   held = { "a feed without its force at rest was let go", always = true },
   hand = { "something was moved by hand: this is not the script's process", all = true, always = true },
 }
