@@ -13,6 +13,7 @@ local doubted = {}
 --   named: the event names the wires in its text
 --   all: every row is in doubt
 --   always: an error bar says nothing of it. Other doubts end with a bar, which comes from other steps
+--   members: only rows of these names are in doubt
 --   only, unless: pattern of the event's text that such an event has, or has not
 local kinds = {
   coarse = { "a step was too long for peaks" },
@@ -44,6 +45,8 @@ local kinds = {
     named = true, places = true, always = true },
   together = { "friction brakes wires that go round each other: tensions and moments may be wrong",
     own = true, named = true, always = true },
+  untwisted = { "pads do not twist a rod: its torsion and moments about its axis are missing", own = true,
+    named = true, always = true, members = checks.set "max_torsion peak_moment peak_margin" },
   undamped = { "damping of solid elements is missing", own = true, always = true },
   pierced = { "something is inside an element of an object, whose faces do not touch", own = true,
     named = true, places = true, always = true },
@@ -77,6 +80,7 @@ local mean = checks.set "mean_force fatigue"
 
 -- True if the event doubts the row of this object.
 local function concerns(kind, e, member, entry)
+  if kind.members and member ~= doubted.OWN and not kind.members[member.name] then return false end
   if kind.only and not e.text:find(kind.only) then return false end
   if kind.unless and e.text:find(kind.unless) then return false end
   local held = member.on == "gripper" or member.on == "tie" or member == doubted.OWN
