@@ -44,6 +44,28 @@ local function told_of(run)
   return told
 end
 
+-- Pads lift a cable that is curved at rest by its middle off a table. Returns the run and the end's height
+-- above the middle [m].
+local function lifted(o)
+  local scene = sw.scene{ name = "spooled" }
+  local path, R = {}, 0.15
+  for k = 0, 40 do
+    local a = (k / 40 - 0.5) * 0.3 / R
+    path[k + 1] = { R * math.sin(a), R * (1 - math.cos(a)), 0.1 }
+  end
+  local wire = scene:wire{ name = "wire", cable = "FLRY-B 2.5", path = path, rest = "path", segments = 40,
+    rolls = o.rolls }
+  scene:force{ kind = "damping", on = wire, mass = 8, stiffness = 0.001 }
+  scene:obstacle{ name = "table", shape = "plane", at = { 0, 0, 0.1 - wire.radius }, friction = 0.3 }
+  local hand = scene:gripper{ name = "hand", pads = { width = 0.02, friction = MU } }
+  scene:process(function(p)
+    hand:grasp(wire, { s = 0.15, approach = o.approach, force = o.approach == "plates" and FORCE or nil })
+    hand:move{ by = { 0, 0, 0.2 }, duration = 1 }
+    p:wait(0.7)
+  end)
+  return t.fine(scene:run{ dt = 0.01 }), wire:position(0).z - wire:position(0.15).z
+end
+
 local function about(axis, angle)
   return { turn = { axis = axis, angle = angle }, duration = 0.5 }
 end
@@ -73,6 +95,23 @@ describe("pads that turn about the axis of a rod", function()
     run, two, wire = moved{ rolls = true, force = 2, move = about({ 1, 0, 0 }, 3) }
     assert.equal(0, #told_of(run))
     t.near(2 * MU * 2 * wire.radius, two:moment().x, 1e-3 * two:moment().x, "moment of slipping")
+  end)
+
+  it("let a rod roll that is curved at rest, which is told", function()
+    local run, sag = lifted{ approach = "imposed" }
+    assert.equal(0, #told_of(run))
+    t.near(-0.0086, sag, 2e-4, "sag in an imposed grip")
+    run, sag = lifted{ approach = "plates", rolls = true }
+    assert.equal(0, #told_of(run))
+    t.near(-0.0086, sag, 2e-4, "sag of a rod that rolls")
+    run, sag = lifted{ approach = "plates" }
+    t.near(-0.072, sag, 2e-3, "sag of a rod that does not")
+    assert.equal(1, #told_of(run))
+    assert.matches("^wire 'wire' has rolled in the pads of 'hand' by [%d.]+ degrees", told_of(run)[1].text)
+    local check = run:check{ checks = { { name = "sag", unit = "m", max = 0.1,
+      of = function() return -sag end } } }
+    assert.equal("OPEN", check:row "sag".verdict)
+    assert.equal("OPEN", check:row "wire.min_bend_radius".verdict)
   end)
 
   it("say nothing if nothing resists, or if both turn together", function()

@@ -47,6 +47,8 @@ local kinds = {
     own = true, named = true, always = true },
   untwisted = { "pads do not twist a rod: its torsion and moments about its axis are missing", own = true,
     named = true, always = true, members = checks.set "max_torsion peak_moment peak_margin" },
+  ["untwisted rolled"] = { "a wire has rolled in pads, which friction would keep from it", own = true,
+    named = true, places = true, always = true, only = "has rolled in the pads" },
   undamped = { "damping of solid elements is missing", own = true, always = true },
   pierced = { "something is inside an element of an object, whose faces do not touch", own = true,
     named = true, places = true, always = true },
@@ -63,9 +65,11 @@ local UNKNOWN = "come from nowhere" -- in events `energy` about a gap that no st
 -- range any more (spec/check/doubted_spec).
 local MUCH = 0.1
 
-local second = { energy = kinds["energy at once"], pressed = kinds["pressed in each other"] }
+local second = { energy = kinds["energy at once"], pressed = kinds["pressed in each other"],
+  untwisted = kinds["untwisted rolled"] }
 
--- Returns what is wrong after an event. Events `energy` have three meanings, `pressed` two.
+-- Returns what is wrong after an event. Events `energy` have three meanings, `pressed` and
+-- `untwisted` two.
 local function kind_of(e)
   local other = second[e.kind]
   if other and e.text:find(other.only) then return other end

@@ -1,8 +1,9 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Pads that turn about the axis of a rod which does not roll. Their friction acts at the rod's axis and does
--- not twist it: its torsion, and their moment about its axis, stay 0. An event tells it where another hold
--- keeps the rod from turning. The turn between both is measured by vectors that go with them: one of them is
--- carried along the rod without twist and compared with the other.
+--- Pads on a rod that does not roll. Their friction acts at the rod's axis and neither twists it nor keeps it
+-- from turning: its torsion, and their moment about its axis, stay 0. An event tells it where pads turn about
+-- the axis against another hold. The turn between both is measured by vectors that go with them: one of them
+-- is carried along the rod without twist and compared with the other. A rod with material frames, such as one
+-- that is curved at rest, rolls in the pads by itself; the turn is that of its material against the pads.
 -- @module softworld.grip.untwisted
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
@@ -91,11 +92,29 @@ local function turn_of(self, wire, s, hold, seen)
   return math.atan(vec.dot(vec.cross(u, v), last), vec.dot(u, v))
 end
 
+local WAY = "Give the wire rolls = true, or grasp it imposed"
+
 local function tell(self, wire, hold)
   self.scene:tell{ kind = "untwisted", object = self.name, s = hold.s, text = ("the pads of '%s' and '%s' "
     .. "turn against each other about the axis of wire '%s'. Pads do not twist a rod: its torsion and their "
-    .. "moment about this axis are missing. Give the wire rolls = true, or grasp it imposed or mixed"):format(
-    self.name, hold.object.name, wire.name) }
+    .. "moment about this axis are missing. %s or mixed"):format(self.name, hold.object.name, wire.name,
+    WAY) }
+end
+
+-- Looks at a wire with material frames.
+local function look_at_frames(self, wire, s, across, seen)
+  local _, q = self.tool:pose()
+  local t = wire:tangent(s)
+  local ours = vec.across(vec.rotate(q, { 0, 1, 0 }), t)
+  local angle = math.atan(vec.dot(vec.cross(ours, across), t), vec.dot(ours, across))
+  seen.angle = seen.angle or angle
+  local turn = math.abs(angle - seen.angle)
+  turn = math.min(turn, 2 * math.pi - turn)
+  if turn <= TOLD then return end
+  seen.told = true
+  self.scene:tell{ kind = "untwisted", object = self.name, s = s, value = turn, text = ("wire '%s' has "
+    .. "rolled in the pads of '%s' by %.3g degrees: they do not keep a rod from turning about its axis, as "
+    .. "friction would. Places and bends are wrong. %s"):format(wire.name, self.name, math.deg(turn), WAY) }
 end
 
 -- Begins to measure, or does not where the pads twist the wire.
@@ -112,6 +131,8 @@ function untwisted.look(self)
   if not seen or seen.grips ~= self.grips or self.scene.time < seen.time then seen = begin(self) end
   if seen.told or self.frozen then return end
   local s = stand.nearest_place(wire, (self.tool:pose()))
+  local across = core.across(wire, s)
+  if across then return look_at_frames(self, wire, s, across, seen) end
   for side, hold in pairs(neighbours(self, wire, s)) do
     local last = seen[side]
     if not last or last.object ~= hold.object then last = { object = hold.object } end
