@@ -117,6 +117,14 @@ local function look_at_frames(self, wire, s, across, seen)
     .. "friction would. Places and bends are wrong. %s"):format(wire.name, self.name, math.deg(turn), WAY) }
 end
 
+-- True if two orientations are the same.
+local function rests(p, q)
+  for k = 1, 4 do
+    if math.abs(p[k] - q[k]) > 1e-9 then return false end
+  end
+  return true
+end
+
 -- Begins to measure, or does not where the pads twist the wire.
 local function begin(self)
   local measures = self.wire and is_plain(self.wire)
@@ -137,7 +145,9 @@ function untwisted.look(self)
     local last = seen[side]
     if not last or last.object ~= hold.object then last = { object = hold.object } end
     seen[side] = last
-    if math.abs(turn_of(self, wire, s, hold, last)) > TOLD then
+    local whole = seen.whole and last.q and rests(last.q, hold.q)
+    last.q = hold.q
+    if math.abs(turn_of(self, wire, s, hold, last)) > TOLD or whole and not stand.is_moving(self) then
       local other = records[hold.object]
       seen.told = true
       if not (other and other.grips == hold.object.grips and other.told) then tell(self, wire, hold) end
@@ -146,13 +156,12 @@ function untwisted.look(self)
   end
 end
 
---- True while a turn may be missed between two looks far apart.
-function untwisted.moves(scene)
-  for _, g in ipairs(build.data(scene).grippers) do
-    local seen = g.tool and g.held and records[g]
-    if seen and not seen.told and not g.frozen and stand.is_moving(g) then return true end
-  end
-  return false
+--- Notes that a move begins which turns the gripper. Looks may be too far apart to see a whole turn.
+function untwisted.turns(self, turn)
+  local seen, wire = records[self], self.wire
+  if not seen or seen.told or not wire then return end
+  local along = vec.dot(vec.unit(turn.axis), wire:tangent(stand.nearest_place(wire, (self.tool:pose()))))
+  seen.whole = math.abs(turn.angle * along) > math.pi
 end
 
 return untwisted

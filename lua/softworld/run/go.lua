@@ -18,13 +18,11 @@ local save = require "softworld.scene.save"
 local settings = require "softworld.run.settings"
 local tables = require "softworld.rows"
 local told = require "softworld.run.told"
-local untwisted = require "softworld.grip.untwisted"
 local waiting = require "softworld.run.waiting"
 local working = require "softworld.run.working"
 
 local go = {}
 local chunk = 64 -- steps between two looks at progress; fixed, so that results never depend on it
-local few = 4 -- while pads turn [-]
 local default_frame = 1 / 30 -- [s]
 
 --- Fields of `frames`.
@@ -83,7 +81,7 @@ local function drive(scene, args, total, bar)
       -- a process waits for a condition without an end: step by step
       target = scene.time + (args.dt or 0.01)
     end
-    options.max_steps = math.min(left, watching and 1 or untwisted.moves(scene) and few or chunk)
+    options.max_steps = math.min(left, watching and 1 or chunk)
     local part = build.call(6, advance, scene, options, target, observe.arguments(scene))
     merge(total, part)
     left = left - part.steps
