@@ -156,6 +156,16 @@ static int mod_chord(lua_State *L) {
   return lsw_push_vector(L, p.chord), 1;
 }
 
+/* core.across(wire, s) -> a direction across the wire that goes with its material; nil without
+ * material frames */
+static int mod_across(lua_State *L) {
+  sw_point_state p;
+  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
+  const double s = lsw_number(L, 2, "across: s", "m");
+  LSW_DO(L, sw_scene_wire_at, w.scene, w.id, s, &p);
+  return sw_norm2(p.across) > 0 ? lsw_push_vector(L, p.across) : lua_pushnil(L), 1;
+}
+
 /* core.came_from(wire, before = flat positions [m], span [s]): sets the velocity with which the
  * wire came from these positions in the time span. */
 static int mod_came_from(lua_State *L) {
@@ -337,5 +347,6 @@ const luaL_Reg lsw_module_scene[] = {{"whole_snapshot", mod_whole_snapshot},
                                      {"redraw", mod_redraw},
                                      {"came_from", mod_came_from},
                                      {"chord", mod_chord},
+                                     {"across", mod_across},
                                      {"segments", mod_segments},
                                      {NULL, NULL}};

@@ -144,7 +144,10 @@ void sw_line_at(const sw_scene *s, const sw_scene_wire *w, const sw_body *b, dou
   out->elastic = sw_line_between_middles(b->plan, system->tension + b->first_edge, at);
   out->tension = sw_line_between_middles(b->plan, sw_system_pull(system, b), at);
   out->spin = spin_at(system, b, at);
+  out->across = sw_v(0, 0, 0);
   if (b->spin_block) {
+    const double *const *n = b->field.normals;
+    out->across = sw_v(n[0][e], n[1][e], n[2][e]);
     k0 = node_flexure(system, b, e, e);
     k1 = node_flexure(system, b, e + 1, e);
   }

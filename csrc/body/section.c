@@ -121,6 +121,7 @@ void sw_strand_at(const sw_scene *s, const sw_scene_wire *wire, const sw_body *b
   const sw_slice at =
       slice_at(b->plan, x, sw_system_elastic(system, b), sw_system_pull(system, b), r, f);
   const double EA = wire->beam.EA, bent = fmax(0.0, at.curvature) * wire->beam.radius;
+  out->across = sw_v(0, 0, 0);
   out->chord = sw_lerp(x0, x1, f);
   out->position = sw_add(sw_add(sw_scale(x0, h00), sw_scale(t0, l * h10)),
                          sw_add(sw_scale(x1, h01), sw_scale(t1, l * h11)));

@@ -13,6 +13,7 @@ typedef struct sw_point_state {
   double tension, elastic;     /* axial force; the same without dashpots [N] */
   double twist_moment;         /* [N m] */
   double spin;                 /* about the tangent, of a wire that rolls [rad/s] */
+  sw_vec across;               /* first material axis of the edge; 0 without frames [-] */
   double strain, least_strain; /* of the outermost fibres outside and inside the bend [-] */
 } sw_point_state;
 

@@ -13,6 +13,7 @@ local doubted = {}
 --   named: the event names the wires in its text
 --   all: every row is in doubt
 --   always: an error bar says nothing of it. Other doubts end with a bar, which comes from other steps
+--   members: only rows of these names are in doubt
 --   only, unless: pattern of the event's text that such an event has, or has not
 local kinds = {
   coarse = { "a step was too long for peaks" },
@@ -44,12 +45,16 @@ local kinds = {
     named = true, places = true, always = true },
   together = { "friction brakes wires that go round each other: tensions and moments may be wrong",
     own = true, named = true, always = true },
+  untwisted = { "pads do not twist a rod: its torsion and moments about its axis are missing", own = true,
+    named = true, always = true, members = checks.set "max_torsion peak_moment peak_margin" },
+  ["untwisted rolled"] = { "a wire has rolled in pads, which friction would keep from it", own = true,
+    named = true, places = true, always = true, only = "has rolled in the pads" },
   undamped = { "damping of solid elements is missing", own = true, always = true },
   pierced = { "something is inside an element of an object, whose faces do not touch", own = true,
     named = true, places = true, always = true },
   unbalanced = { "forces after a change of model may be too large", own = true, always = true },
   grasp = { "a gripper held another wire than the one to grasp", places = true, always = true },
-  late = { "a process went on with more than the force that it waited for: peaks depend on dt" },
+  late = { "a process went on after the force or touch that it waited for: peaks depend on dt" },
   held = { "a feed without its force at rest was let go", always = true },
   hand = { "something was moved by hand: this is not the script's process", all = true, always = true },
 }
@@ -60,9 +65,11 @@ local UNKNOWN = "come from nowhere" -- in events `energy` about a gap that no st
 -- range any more (spec/check/doubted_spec).
 local MUCH = 0.1
 
-local second = { energy = kinds["energy at once"], pressed = kinds["pressed in each other"] }
+local second = { energy = kinds["energy at once"], pressed = kinds["pressed in each other"],
+  untwisted = kinds["untwisted rolled"] }
 
--- Returns what is wrong after an event. Events `energy` have three meanings, `pressed` two.
+-- Returns what is wrong after an event. Events `energy` have three meanings, `pressed` and
+-- `untwisted` two.
 local function kind_of(e)
   local other = second[e.kind]
   if other and e.text:find(other.only) then return other end
@@ -77,6 +84,7 @@ local mean = checks.set "mean_force fatigue"
 
 -- True if the event doubts the row of this object.
 local function concerns(kind, e, member, entry)
+  if kind.members and member ~= doubted.OWN and not kind.members[member.name] then return false end
   if kind.only and not e.text:find(kind.only) then return false end
   if kind.unless and e.text:find(kind.unless) then return false end
   local held = member.on == "gripper" or member.on == "tie" or member == doubted.OWN

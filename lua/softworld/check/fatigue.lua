@@ -186,6 +186,18 @@ local function add_spread(best, entry, curves, given, strength)
     best.high)
 end
 
+local TWISTED = 1e-3 -- shear of the outermost fibres from which torsion counts, if it is also [-]
+local OVER_BEND = 0.5 -- this share of the largest range of bending [-]
+
+-- Marks the sum as a lower bound where torsion, which is not counted, is not small beside bending.
+local function add_torsion(best, entry)
+  local wire = entry.object
+  if not (wire.beam.GJ and wire.beam.GJ > 0) then return end
+  local torsion = wire:max_torsion()
+  if torsion * wire.radius <= TWISTED or torsion <= OVER_BEND * (best.bend or 0) then return end
+  worn.at_least(best, ("torsion of up to %.3g rad/m is not counted"):format(torsion))
+end
+
 local NONE = "its S-N curve is missing: the wire's strands are not known; give fatigue = { curve = { { range "
   .. "[N], cycles } } } or { bending = { { range [1/m], cycles } } }"
 
@@ -199,6 +211,7 @@ local function value(entry, context)
   end
   local best = at_curves(entry, context, with(curves, given), strength)
   add_spread(best, entry, curves, given, strength)
+  add_torsion(best, entry)
   local known = curves.flag and ", " .. curves.flag or curves.source and "" or ", its source is not given"
   local from = ("S-N curve: %s%s"):format(source, known)
   best.note = best.note and best.note .. "; " .. from or from

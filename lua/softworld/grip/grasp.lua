@@ -15,6 +15,7 @@ local remarks = require "softworld.remarks"
 local room = require "softworld.grip.room"
 local rows = require "softworld.rows"
 local stand = require "softworld.grip.stand"
+local untwisted = require "softworld.grip.untwisted"
 local vec = require "softworld.vec"
 
 local grasp = { methods = jaws.methods }
@@ -261,6 +262,7 @@ function Methods:grasp(wire, args)
   self.held = true
   self.unchecked = not p or nil
   reactions.watch(self)
+  untwisted.look(self)
   if approach == "mixed" and args.freeze ~= false then mixed.settle(self, args) end
   return self
 end

@@ -34,6 +34,7 @@ local remarks = require "softworld.remarks"
 local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
 local target = require "softworld.grip.target"
+local untwisted = require "softworld.grip.untwisted"
 local vec = require "softworld.vec"
 local vector = require "softworld.vector"
 
@@ -171,6 +172,7 @@ function Gripper:move(args)
   if args.on_slip ~= nil then reactions.set_on_slip(self, args.on_slip, 3) end
   local duration = build.call(3, held.follow, held, motion)
   replaced.tell(self.scene, self.name, ("gripper '%s'"):format(self.name), "move", self.busy_until)
+  if args.turn then untwisted.turns(self, args.turn) end
   self.busy_until = self.scene.time + duration
   if p then process.sleep_until(p, self.scene.time + duration) end
   return self

@@ -67,10 +67,24 @@ local function whereabouts(self, wire)
   return (": wire '%s' is %s from the tool centre%s"):format(wire.name, number.text(d, "m"), away)
 end
 
+-- True if the wire's axis lies above or below the fingers, which then touch it with their rims only.
+local function is_beside(self, wire)
+  if not (wire and self.span) then return false end
+  local at, q = self.tool:pose()
+  local s = stand.nearest_place(wire, at)
+  local z = vec.dot(vec.sub(wire:position(s), at), vec.rotate(q, { 0, 0, 1 }))
+  return z < self.span[1] or z > self.span[2]
+end
+
 -- Stops the jaws and raises an error with the reason why they failed.
 local function give_up(self, order, wire, state, crushed, longest)
   self.tool:jaws{ mode = "still" }
   local force = order.mode == "force" and ("%g N"):format(order.force) or "the force"
+  if crushed and is_beside(self, wire) then
+    note(self, "missed", {})
+    error(("gripper '%s' closed beside the wire: its pads touch it with their rims at %.4g N per finger; "
+      .. "%s is not reached%s"):format(self.name, state.squeeze, force, whereabouts(self, wire)), 0)
+  end
   if crushed then
     note(self, "crushed", { opening = state.opening, squeeze = state.squeeze })
     error(("gripper '%s' crushes the wire: %.3g mm of its %.3g mm are left between the pads, at %.4g N per "

@@ -140,8 +140,8 @@ local function add_finger(scene, tool, name, p, given, finger, at, q, opening, o
   end
 end
 
---- Makes a gripper's tool and fingers in the scene, open, at a pose. Returns the tool and its
--- obstacles.
+--- Makes a gripper's tool and fingers in the scene, open, at a pose. Returns the tool, its obstacles, the
+-- opening, and from where to where along the tool's z its fingers reach (nil: they are a mesh) [m].
 function pads.make(scene, gripper, at, rotation, radius)
   local name, p = gripper.name, gripper.pads
   if (p.shape == "flat" or p.shape == "v") and p.width <= 0 then
@@ -162,7 +162,8 @@ function pads.make(scene, gripper, at, rotation, radius)
   if gripper.arm then
     obstacles[#obstacles + 1] = add_arm(scene, tool, name, gripper.arm, at, q, height - given.below)
   end
-  return tool, obstacles, opening
+  local span = p.shape ~= "mesh" and { -given.below, height - given.below } or nil
+  return tool, obstacles, opening, span
 end
 
 return pads

@@ -8,6 +8,7 @@ local mixed = require "softworld.grip.mixed"
 local sealed = require "softworld.sealed"
 local stand = require "softworld.grip.stand"
 local unread = require "softworld.unread"
+local untwisted = require "softworld.grip.untwisted"
 local vec = require "softworld.vec"
 
 local reactions = {}
@@ -163,6 +164,7 @@ local function look_at(self)
     why = look_at_list(self) or why
   end
   if self.frozen and now.lost_time then mixed.lose(self, now) end
+  if self.held then untwisted.look(self) end
   return why
 end
 

@@ -56,8 +56,8 @@ function stand.make_tool(self, level, wire, s)
   local at = s and wire:position(s) or self.at or { 0, 0, 0 }
   local rotation = self.rotation or (s and facing(self.scene, wire, s)) or nil
   build.call(level, function()
-    self.tool, self.obstacles, self.opening = remarks.without(pads.make, self.scene, self, at, rotation,
-      wire and wire.radius)
+    self.tool, self.obstacles, self.opening, self.span = remarks.without(pads.make, self.scene, self, at,
+      rotation, wire and wire.radius)
   end)
 end
 

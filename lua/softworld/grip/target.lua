@@ -73,12 +73,24 @@ local function table_of(args, here, facing)
   return t
 end
 
+-- Returns the words for a move by or to that goes nowhere: the script has no way-points.
+local function nowhere(args)
+  local key = args.to and "to" or "by"
+  local what = key == "to" and "is the place where it is" or "moves nowhere"
+  local x, y, z = table.unpack(args[key])
+  return ("gripper:move: %s = (%g, %g, %g) m %s; leave the move out, or let it stay with gripper:wait")
+    :format(key, x, y, z, what)
+end
+
 --- Returns the trajectory of a move from a pose; errors name the move.
 function target.motion(args, here, facing)
   check(args)
   local fine, result = pcall(core.trajectory, table_of(args, here, facing))
   if fine then return result end
   if type(result) ~= "string" then error(result, 0) end
+  if (args.to or args.by) and result:find("repeats the one before it", 1, true) then
+    error(nowhere(args), 0)
+  end
   error((build.plain(result):gsub("^trajectory: ", "gripper:move: ", 1)), 0)
 end
 

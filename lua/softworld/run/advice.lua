@@ -59,10 +59,23 @@ local function crash_of(events)
     first.into, first.first)
 end
 
+-- Returns a phrase for a wire that two obstacles squeeze, or nil.
+local function squeeze_of(events, wire)
+  for _, e in ipairs(events) do
+    local one, two, between = e.text:match "^obstacles '(.-)' and '(.-)' squeeze wire '(.-)' by "
+    if e.kind == "crash" and between == wire then
+      return ("other paths: '%s' and '%s' squeeze '%s' from t = %.3f s on, and its section does not yield; "
+        .. "or pads, or a mesh as the wire's model"):format(one, two, wire, e.first)
+    end
+  end
+end
+
 -- Returns a phrase for a wire that its own path presses against an obstacle, or nil.
 local function path_of(reason, scene)
   local name, wire = reason:match "; obstacle '(.-)' presses '(.-)' with "
   if not name then return crash_of(scene:events()) end
+  local squeeze = squeeze_of(scene:events(), wire)
+  if squeeze then return squeeze end
   local by, since = driven_into(scene:events(), name, wire)
   if by then
     return ("another path: that of '%s' leads into '%s' from t = %.3f s on"):format(by, name, since)

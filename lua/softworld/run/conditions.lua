@@ -4,12 +4,11 @@
 local core = require "softworld.core"
 local checks = require "softworld.checks"
 local feeling = require "softworld.run.feeling"
+local touching = require "softworld.run.touching"
 local vec = require "softworld.vec"
 
 local conditions = {}
 local kinds = {}
-
-local TOUCH = 1e-12 -- smaller forces are the rounding that a touch leaves [N]
 
 local function number(what, value, unit, level)
   return checks.number("p:wait_until: " .. what, value, 0, unit, level)
@@ -45,7 +44,8 @@ function kinds.force(t, level)
   check_scene(t.on, "what force is on", level + 1)
   local felt, last = feeling.of(t.on, conditions.scene)
   return function() return felt() >= least end,
-    least > 0 and function() return holds_nothing(t.on) end or nil, { force = least, on = t.on, last = last }
+    least > 0 and function() return holds_nothing(t.on) end or nil,
+    function(p) feeling.tell(p, { force = least, on = t.on, last = last }) end
 end
 
 -- The wire has slid a distance through a gripper's pads.
@@ -65,13 +65,8 @@ function kinds.contact(t, level)
       level)
   end
   check_scene(t.contact, "the obstacle", level + 1)
-  local scene, last = conditions.scene, nil
-  return function()
-    local most, now = vec.norm(t.contact:force()), scene.time -- of the last part of a step that was divided
-    if last and now > last then most = math.max(most, t.contact:over(last, now).raw_peak_force) end
-    last = now
-    return most > TOUCH
-  end
+  local touches, seen = touching.of(t.contact, conditions.scene)
+  return touches, nil, function(p) touching.tell(p, seen) end
 end
 
 -- Returns a function that gives a place: a point, a gripper, an obstacle, { wire, s = }; and true if it is
@@ -116,7 +111,8 @@ local known = { on = true, between = true }
 for kind in pairs(kinds) do known[kind] = true end
 
 --- Returns the function for a condition given as a table, a function (or nil) that says why it cannot come
--- true as long as nobody acts, and for a force what feeling.tell needs.
+-- true as long as nobody acts, and for a force or a contact a function that tells what happened in the last
+-- step, when process p goes on.
 function conditions.of(t, level, scene)
   conditions.scene = scene
   checks.keys("p:wait_until", t, known, level + 1)
@@ -128,8 +124,8 @@ function conditions.of(t, level, scene)
     end
   end
   if not found then error("p:wait_until: no condition; give force, slip, contact or distance", level) end
-  local holds, impossible, wanted = kinds[found](t, level + 1)
-  return holds, impossible, wanted -- no tail call, it would hide a level
+  local holds, impossible, tell = kinds[found](t, level + 1)
+  return holds, impossible, tell -- no tail call, it would hide a level
 end
 
 return conditions

@@ -19,7 +19,6 @@ local blame = require "softworld.scene.blame"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local conditions = require "softworld.run.conditions"
-local feeling = require "softworld.run.feeling"
 local remarks = require "softworld.remarks"
 local sealed = require "softworld.sealed"
 local stages = require "softworld.run.stages"
@@ -186,10 +185,10 @@ end
 -- { contact = obstacle }, { distance = [m], between = { a, b } }. Returns true, or false
 -- if timeout [s] passed first.
 function Process:wait_until(condition, options)
-  local impossible, wanted
+  local impossible, tell
   local told, asked, again = type(condition) == "table", false, false
   if told then
-    condition, impossible, wanted = conditions.of(condition, 3, self.scene)
+    condition, impossible, tell = conditions.of(condition, 3, self.scene)
     condition = build.placed(condition)
   end
   if type(condition) ~= "function" then
@@ -211,7 +210,7 @@ function Process:wait_until(condition, options)
     coroutine.yield()
   end
   waiting.ended(self)
-  if wanted then feeling.tell(self, wanted) end
+  if tell then tell(self) end
   return true
 end
 

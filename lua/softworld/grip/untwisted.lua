@@ -1,0 +1,167 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Pads on a rod that does not roll. Their friction acts at the rod's axis and neither twists it nor keeps it
+-- from turning: its torsion, and their moment about its axis, stay 0. An event tells it where pads turn about
+-- the axis against another hold. The turn between both is measured by vectors that go with them: one of them
+-- is carried along the rod without twist and compared with the other. A rod with material frames, such as one
+-- that is curved at rest, rolls in the pads by itself; the turn is that of its material against the pads.
+-- @module softworld.grip.untwisted
+local build = require "softworld.scene.build"
+local checks = require "softworld.checks"
+local core = require "softworld.core"
+local stand = require "softworld.grip.stand"
+local vec = require "softworld.vec"
+
+local untwisted = {}
+
+local TOLD = 0.2 -- smaller turns are left out [rad]
+local keeps = checks.set "clamp grip feed" -- holds that keep a wire from turning
+local records = setmetatable({}, { __mode = "k" }) -- by gripper: what was seen since its grasp
+
+local function is_plain(wire)
+  return wire.model == "rod" and wire.beam.GJ > 0 and not wire:get().spin_inertia
+end
+
+-- Adds what holds the wire, with its place and orientation, to the list.
+local function add(list, wire, object, at, q)
+  local s, distance = stand.nearest_place(wire, at)
+  if distance <= 2 * wire.radius then list[#list + 1] = { object = object, s = s, q = q } end
+end
+
+-- Returns the nearest holds before and after s that keep the wire from turning.
+local function neighbours(self, wire, s)
+  local list, data = {}, build.data(self.scene)
+  for _, g in ipairs(data.grippers) do
+    if g ~= self and g.tool and g.held and not g.left then add(list, wire, g, g.tool:pose()) end
+  end
+  for _, h in ipairs(data.holds) do
+    if keeps[h.kind] and core.exists(h.object) and h.object.held then
+      add(list, wire, h.object, h.object:pose())
+    end
+  end
+  local before, after
+  for _, h in ipairs(list) do
+    if h.s < s and not (before and before.s > h.s) then before = h end
+    if h.s > s and not (after and after.s < h.s) then after = h end
+  end
+  return { before, after }
+end
+
+-- Returns the unit tangents of the wire's edges from s1 to s2, in this order.
+local function tangents(wire, s1, s2)
+  local x, s = wire:positions()
+  local list, back = {}, s1 > s2
+  for i = 1, #s - 1 do
+    if s[i + 1] > math.min(s1, s2) and s[i] < math.max(s1, s2) then
+      local k = 3 * i
+      list[#list + 1] = vec.unit{ x[k + 1] - x[k - 2], x[k + 2] - x[k - 1], x[k + 3] - x[k] }
+    end
+  end
+  if back then
+    for i = 1, #list // 2 do list[i], list[#list + 1 - i] = list[#list + 1 - i], list[i] end
+  end
+  return list
+end
+
+-- Carries u, across the first tangent, along the tangents without twist.
+local function carried(u, along)
+  u = vec.across(u, along[1])
+  for i = 2, #along do
+    local a, b = along[i - 1], along[i]
+    u = vec.add(u, vec.add(a, b), -vec.dot(u, b) / math.max(1e-9, 1 + vec.dot(a, b)))
+  end
+  return u
+end
+
+-- Returns the turn of a hold against the pads since the first look [rad]. seen: what that look found.
+local function turn_of(self, wire, s, hold, seen)
+  local along = tangents(wire, s, hold.s)
+  if #along == 0 then return 0 end
+  local _, q = self.tool:pose()
+  local last = along[#along]
+  if not seen.ours then
+    local across = vec.unit(vec.across({ 0, 0, 1 }, along[1]))
+    if not across or vec.norm(vec.across({ 0, 0, 1 }, along[1])) < 0.3 then
+      across = vec.unit(vec.across({ 1, 0, 0 }, along[1]))
+    end
+    seen.ours = vec.rotate(vec.conjugate(q), across)
+    seen.theirs = vec.rotate(vec.conjugate(hold.q), carried(across, along))
+    return 0
+  end
+  local u = carried(vec.rotate(q, seen.ours), along)
+  local v = vec.across(vec.rotate(hold.q, seen.theirs), last)
+  return math.atan(vec.dot(vec.cross(u, v), last), vec.dot(u, v))
+end
+
+local WAY = "Give the wire rolls = true, or grasp it imposed"
+
+local function tell(self, wire, hold)
+  self.scene:tell{ kind = "untwisted", object = self.name, s = hold.s, text = ("the pads of '%s' and '%s' "
+    .. "turn against each other about the axis of wire '%s'. Pads do not twist a rod: its torsion and their "
+    .. "moment about this axis are missing. %s or mixed"):format(self.name, hold.object.name, wire.name,
+    WAY) }
+end
+
+-- Looks at a wire with material frames.
+local function look_at_frames(self, wire, s, across, seen)
+  local _, q = self.tool:pose()
+  local t = wire:tangent(s)
+  local ours = vec.across(vec.rotate(q, { 0, 1, 0 }), t)
+  local angle = math.atan(vec.dot(vec.cross(ours, across), t), vec.dot(ours, across))
+  seen.angle = seen.angle or angle
+  local turn = math.abs(angle - seen.angle)
+  turn = math.min(turn, 2 * math.pi - turn)
+  if turn <= TOLD then return end
+  seen.told = true
+  self.scene:tell{ kind = "untwisted", object = self.name, s = s, value = turn, text = ("wire '%s' has "
+    .. "rolled in the pads of '%s' by %.3g degrees: they do not keep a rod from turning about its axis, as "
+    .. "friction would. Places and bends are wrong. %s"):format(wire.name, self.name, math.deg(turn), WAY) }
+end
+
+-- True if two orientations are the same.
+local function rests(p, q)
+  for k = 1, 4 do
+    if math.abs(p[k] - q[k]) > 1e-9 then return false end
+  end
+  return true
+end
+
+-- Begins to measure, or does not where the pads twist the wire.
+local function begin(self)
+  local measures = self.wire and is_plain(self.wire)
+  records[self] = { grips = self.grips, time = self.scene.time, told = not measures }
+  return records[self]
+end
+
+--- Looks at the turns of a gripper whose pads hold a wire. They count from the first look since the grasp;
+-- after a resume from a file, from there.
+function untwisted.look(self)
+  local seen, wire = records[self], self.wire
+  if not seen or seen.grips ~= self.grips or self.scene.time < seen.time then seen = begin(self) end
+  if seen.told or self.frozen then return end
+  local s = stand.nearest_place(wire, (self.tool:pose()))
+  local across = core.across(wire, s)
+  if across then return look_at_frames(self, wire, s, across, seen) end
+  for side, hold in pairs(neighbours(self, wire, s)) do
+    local last = seen[side]
+    if not last or last.object ~= hold.object then last = { object = hold.object } end
+    seen[side] = last
+    local whole = seen.whole and last.q and rests(last.q, hold.q)
+    last.q = hold.q
+    if math.abs(turn_of(self, wire, s, hold, last)) > TOLD or whole and not stand.is_moving(self) then
+      local other = records[hold.object]
+      seen.told = true
+      if not (other and other.grips == hold.object.grips and other.told) then tell(self, wire, hold) end
+      return
+    end
+  end
+end
+
+--- Notes that a move begins which turns the gripper. Looks may be too far apart to see a whole turn.
+function untwisted.turns(self, turn)
+  local seen, wire = records[self], self.wire
+  if not seen or seen.told or not wire then return end
+  local along = vec.dot(vec.unit(turn.axis), wire:tangent(stand.nearest_place(wire, (self.tool:pose()))))
+  seen.whole = math.abs(turn.angle * along) > math.pi
+end
+
+return untwisted

@@ -1,0 +1,126 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Pads that turn about the axis of a rod do not twist it. An event says so where another hold would resist.
+local sw = require "softworld"
+local t = require "spec.physics.tools"
+
+local AT, FORCE, MU = { 0.05, 0.25 }, 20, 0.5 -- [m], [N], [-]
+
+-- Two hands hold a cable; the second one moves by o.move. Returns the run, the second hand and the wire.
+local function moved(o)
+  local scene = sw.scene{ name = "axis", gravity = { 0, 0, 0 } }
+  local path = {}
+  for i = 0, 30 do
+    local a = (o.bent or 0) * (i / 30 - 0.5)
+    path[#path + 1] = { 0.3 * (i / 30), 0, 0.1 + 0.05 * (o.bent or 0) * math.cos(math.pi * a) }
+  end
+  local wire = scene:wire{ name = "wire", cable = o.cable or "GXL 1.5", segments = 60, path = path,
+    rolls = o.rolls, rest = o.bent and "path" or nil }
+  scene:force{ kind = "damping", on = wire, mass = 10, stiffness = 0.001 }
+  local force = o.force or FORCE
+  local pads = { width = 0.02, friction = MU }
+  local one, two = scene:gripper{ name = "one", pads = pads }, scene:gripper{ name = "two", pads = pads }
+  scene:process(function(p)
+    local first = o.first or "plates"
+    if first == "clamp" then
+      scene:clamp(wire, { s = AT[1], name = "clamp" })
+    elseif first ~= "none" then
+      one:grasp(wire, { s = AT[1], approach = first, force = first == "plates" and force or nil })
+    end
+    two:grasp(wire, { s = AT[2], approach = "plates", force = force })
+    if o.both then
+      scene:process(function() one:move(o.both) end)
+    end
+    two:move(o.move)
+    p:wait(0.1)
+  end)
+  return t.fine(scene:run{ dt = o.dt or 0.01 }), two, wire
+end
+
+local function told_of(run)
+  local told = {}
+  for _, e in ipairs(run.events) do
+    if e.kind == "untwisted" then told[#told + 1] = e end
+  end
+  return told
+end
+
+-- Pads lift a cable that is curved at rest by its middle off a table. Returns the run and the end's height
+-- above the middle [m].
+local function lifted(o)
+  local scene = sw.scene{ name = "spooled" }
+  local path, R = {}, 0.15
+  for k = 0, 40 do
+    local a = (k / 40 - 0.5) * 0.3 / R
+    path[k + 1] = { R * math.sin(a), R * (1 - math.cos(a)), 0.1 }
+  end
+  local wire = scene:wire{ name = "wire", cable = "FLRY-B 2.5", path = path, rest = "path", segments = 40,
+    rolls = o.rolls }
+  scene:force{ kind = "damping", on = wire, mass = 8, stiffness = 0.001 }
+  scene:obstacle{ name = "table", shape = "plane", at = { 0, 0, 0.1 - wire.radius }, friction = 0.3 }
+  local hand = scene:gripper{ name = "hand", pads = { width = 0.02, friction = MU } }
+  scene:process(function(p)
+    hand:grasp(wire, { s = 0.15, approach = o.approach, force = o.approach == "plates" and FORCE or nil })
+    hand:move{ by = { 0, 0, 0.2 }, duration = 1 }
+    p:wait(0.7)
+  end)
+  return t.fine(scene:run{ dt = 0.01 }), wire:position(0).z - wire:position(0.15).z
+end
+
+local function about(axis, angle)
+  return { turn = { axis = axis, angle = angle }, duration = 0.5 }
+end
+
+describe("pads that turn about the axis of a rod", function()
+  it("do not twist it, which is told", function()
+    for _, o in ipairs{ { move = about({ 1, 0, 0 }, 1) }, { move = about({ 1, 0, 0 }, 2 * math.pi) },
+      { move = about({ 1, 0, 0 }, -0.5), first = "clamp" }, { move = about({ 1, 0, 0 }, 1), dt = 0.02 },
+      { move = about({ 1, 0, 0 }, 1), first = "imposed", cable = "H07V-K 4" } } do
+      local run, two = moved(o)
+      local told = told_of(run)
+      assert.equal(1, #told)
+      assert.near(0, two:moment().x, 1e-6)
+      assert.matches("pads of '%a+' and '%a+' turn against each other about the axis of wire 'wire'",
+        told[1].text)
+      local check = run:check{ limits = { max_torsion = 20, ["two.peak_moment"] = 1, max_tension = 100 } }
+      assert.equal("OPEN", check:row "wire.max_torsion".verdict)
+      assert.equal("OPEN", check:row "two.peak_moment".verdict)
+      assert.equal("PASS", check:row "wire.max_tension".verdict)
+    end
+  end)
+
+  it("twist a rod that rolls", function()
+    local run, two, wire = moved{ rolls = true, move = about({ 1, 0, 0 }, 1) }
+    assert.equal(0, #told_of(run))
+    t.near(wire.beam.GJ / (AT[2] - AT[1] - 0.02), two:moment().x, 0.05 * two:moment().x, "moment")
+    run, two, wire = moved{ rolls = true, force = 2, move = about({ 1, 0, 0 }, 3) }
+    assert.equal(0, #told_of(run))
+    t.near(2 * MU * 2 * wire.radius, two:moment().x, 1e-3 * two:moment().x, "moment of slipping")
+  end)
+
+  it("let a rod roll that is curved at rest, which is told", function()
+    local run, sag = lifted{ approach = "imposed" }
+    assert.equal(0, #told_of(run))
+    t.near(-0.0086, sag, 2e-4, "sag in an imposed grip")
+    run, sag = lifted{ approach = "plates", rolls = true }
+    assert.equal(0, #told_of(run))
+    t.near(-0.0086, sag, 2e-4, "sag of a rod that rolls")
+    run, sag = lifted{ approach = "plates" }
+    t.near(-0.072, sag, 2e-3, "sag of a rod that does not")
+    assert.equal(1, #told_of(run))
+    assert.matches("^wire 'wire' has rolled in the pads of 'hand' by [%d.]+ degrees", told_of(run)[1].text)
+    local check = run:check{ checks = { { name = "sag", unit = "m", max = 0.1,
+      of = function() return -sag end } } }
+    assert.equal("OPEN", check:row "sag".verdict)
+    assert.equal("OPEN", check:row "wire.min_bend_radius".verdict)
+  end)
+
+  it("say nothing if nothing resists, or if both turn together", function()
+    local around = { turn = { axis = { 1, 0, 0 }, angle = 1 }, about = { 0, 0, 0.1 }, duration = 0.5 }
+    local up = { turn = { axis = { 0, 0, 1 }, angle = 1 }, about = { 0, 0, 0 }, duration = 0.5 }
+    for _, o in ipairs{ { first = "none", move = about({ 1, 0, 0 }, 1) }, { move = around, both = around },
+      { move = around, both = around, bent = 1 }, { move = up, both = up, bent = 1 },
+      { move = { by = { 0, 0.05, 0.02 }, duration = 0.5 } }, { move = about({ 0, 0, 1 }, 0.5) } } do
+      assert.equal(0, #told_of((moved(o))))
+    end
+  end)
+end)
