@@ -61,12 +61,32 @@ static void form(const sw_scene *s, size_t w, sw_plan *plan) {
   }
 }
 
+/* Gives the plan the arcs that its wire was drawn along. SW_ENOMEM. */
+static sw_status add_arcs(const sw_scene_wire *w, sw_plan *plan) {
+  const sw_drawing *d = &w->drawing;
+  const double length = d->length * w->mesh.scale; /* as drawn; wire may have been fed since [m] */
+  if (d->count < 3 || d->segments < 2 || !(length > 0)) return SW_OK;
+  double *shares = sw_alloc(plan->edges, sizeof *shares);
+  int any;
+  if (!shares) return SW_ENOMEM;
+  const sw_status status =
+      sw_mesh_arcs(d->points, d->count, d->segments, plan->s, plan->nodes, length, shares, &any);
+  if (status == SW_OK && any)
+    plan->drawn_arc = shares;
+  else
+    sw_free(shares);
+  return status;
+}
+
 static sw_status plan(const sw_scene *s, size_t w, const sw_hold_place *places, size_t count,
                       sw_plan **out) {
   const sw_scene_wire *wire = sw_scene_wire_in(s, w);
   SW_TRY(sw_plan_new(&wire->beam, wire->mesh.s, wire->mesh.n, places, count, out));
   form(s, w, *out);
-  return SW_OK;
+  if (add_arcs(wire, *out) == SW_OK) return SW_OK;
+  sw_plan_release(*out);
+  *out = NULL;
+  return SW_ENOMEM;
 }
 
 static sw_status take(sw_scene *scene, size_t w) {

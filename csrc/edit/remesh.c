@@ -66,6 +66,7 @@ static void put_back(sw_scene *s, kept_hold *kept, size_t count) {
 static sw_status redraw(sw_scene *s, size_t wire, size_t segments, sw_error *err) {
   sw_scene_wire *w = sw_scene_wire_in(s, wire);
   const sw_mesh before = w->mesh;
+  const size_t drawn = w->drawing.segments;
   kept_hold *kept;
   size_t count;
   sw_mesh fresh = {0};
@@ -87,6 +88,7 @@ static sw_status redraw(sw_scene *s, size_t wire, size_t segments, sw_error *err
       sw_mesh_free(&old);
     }
   }
+  if (status != SW_OK) w->drawing.segments = drawn;
   for (size_t k = 0; kept && k < count; k++) sw_hold_clear(&kept[k].shape);
   sw_free(kept);
   return status;

@@ -137,7 +137,8 @@ static sw_status add_frames(sw_scene_wire *w, sw_mesh *m, sw_error *err) {
 }
 
 sw_status sw_scene_draw(sw_scene_wire *w, size_t segments, sw_mesh *out, sw_error *err) {
-  const sw_drawing *d = &w->drawing;
+  sw_drawing *d = &w->drawing;
+  d->segments = segments;
   sw_status status = sw_mesh_along(out, d->points, d->count, segments);
   if (status == SW_OK) status = check_mesh(w->name, out, err);
   if (status == SW_OK) status = add_frames(w, out, err);

@@ -53,13 +53,14 @@ static void tape_extremes(sw_tape *t, sw_wire_extremes *x) {
 }
 
 static void tape_drawing(sw_tape *t, sw_drawing *x) {
-  SW_TAPE_STRUCT(t, sw_drawing, 80);
+  SW_TAPE_STRUCT(t, sw_drawing, 88);
   sw_tape_count(t, &x->count, 3 * sizeof *x->points);
   SW_TAPE_OPTIONAL(t, x->points, 3 * x->count);
-  DOUBLE(length), VEC(normal), INT(rest), INT(rolls), DOUBLE(rest_twist);
+  DOUBLE(length), SIZE(segments), VEC(normal), INT(rest), INT(rolls), DOUBLE(rest_twist);
   DOUBLE(breaking_load), INT(breaking_flag);
   sw_tape_expect(t, x->breaking_flag >= 0 && x->breaking_flag < SW_BREAKING_FLAGS,
                  "a wire's strength");
+  sw_tape_expect(t, x->segments <= 10000000, "a wire's segments");
   sw_tape_expect(t, x->points || !x->count, "a wire without its drawing");
   if (x->points) sw_tape_finite(t, x->points, 3 * x->count, "a wire's drawing");
 }
@@ -76,7 +77,7 @@ static void tape_poke(sw_tape *t, sw_poke *x) {
 }
 
 void sw_tape_wire(sw_tape *t, sw_scene_wire *x, int placed) {
-  SW_TAPE_STRUCT(t, sw_scene_wire, 1400);
+  SW_TAPE_STRUCT(t, sw_scene_wire, 1408);
   SW_TAPE_STRUCT(t, sw_twisted, 24);
   UINT32(generation), SIZE(number), NAME(name);
   SW_TAPE_CLASS(t, x->cls, sw_scene_body_class);

@@ -25,6 +25,7 @@ typedef struct sw_drawing {
   double *points; /* (count x 3) [m] */
   size_t count;
   double length;        /* of the first mesh [m] */
+  size_t segments;      /* of its last mesh */
   sw_vec normal;        /* of the section; NAN = not given [-] */
   int rest;             /* SW_REST_STRAIGHT, SW_REST_PATH */
   int rolls;            /* 1: it turns about itself with inertia */

@@ -49,6 +49,11 @@ static inline double sw_mesh_middle(const sw_mesh *m, size_t e) {
 /* Makes even nodes along the polyline through points (count x 3): segments + 1 nodes, at rest and
  * unstressed: the arc length of each edge is its chord. SW_ENOMEM. */
 sw_status sw_mesh_along(sw_mesh *mesh, const double *points, size_t count, size_t segments);
+/* Computes by which shares edges between arc lengths s (n) are shorter than arcs of the polyline
+ * through points (count x 3), along which they were drawn with so many segments and this length;
+ * its corners count nothing. any: 0 if all are zero, and shares (n - 1) is not set. SW_ENOMEM. */
+sw_status sw_mesh_arcs(const double *points, size_t count, size_t segments, const double *s,
+                       size_t n, double length, double *shares, int *any);
 void sw_mesh_free(sw_mesh *mesh);
 
 /* Makes an independent copy. SW_ENOMEM. */

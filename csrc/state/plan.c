@@ -17,7 +17,8 @@ void sw_plan_release(sw_plan *plan) {
   if (!plan || --plan->references > 0) return;
   sw_web_release(plan->web);
   SW_FREE_ALL(plan->s, plan->rest, plan->lumped, plan->mass_own, plan->mass_next, plan->hinge,
-              plan->held, plan->clamps, plan->spans, plan->rest_bend, plan->rest_twist, plan);
+              plan->held, plan->clamps, plan->spans, plan->rest_bend, plan->rest_twist,
+              plan->drawn_arc, plan);
 }
 
 /* Hinge lengths near a clamp whose first edge has length b * l and whose second has l. An end-point

@@ -88,6 +88,8 @@ typedef struct sw_plan {
   size_t span_count;
   double *rest_bend;  /* (n + clamps x 2) bend of the unloaded hinges, or NULL [rad] */
   double *rest_twist; /* (n + clamps) twist of the unloaded hinges, or NULL [rad] */
+  double *drawn_arc;  /* (m) share by which an edge is shorter than the arc of a path that it was
+                         drawn along, or NULL [-] */
 } sw_plan;
 
 /* Value of sw_hold_place.clamped: no hold, but a rigid joint that ends spans of twist at s1. */

@@ -244,7 +244,7 @@ void sw_tape_plan(sw_tape *t, sw_plan **plan, sw_web *own, size_t shape_size) {
   if (!sw_tape_object(t, plan, sizeof **plan)) return;
   if (sw_tape_reads(t)) (*plan)->references = 1;
   sw_plan *x = *plan;
-  SW_TAPE_STRUCT(t, sw_plan, 240);
+  SW_TAPE_STRUCT(t, sw_plan, 248);
   SW_TAPE_STRUCT(t, sw_clamp_hinge, 48);
   SW_TAPE_STRUCT(t, sw_span, 40);
   sw_tape_count(t, &x->nodes, sizeof *x->s);
@@ -256,6 +256,6 @@ void sw_tape_plan(sw_tape *t, sw_plan **plan, sw_web *own, size_t shape_size) {
   const size_t n = x->nodes, hinges = n + x->clamp_count;
   ARRAY(s, n), ARRAY(rest, n), ARRAY(lumped, n), ARRAY(mass_own, n), ARRAY(mass_next, n);
   ARRAY(hinge, n), ARRAY(held, n), ARRAY(clamps, x->clamp_count), ARRAY(spans, x->span_count);
-  OPTIONAL(rest_bend, 2 * hinges), OPTIONAL(rest_twist, hinges);
+  OPTIONAL(rest_bend, 2 * hinges), OPTIONAL(rest_twist, hinges), OPTIONAL(drawn_arc, x->edges);
   if (sw_tape_reads(t)) check_plan(t, x);
 }

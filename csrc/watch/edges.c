@@ -97,6 +97,28 @@ static double false_tension(const sw_scene *s, const sw_body *b, double T) {
   return fmin(most, T);
 }
 
+/* Returns the same for a wire that lies on a round side as it was drawn, and is straight elsewhere:
+ * its edges are chords, shorter than the arcs there that touches take them for (contact/arc.h) [N].
+ */
+static double drawn_tension(const sw_scene *s, const sw_body *b, double T) {
+  const sw_plan *p = b->plan;
+  const double *x = sw_scene_system(s)->x;
+  double most = 0, less = 0, on = 0, off = 0; /* [N], [m], [rad] */
+  if (!p->drawn_arc) return 0;
+  for (size_t i = 0, from = p->nodes; i < p->nodes; i++) {
+    if (p->held[i] != SW_FREE) {
+      if (i > from + 1 && off < LITTLE * on)
+        most = fmax(most, b->EA * less / (p->s[i] - p->s[from]));
+      from = i, less = on = off = 0;
+      continue;
+    }
+    const int round = is_on_round(s, b->first_node + i);
+    if (i > from && i < p->edges) *(round ? &on : &off) += turn_at(b, x, i);
+    if (round && i < p->edges) less += p->drawn_arc[i] * p->rest[i];
+  }
+  return fmin(most, T);
+}
+
 /* A bend by a at one place of a wire under the tension T has the curvature a/2 sqrt(T/EI). Edges h
  * have less by the factor sqrt(1 + T h^2/4 EI): the turns of a chain of hinges decay by exp(-q)
  * from node to node, 2 sinh(q/2) = h sqrt(T/EI), and add up to a. At a clamp it is a sqrt(T/EI),
@@ -147,6 +169,22 @@ static void watch_layer(sw_scene *s, const sw_body *b, const sw_scene_wire *w,
       1e3 * edge, w->name, at, T, 1e3 / (bend->value * over), 1e3 / bend->value, segments);
 }
 
+/* Returns 1 if it has told that edges drawn along a round side are too short. */
+static int watch_drawn(sw_scene *s, size_t wire, const sw_wire_extremes *now, double edge) {
+  const sw_body *b = &sw_scene_system(s)->bodies[wire];
+  const sw_scene_wire *w = sw_scene_wire_in(s, wire);
+  const double T = now->tension.value, more = drawn_tension(s, b, T);
+  if (!(T > 0) || !(more > FALSE_PART * T)) return 0;
+  const double segments = ceil((double)b->plan->edges * sqrt(more / (FALSE_PART * T)));
+  sw_events_go_on(sw_scene_events_of(s), "edges", w->name, sw_scene_time(s));
+  sw_scene_tell(s, "edges", w->name, now->tension.s - w->mesh.s[0], segments,
+                "edges of %.4g mm of taut wire '%s' were drawn along an arc as its chords, and are "
+                "shorter: if only its stretch sets the tension, %.4g of its %.4g N may be too "
+                "much; try segments = %.0f",
+                1e3 * edge, w->name, more, T, segments);
+  return 1;
+}
+
 static void watch_taut(sw_scene *s, size_t wire, const sw_wire_extremes *now, double edge) {
   const sw_body *b = &sw_scene_system(s)->bodies[wire];
   const double T = now->tension.value, EI = b->plan->beam.EI;
@@ -172,7 +210,8 @@ void sw_scene_watch_edges(sw_scene *s, size_t wire, const sw_wire_extremes *now)
   const sw_extreme *bend = &now->curvature;
   if (plan->web || !(plan->beam.EI > 0) || !(bend->value > 0)) return;
   const double edge = plan->rest[edge_at(plan, bend->s)];
-  if (edge * bend->value <= LONG) watch_taut(s, wire, now, edge);
+  if (edge * bend->value <= LONG && !watch_drawn(s, wire, now, edge))
+    watch_taut(s, wire, now, edge);
   if (!(edge * bend->value > LONG)) return;
   const sw_scene_wire *w = sw_scene_wire_in(s, wire);
   const double segments = ceil(plan->length * bend->value / FINE), at = bend->s - w->mesh.s[0];
