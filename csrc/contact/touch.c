@@ -23,16 +23,11 @@ static const double STILL_NEAR = 0.5, SAME_SIDE = 0.7;
  * have had too many touches at once; without them nothing would hold the mesh. */
 enum { SPARE_PULLS = 1 };
 
-enum { LINE = 64 }; /* cache line [B] */
-
-/* Returns a new touch, all zero, at the end of the list; NULL: out of memory. The next place is
- * prefetched, because long lists are not in the cache. */
+/* Returns a new touch, all zero, at the end of the list; NULL: out of memory. */
 static sw_touch *new_touch(sw_contact *c) {
   if (SW_GROW(c->touches, c->touch_capacity, c->touch_count + 1) != SW_OK) return NULL;
   sw_touch *t = &c->touches[c->touch_count];
-  if (c->touch_count + 1 < c->touch_capacity)
-    for (size_t at = 0; at < sizeof *t; at += LINE)
-      __builtin_prefetch((const char *)(t + 1) + at, 1);
+  sw_touch_fetch(t, SW_FETCH_ALL);
   return memset(t, 0, sizeof *t);
 }
 
