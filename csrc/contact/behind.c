@@ -61,10 +61,12 @@ sw_behind sw_contact_behind(const sw_contact *c, const sw_system *s, size_t body
   sw_behind found = {.found = 0};
   const sw_body *b = &s->bodies[body];
   size_t k, end;
+  if (!c->open_count) return found;
   if (c->behind.found && c->behind.body == body) return c->behind;
   sw_contact_touches_of(c, b->first_node, b->first_node + b->plan->nodes, &k, &end);
   for (; k < end && k < c->touch_count; k++) {
     const sw_touch *t = &c->touches[k];
+    sw_touch_fetch(t, SW_FETCH_ALL);
     const sw_vec seen = sw_pose_point(c->now[t->obstacle].pose, t->seen);
     const double depth = sw_dot(t->press.normal, sw_sub(t->point, seen));
     if (!(depth > found.depth) || !touches_back(depth, b->plan->beam.radius)) continue;

@@ -321,6 +321,7 @@ sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err)
   if (status == SW_OK) status = sw_contact_wait(c, s);
   c->candidate_count = c->touch_count = c->last_count = c->pressed_count = 0;
   c->unmarked = 1;
+  c->hardens = c->falls = 0;
   memset(c->wound, 0, c->count * sizeof *c->wound);
   for (size_t b = 0; b < s->body_count && status == SW_OK; b++) {
     const size_t first = c->candidate_count;

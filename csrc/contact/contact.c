@@ -17,7 +17,7 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_
   if (!c) return SW_ENOMEM;
   const sw_status status =
       SW_ALLOC_ALL(SW_ROOM(c->obstacles, count), SW_ROOM(c->loads, count), SW_ROOM(c->start, count),
-                   SW_ROOM(c->now, count), SW_ROOM(c->flat, 8 * count),
+                   SW_ROOM(c->now, count), SW_ROOM(c->before, count), SW_ROOM(c->flat, 8 * count),
                    SW_ROOM(c->spaced, 2 * count), SW_ROOM(c->bounds, count));
   if (status != SW_OK || sw_broad_new(&c->broad, count) != SW_OK) {
     sw_contact_free(c);
@@ -32,6 +32,8 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_
     c->flat[o] = sw_shape_is(obstacles[o].shape, SW_SHAPE_FLAT);
     c->straight[o] = sw_shape_is(obstacles[o].shape, SW_SHAPE_SQUARE);
     c->sharp[o] = sw_shape_has_edges(obstacles[o].shape);
+    c->open_count += sw_shape_is_open(obstacles[o].shape) != 0;
+    c->slick_count += obstacles[o].kinetic < obstacles[o].friction;
     sw_vec q, along;
     if (!(obstacles[o].grips > 0))
       c->round[o] = sw_shape_middle(obstacles[o].shape, sw_v(0, 0, 0), &q, &along);
@@ -66,10 +68,10 @@ void sw_contact_keep(sw_contact *c, const size_t *ids, size_t count) {
 
 void sw_contact_free(sw_contact *c) {
   if (!c) return;
-  SW_FREE_ALL(c->obstacles, c->loads, c->start, c->now, c->flat, c->sunk, c->spaced, c->bounds,
-              c->candidates, c->touches, c->last, c->memory, c->next_memory, c->pressed, c->turns,
-              c->barriers, c->impacts, c->impact_at, c->marks, c->room, c->reach, c->ahead,
-              c->ranges, c->singles.first, c->strikes);
+  SW_FREE_ALL(c->obstacles, c->loads, c->start, c->now, c->before, c->flat, c->sunk, c->spaced,
+              c->bounds, c->candidates, c->touches, c->last, c->memory, c->next_memory, c->pressed,
+              c->turns, c->barriers, c->impacts, c->impact_at, c->marks, c->room, c->reach,
+              c->ahead, c->ranges, c->singles.first, c->strikes);
   sw_broad_free(&c->broad);
   sw_still_free(&c->still);
   sw_free(c);
@@ -124,6 +126,8 @@ sw_status sw_contact_begin_stage(sw_contact *c, double time, double first, sw_er
   c->updates = c->looked = c->passes = c->softer = c->made = 0;
   c->ahead_count = 0;
   c->parts = (sw_contact_parts){.on = 0};
+  for (size_t k = 0; k < c->broad.mover_count; k++)
+    c->before[c->broad.mover[k]] = c->now[c->broad.mover[k]].pose.q;
   return sw_broad_place(c, time, c->now, err);
 }
 
@@ -250,6 +254,7 @@ int sw_contact_poses(const sw_contact *c, int id, sw_pose *from, sw_pose *to) {
 
 double sw_contact_hardened(const sw_contact *c) {
   double sum = 0;
+  if (!c->hardens) return 0;
   for (size_t i = 0; i < c->touch_count; i++) sum += c->touches[i].hardened;
   return sum;
 }
@@ -258,6 +263,7 @@ double sw_contact_hardened(const sw_contact *c) {
  * the chord (contact/arc.h). The wire did this work before, while it bent more. */
 double sw_contact_unbent(const sw_contact *c) {
   double sum = 0;
+  if (!c->falls) return 0;
   for (size_t i = 0; i < c->touch_count; i++)
     sum += c->touches[i].fallen * c->touches[i].press.normal_force;
   return sum;

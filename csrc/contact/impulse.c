@@ -28,6 +28,7 @@ static void add_now(const sw_contact *c, double share, sw_contact_load *(*at)(sw
   }
   for (size_t i = 0; i < c->touch_count; i++) {
     const sw_touch *t = &c->touches[i];
+    sw_touch_fetch(t, SW_FETCH_FORCE);
     if (!t->press.active && !t->press.opened) continue;
     const sw_vec f = sw_neg(force_on(c, t));
     sw_contact_load *to = at(&c->loads[t->obstacle]);

@@ -234,6 +234,7 @@ static int update_all(sw_contact *c, const sw_system *s, const double *y, const 
     const double scale = sw_contact_scale(c, first, &end);
     for (size_t i = first; i < end; i++) {
       sw_touch *t = &c->touches[i];
+      sw_touch_fetch(t, SW_FETCH_PRESS);
       fine &= update(c, s, t, y, delta, scale);
       if (!fine) continue;
       note_pressed(c, t);

@@ -55,7 +55,7 @@ static double lost_by(const sw_contact *c, const sw_touch *t) {
 double sw_contact_lost(const sw_contact *c, const sw_body *b) {
   size_t i, end;
   double sum = 0;
-  if (!c->touch_count) return 0;
+  if (!c->touch_count || !c->slick_count) return 0;
   sw_contact_touches_of(c, b->first_node, b->first_node + b->plan->nodes, &i, &end);
   for (; i < end && i < c->touch_count; i++) /* not those that wait */
     sum += lost_by(c, &c->touches[i]);
@@ -64,7 +64,7 @@ double sw_contact_lost(const sw_contact *c, const sw_body *b) {
 
 int sw_contact_breaks_loose(sw_contact *c, const sw_system *s, double h) {
   if (c->regime != SW_CONTACT_IMPLICIT || !isfinite(c->least)) return 0;
-  for (size_t i = 0; i < c->touch_count;) { /* sorted by body */
+  for (size_t i = 0; c->slick_count && i < c->touch_count;) { /* sorted by body */
     const size_t body = c->touches[i].body;
     double lost = 0;
     for (; i < c->touch_count && c->touches[i].body == body; i++)

@@ -35,6 +35,7 @@ static const double FULL = 1e-4;
 
 static sw_status remember(sw_contact *c, const sw_system *s, const sw_touch *t) {
   const sw_contact_at *o = &c->now[t->obstacle];
+  sw_touch_fetch(t, SW_FETCH_ALL);
   const sw_quat back = sw_quat_conj(o->pose.q);
   const double deepest = sw_contact_deepest(c, s, t);
   const double share = c->regime == SW_CONTACT_IMPLICIT ? c->h / FULL : 1.0;

@@ -13,11 +13,14 @@
 /* Matches a candidate with its touches of the previous iterate, from number i on; both lists have
  * the same order. Returns the next touch. */
 static size_t match_one(const sw_contact *c, sw_candidate *k, size_t i) {
-  k->last = i;
+  k->last = (uint32_t)i;
   while (i < c->last_count && c->last[i].node == k->node && c->last[i].obstacle == k->obstacle &&
-         c->last[i].segment == k->segment)
+         c->last[i].segment == k->segment) {
+    sw_touch_fetch(&c->last[i], SW_FETCH_FORCE);
     i++;
-  return k->last_end = i;
+  }
+  k->last_end = (uint32_t)i;
+  return i;
 }
 
 /* Matches all candidates of the part with touches from number i to end. Skips those of other

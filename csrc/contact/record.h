@@ -14,67 +14,79 @@
  * touch in this step. */
 typedef struct sw_candidate {
   int obstacle;
-  int segment;        /* number of the segment at its node, from 1; 0: the node itself */
-  size_t node, other; /* node in the system's arrays; the segment's other end, or the node again */
-  size_t body;
-  double radius;             /* of the wire there [m] */
-  double skin;               /* distance of the surface from the node [m] */
-  double mass;               /* [kg] */
-  size_t memory, memory_end; /* its range of the memory */
-  size_t last, last_end;     /* its range of the previous iterate's touches */
-  double usual;              /* stiffness of a new touch [N/m] */
-  double least;              /* smallest stiffness of a touch that goes on; 0: any [N/m] */
-  int given;                 /* 1: the stiffness is fixed, at any depth */
-  int smooth;       /* 1: the wire touches with its smooth curve there, not with its chords */
-  int round;        /* 1: with its curve at a thin round obstacle, elsewhere with chords */
-  int arcs;         /* 1: with its arc at a round side, see contact/arc.h */
+  int segment;          /* number of the segment at its node, from 1; 0: the node itself */
+  uint32_t node, other; /* in the system's arrays; the segment's other end, or the node */
+  uint32_t body;
+  uint32_t memory, memory_end; /* its range of the memory */
+  uint32_t last, last_end;     /* its range of the previous iterate's touches */
+  uint8_t samples;  /* number of touches, evenly spaced on the segment; 0: at the nearest places */
+  bool given : 1;   /* 1: the stiffness is fixed, at any depth */
+  bool smooth : 1;  /* 1: the wire touches with its smooth curve there, not with its chords */
+  bool round : 1;   /* 1: with its curve at a thin round obstacle, elsewhere with chords */
+  bool arcs : 1;    /* 1: with its arc at a round side, see contact/arc.h */
+  bool drawn : 1;   /* 1: the wire is held on both sides of it, and may be drawn taut */
+  double radius;    /* of the wire there [m] */
+  double skin;      /* distance of the surface from the node [m] */
+  double mass;      /* [kg] */
+  double usual;     /* stiffness of a new touch [N/m] */
+  double least;     /* smallest stiffness of a touch that goes on; 0: any [N/m] */
   double squeezing; /* from this force on the touch cannot come out; 0: no such force [N] */
-  int drawn;        /* 1: the wire is held on both sides of it, and may be drawn taut */
   double firm; /* at a round obstacle: how firmly a touch stays in the middle of its edge [-] */
   double firm_beside[2]; /* firmness on the previous and the next edge [-] */
   double lone;           /* lean of a touch, from 0 (the wire goes round) to 1 (straight) [-] */
-  int samples; /* number of touches, evenly spaced on the segment; 0: touches at the nearest places
-                */
 } sw_candidate;
 
 /* Values of `feature` that are no part of a shape: a touch kept by a barrier, and a touch of a
  * wire's curve with a round obstacle [-]. */
 enum { SW_BEHIND_BARRIER = -1, SW_ON_CURVE = -2 };
 
-/* One place where a wire's surface is near an obstacle. */
+/* One place where a wire's surface is near an obstacle. Members that are used together lie in the
+ * same cache lines, the most used ones first (sw_touch_fetch). */
 typedef struct sw_touch {
+  sw_mean spot;   /* its place as a mean of nodes */
+  double usual;   /* stiffness of a new touch here [N/m] */
+  double stiffer; /* full stiffness from the next iterate on [N/m] */
+  double share;   /* share of that stiffness; below 1 near a place on the next edge [-] */
   int obstacle, segment;
-  size_t node, other, body;
-  int feature;
+  uint32_t node, body;
+  uint32_t candidate; /* index of its candidate */
+  uint16_t stage;     /* stage in which it was found, its last bits */
+  uint8_t sharp;      /* on a smooth curve: what it touches (sw_sharp) */
+  bool known : 1;     /* 1: it pressed at the step's start */
+  bool held : 1;      /* 1: both ends are held, so there is no force */
+  bool squeezed : 1;  /* 1: stiffened from step to step, not within a step */
+  double friction;    /* coefficient in this step: kinetic if it slid before [-] */
+  sw_press press;     /* its normal is the obstacle's outward normal in world coordinates */
+  double forgiven;    /* part of the true depth that this step does not correct [m] */
+  double let_out;     /* unexplained part of the true depth that this step removes [m] */
+  double left;        /* rest of `forgiven` after the touch was stiffened [m] */
+  double hardened;    /* energy gained by a higher stiffness [J] */
+  sw_vec acts;        /* where the force acts: the axis, or a rolling surface, world [m] */
+  sw_vec edge;        /* direction of the edge touched [-]; of a rolling wire that lies on a round
+                         side sw_contact_arc_lies [m]; in the obstacle's coordinates */
+  double steady;      /* steady normal force [N] */
   double at;       /* place along the segment; on a smooth curve up to half an edge beyond it [-] */
-  sw_mean spot;    /* the same as a mean of nodes */
-  sw_sharp sharp;  /* on a smooth curve: what it touches */
-  sw_vec edge;     /* direction of the edge touched [-]; of a rolling wire that lies on a round side
-                      sw_contact_arc_lies [m]; in the obstacle's coordinates */
-  double steady;   /* steady normal force [N] */
   sw_vec point;    /* on the obstacle, world [m] */
   sw_vec local;    /* the same in the obstacle's coordinates [m] */
-  sw_quat axes;    /* the obstacle's rotation at this evaluation [-] */
-  sw_vec acts;     /* where the force acts: the axis, or a rolling surface, world [m] */
-  double forgiven; /* part of the true depth that this step does not correct [m] */
-  double left;     /* rest of `forgiven` after the touch was stiffened [m] */
-  double let_out;  /* unexplained part of the true depth that this step removes [m] */
-  double hardened; /* energy gained by a higher stiffness [J] */
   double rise;     /* distance of the wire's arc outside the curve, part of the gap [m] */
   double fallen;   /* decrease of `rise` since the step's start; 0: no decrease [m] */
-  double usual;    /* stiffness of a new touch here [N/m] */
-  double stiffer;  /* full stiffness from the next iterate on [N/m] */
-  double share;    /* share of that stiffness; below 1 near a place on the next edge [-] */
-  int known;       /* 1: it pressed at the step's start */
-  int held;        /* 1: both ends are held, so there is no force */
-  int squeezed;    /* 1: stiffened from step to step, not within a step */
-  double friction; /* coefficient in this step: kinetic if it slid before [-] */
-  double slid;     /* sliding path up to the step's start, since the touch began to press [m] */
   sw_vec seen;     /* the wire's position at this evaluation, in the obstacle's coordinates [m] */
-  size_t candidate; /* index of its candidate */
-  size_t stage;     /* stage in which it was found */
-  sw_press press;   /* its normal is the obstacle's outward normal in world coordinates */
+  sw_vec edge_now; /* of a rolling wire: edge in world coordinates at this evaluation [m] */
+  double slid;     /* sliding path up to the step's start, since the touch began to press [m] */
+  int feature;
+  uint32_t other; /* the segment's other end, or the node again */
 } sw_touch;
+_Static_assert(sizeof(sw_touch) == 640, "whole cache lines");
+
+/* Fetches the first cache lines of a touch that a loop over a list needs soon: long lists are not
+ * in the cache. SW_FETCH_PRESS: for the equations of its press; SW_FETCH_FORCE: also for its force
+ * and the moment of that. */
+enum { SW_LINE = 64, SW_FETCH_AHEAD = 6 }; /* cache line [B]; items ahead of the loop [-] */
+enum { SW_FETCH_GAP = 3, SW_FETCH_PRESS = 7, SW_FETCH_FORCE = 8, SW_FETCH_ALL = 10 };
+static inline void sw_touch_fetch(const sw_touch *t, int lines) {
+  const uintptr_t at = (uintptr_t)t + SW_FETCH_AHEAD * sizeof *t; /* may be beyond the list */
+  for (int k = 0; k < lines; k++) __builtin_prefetch((const void *)(at + (uintptr_t)k * SW_LINE));
+}
 
 /* Penetration of the accepted state at the touch, negative outside [m]. */
 static inline double sw_touch_depth(const sw_touch *t) { return t->forgiven - t->press.gap_after; }
@@ -103,7 +115,7 @@ typedef struct sw_pressed {
 /* Memory of a touch between steps, in the obstacle's coordinates. */
 typedef struct sw_memory {
   int obstacle, segment; /* obstacle: the owner's number */
-  size_t node;
+  uint32_t node;
   int feature;
   double at;
   sw_vec normal, point; /* side of the wire: local [-], [m] */

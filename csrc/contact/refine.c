@@ -297,6 +297,7 @@ static int follow_all(refined *r, int *changes) {
 static int fits(const refined *r) {
   for (size_t i = r->first; i < r->end; i++) {
     const sw_touch *t = &r->c->touches[i];
+    sw_touch_fetch(t, SW_FETCH_GAP);
     const sw_vec shift = place(r, t, r->delta);
     if (sw_press_pulls(&t->press, shift) || (!t->held && sw_press_closes(&t->press, shift)) ||
         sw_press_lags(&t->press, t->friction, shift, r->scale))

@@ -80,7 +80,7 @@ sw_vec sw_obstacle_velocity_before(const sw_contact *c, const sw_system *s, cons
   const sw_vec back = sw_sub(sw_mean_of(s->x, 0, &t->spot), axis);
   const sw_vec v = sw_obstacle_velocity(from, sw_add(t->point, back));
   if (!(lies > 0)) return v;
-  const sw_vec along = sw_rotate(t->axes, t->edge);
+  const sw_vec along = t->edge_now;
   return sw_madd(v, along, sw_dot(along, sw_cross(from->omega, n)) / lies);
 }
 
@@ -88,7 +88,7 @@ sw_vec sw_touch_moment(const sw_touch *t, sw_vec about, sw_vec f) {
   const sw_vec moment = sw_cross(sw_sub(t->acts, about), f);
   const double lever = t->sharp ? 0.0 : sw_norm(t->edge);
   if (!(lever > 0)) return moment;
-  const sw_vec along = sw_scale(sw_rotate(t->axes, t->edge), 1.0 / lever);
+  const sw_vec along = sw_scale(t->edge_now, 1.0 / lever);
   return sw_madd(moment, along, lever * sw_dot(sw_cross(t->press.normal, along), f));
 }
 

@@ -23,16 +23,11 @@ static const double STILL_NEAR = 0.5, SAME_SIDE = 0.7;
  * have had too many touches at once; without them nothing would hold the mesh. */
 enum { SPARE_PULLS = 1 };
 
-enum { LINE = 64 }; /* cache line [B] */
-
-/* Returns a new touch, all zero, at the end of the list; NULL: out of memory. The next place is
- * prefetched, because long lists are not in the cache. */
+/* Returns a new touch, all zero, at the end of the list; NULL: out of memory. */
 static sw_touch *new_touch(sw_contact *c) {
   if (SW_GROW(c->touches, c->touch_capacity, c->touch_count + 1) != SW_OK) return NULL;
   sw_touch *t = &c->touches[c->touch_count];
-  if (c->touch_count + 1 < c->touch_capacity)
-    for (size_t at = 0; at < sizeof *t; at += LINE)
-      __builtin_prefetch((const char *)(t + 1) + at, 1);
+  sw_touch_fetch(t, SW_FETCH_ALL);
   return memset(t, 0, sizeof *t);
 }
 
@@ -161,13 +156,14 @@ static int counts_reversals(const sw_contact *c, const sw_system *s, const sw_to
 /* Sets the spring of friction. A turning obstacle turns the slide of the step's first stage with
  * it: otherwise friction of a wire that slides would have a direction of earlier in the step. */
 static void aim(const sw_contact *c, const sw_touch *last, sw_vec u, sw_touch *t) {
-  const int same = last && last->stage == c->stage;
+  const int same = last && last->stage == (uint16_t)c->stage;
   if (!last || same || !c->broad.moves[t->obstacle]) {
     sw_press_aim(&t->press, u, last ? &last->press : NULL, same, c->first);
     return;
   }
   sw_press before = last->press;
-  before.slip = sw_rotate(t->axes, sw_unrotate(last->axes, before.slip));
+  const sw_quat now = c->now[t->obstacle].pose.q;
+  before.slip = sw_rotate(now, sw_unrotate(c->before[t->obstacle], before.slip));
   sw_press_aim(&t->press, u, &before, same, c->first);
 }
 
@@ -253,21 +249,22 @@ static void take_place(const sw_contact *c, const sw_system *s, const sw_candida
   t->node = k->node, t->other = k->other, t->body = k->body;
   t->feature = place->near.feature;
   t->at = at;
-  t->sharp = place->sharp, t->edge = place->edge;
+  t->sharp = (uint8_t)place->sharp, t->edge = place->edge;
   t->spot = spot_of(s, k, t, at);
-  t->local = place->near.point, t->point = sw_pose_point(*pose, t->local);
-  t->axes = pose->q;
+  const sw_vec local = place->near.point; /* not read back: the touch is not in the cache yet */
+  t->local = local, t->point = sw_pose_point(*pose, local);
   t->seen = sw_pose_local(*pose, sw_mean_place(c, y, &t->spot));
   t->acts = sw_mean_of(y, 0, &t->spot);
   t->held = sw_contact_is_held(s, k);
-  t->candidate = (size_t)(k - c->candidates);
-  t->stage = c->stage;
+  t->candidate = (uint32_t)(k - c->candidates);
+  t->stage = (uint16_t)c->stage;
 }
 
 /* Where the force acts on a wire that rolls, once its normal is known. */
 static void find_surface(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                          const double *y, sw_touch *t) {
   t->edge = sw_contact_arc_lies(c, s, k, y, t);
+  t->edge_now = sw_rotate(c->now[t->obstacle].pose.q, t->edge);
   const double radius = s->bodies[k->body].plan->beam.radius;
   t->acts = sw_madd(t->acts, t->press.normal, sw_norm(t->edge) - radius);
 }
@@ -291,13 +288,14 @@ static void activate(const sw_contact *c, const sw_system *s, const sw_candidate
 }
 
 /* Sets the distance of the wire's arc outside its chord or smooth curve. */
-static void rise(const sw_contact *c, const sw_system *s, const sw_candidate *k, const sw_memory *m,
+static void rise(sw_contact *c, const sw_system *s, const sw_candidate *k, const sw_memory *m,
                  const double *y, const sw_place *place, sw_touch *t) {
   if (!k->arcs || t->feature == SW_BEHIND_BARRIER) return;
   t->rise = sw_contact_arc_rise(c, s, k, place, y, t->press.normal);
   if (c->regime == SW_CONTACT_IMPLICIT && !t->sharp)
     t->rise = sw_contact_arc_mean(s, k, m, t->rise);
   if (m) t->fallen = sw_larger(0.0, m->rise - t->rise);
+  c->falls |= t->fallen > 0;
 }
 
 sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candidate *k,
@@ -329,6 +327,7 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
   sw_contact_forgive(c, s, k, kept, y, t);
   if (m && !t->squeezed)
     t->hardened = sw_kept_hardened(&m->kept, t->share * t->stiffer, plan->web != NULL);
+  c->hardens |= t->hardened > 0;
   press->gap += t->forgiven;
   press->gap_after = press->gap;
   activate(c, s, k, m, last, press);

@@ -20,9 +20,12 @@ struct sw_contact {
   int last_stage; /* last stage whose loads were booked in this trial */
   sw_singles singles;
   size_t count, pad_count;
-  sw_contact_place place; /* places an obstacle at a time, with user */
+  size_t open_count, slick_count; /* obstacles that are open meshes, or slide more easily than they
+                                     stick: without any their looks at all touches are left out */
+  sw_contact_place place;         /* places an obstacle at a time, with user */
   void *user;
   sw_contact_at *start, *now; /* (count) positions at the step's start and at the stage */
+  sw_quat *before;            /* (count) rotations of those that move at the previous stage [-] */
   int *flat;                  /* (count) 1: a half space, without contacts of segments */
   int *straight;              /* (count) 1: its faces meet at right angles */
   int *pads;                  /* (pad_count) numbers of the pads of grippers */
@@ -84,6 +87,8 @@ struct sw_contact {
   double least;    /* rebounds earlier than this count as at the start [s] */
   double struck;   /* work of moving obstacles in the step's impacts [J] */
   int fresh;       /* SW_CONTACT_FRESH, or SW_CONTACT_EMERGING, or 0 */
+  int hardens;     /* 1: some touch of this step may have sw_touch.hardened */
+  int falls;       /* 1: some touch of this step may have sw_touch.fallen */
   int updates;     /* of touches in the stage so far [-] */
   int made;        /* updates that were also applied to positions [-] */
   double widening; /* factor on the reserve for flight, raised if nodes exceeded it [-] */

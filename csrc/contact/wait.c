@@ -143,13 +143,28 @@ static void leave_out(sw_still *still, const sw_system *s) {
   still->count = left;
 }
 
+/* Makes room for so many touches. If most touches wait from now on, the list takes the memory of
+ * the previous iterate's list, which has no use between steps: to write to new memory takes longer
+ * than to copy. */
+static sw_status make_room(sw_contact *c, size_t need) {
+  sw_still *still = &c->still;
+  if (need <= still->capacity) return SW_OK;
+  if (need > c->last_capacity || 2 * need < c->touch_count)
+    return SW_GROW(still->list, still->capacity, need);
+  if (still->count) memcpy(c->last, still->list, still->count * sizeof *c->last);
+  SW_SWAP(c->last, still->list);
+  SW_SWAP(c->last_capacity, still->capacity);
+  c->last_count = 0;
+  return SW_OK;
+}
+
 /* Puts aside the touches of the waiting bodies: those that begin to wait are merged into the list,
  * from its end. */
 static sw_status set_aside(sw_contact *c, const sw_system *s) {
   sw_still *still = &c->still;
   size_t more = 0;
   for (size_t i = 0; i < c->touch_count; i++) more += begins(c, s, &c->touches[i]) != 0;
-  SW_TRY(SW_GROW(still->list, still->capacity, still->count + more));
+  SW_TRY(make_room(c, still->count + more));
   leave_out(still, s);
   size_t left = still->count, to = still->count += more;
   for (size_t tail = c->touch_count; more; tail--) {

@@ -6,42 +6,44 @@
 #ifndef SW_TOUCH_LAW_H
 #define SW_TOUCH_LAW_H
 
+#include <stdbool.h>
+#include <stdint.h>
+
 #include "base/vec.h"
 
+/* Members that are used together lie together, because long lists are not in the cache. */
 typedef struct sw_press {
-  double gap;       /* gap of the surfaces at this iterate [m] */
-  double gap_after; /* gap after the last solve [m] */
-  double k;         /* stiffness, normal and tangential [N/m] */
-  double soft; /* friction's spring is softer than k by this factor (may be below 1); 0 = as stiff
-                  [-] */
-  double lag;  /* normal force used in friction [N] */
-  double lag_at_first; /* lag in the iterate's first solve [N] */
+  bool active : 1;       /* 1: pushes in this iterate */
+  bool sliding : 1;      /* assumed in this iterate */
+  bool next_sliding : 1; /* sliding after the last solve */
+  bool by_place : 1;     /* 1: friction's direction follows from the place; 0: it is an unknown */
+  bool let_go : 1;       /* 1: not active in the next iterate, at any gap */
+  bool take_on : 1;      /* 1: active in the next iterate, at any gap */
+  bool opened : 1;       /* 1: pushed until the refinement of this solve opened it */
+  uint8_t spare;         /* solves with a pull after which it still stays active [-] */
+  uint16_t alternations; /* sign changes of normal_force - lag up to the last iterate [-] */
+  uint16_t reversals;    /* with by_place: of the slide in this stage, or in statics with moved
+                            obstacles [-] */
+  double normal_force;   /* normal force after the last solve [N] */
+  double gap_after;      /* gap after the last solve [m] */
+  double lag;            /* normal force used in friction [N] */
+  double gap;            /* gap of the surfaces at this iterate [m] */
+  double k;              /* stiffness, normal and tangential [N/m] */
+  sw_vec normal;         /* direction of the push [-] */
+  double soft;           /* k over the stiffness of friction's spring; 0 = as stiff [-] */
+  double lag_at_first;   /* lag in the iterate's first solve [N] */
   double turning; /* while sliding: stiffness of friction against a turn of its direction [N/m] */
-  double normal_force;             /* normal force after the last solve [N] */
+  sw_vec trial;   /* tangential displacement from the anchor at this iterate [m] */
+  sw_vec shift;   /* shift by the last solve [m] */
+  double lift;    /* if opened: the force that cancels its pull [N] */
+  double off;     /* friction of the last solve minus friction by the law [N] */
+  sw_vec pulls;   /* minus friction over its limit, at the iterate's start [-] */
+  sw_vec ahead;   /* statics: friction is linearised at trial + ahead, along the surface [m] */
   double lag_before, force_before; /* lag and normal force one iterate earlier; 0 = not known [N] */
-  sw_vec normal;                   /* direction of the push [-] */
-  sw_vec carried;    /* the anchor's slide in the step up to this stage's start, by the stage's rule
-                        [m] */
-  sw_vec pulls;      /* minus friction over its limit, at the iterate's start [-] */
-  sw_vec trial;      /* tangential displacement from that anchor at this iterate [m] */
-  sw_vec ahead;      /* statics: friction is linearised at trial + ahead, along the surface [m] */
-  sw_vec tangential; /* friction force after the last solve [N] */
-  sw_vec next_pulls; /* pulls after the last solve [-] */
-  sw_vec shift;      /* shift by the last solve [m] */
-  sw_vec slip;       /* the anchor's slide in the step [m] */
-  int alternations;  /* sign changes of normal_force - lag up to the last iterate [-] */
-  int by_place;      /* 1: friction's direction follows from the place; 0: it is an unknown */
-  int reversals;    /* with by_place: reversals of the slide in this stage, or in statics with moved
-                       obstacles [-] */
-  double off;       /* friction of the last solve minus friction by the law [N] */
-  int active;       /* 1: pushes in this iterate */
-  int let_go;       /* 1: not active in the next iterate, at any gap */
-  int take_on;      /* 1: active in the next iterate, at any gap */
-  int opened;       /* 1: pushed until the refinement of this solve opened it */
-  double lift;      /* if opened: the force that cancels its pull [N] */
-  int spare;        /* solves with a pull after which it still stays active [-] */
-  int sliding;      /* assumed in this iterate */
-  int next_sliding; /* sliding after the last solve */
+  sw_vec tangential;               /* friction force after the last solve [N] */
+  sw_vec slip;                     /* the anchor's slide in the step [m] */
+  sw_vec next_pulls;               /* pulls after the last solve [-] */
+  sw_vec carried;                  /* slip up to this stage's start, by the stage's rule [m] */
 } sw_press;
 
 /* Stiffness of friction's spring [N/m]. */
