@@ -269,8 +269,8 @@ static void find_surface(const sw_contact *c, const sw_system *s, const sw_candi
   t->acts = sw_madd(t->acts, t->press.normal, sw_norm(t->edge) - radius);
 }
 
-/* 1 for a touch that pressed on a pad of a gripper in the last pose. Pads carry a wire along. By its
- * place alone it would lose one of two pads that move across it, and all friction with it, and
+/* 1 for a touch that pressed on a pad of a gripper in the last pose. Pads carry a wire along. By
+ * its place alone it would lose one of two pads that move across it, and all friction with it, and
  * fall: 9 of 15 cables laid on a table by pads were lost (spec/physics/poses_pads_spec). */
 static int is_carried(const sw_contact *c, const sw_candidate *k, const sw_memory *m) {
   return m && m->kept.normal_force > 0 && c->obstacles[k->obstacle].grips > 0;
