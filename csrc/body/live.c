@@ -9,6 +9,7 @@
 #include "body/body.h"
 #include "mutual/mutual.h"
 #include "scene/course.h"
+#include "scene/gripper.h"
 #include "scene/parts.h"
 #include "scene/wire.h"
 #include "system/system.h"
@@ -126,10 +127,17 @@ size_t sw_live_size(const sw_live *p) {
          p->grains_size + p->seen_size[0] + p->seen_size[1] + p->seen_size[2];
 }
 
+/* What slipped in grippers in the searches for this pose. A search that is given up slips nothing.
+ */
+static void tape_ways(sw_tape *tape, const sw_scene *s) {
+  SW_EACH(tool, t, s) sw_tape_vec(tape, &t->way), sw_tape_vec(tape, &t->swing);
+}
+
 sw_status sw_live_take(const sw_scene *s, sw_tape *out) {
   sw_live live = sw_live_of(s);
   *out = sw_tape_at_home(sw_live_size(&live) + 256, NULL);
   sw_tape_live(out, &live);
+  tape_ways(out, s);
   return out->status;
 }
 
@@ -138,6 +146,7 @@ sw_status sw_live_back(sw_scene *s, const sw_tape *taken, sw_error *err) {
   sw_tape t = sw_tape_read_home(taken, err);
   sw_tape_live(&t, &live);
   SW_TRY(t.status);
+  tape_ways(&t, s);
   return sw_live_put(s, &live, err);
 }
 

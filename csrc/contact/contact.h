@@ -79,8 +79,7 @@ sw_status sw_contact_clear(sw_contact *contact, sw_system *system, double t,
                            int (*is_new)(void *, size_t), void *user, sw_error *err);
 /* Call after the step: bodies on their way out of an obstacle must not stop. */
 void sw_contact_keep_moving(const sw_contact *contact, sw_system *system);
-/* Begins evaluations at the accepted state. A touch's stiffness is its last force over its depth.
- */
+/* Begins to evaluate the accepted state. A touch's stiffness is its last force over its depth. */
 sw_status sw_contact_begin_look(sw_contact *contact, sw_system *system, double t, sw_error *err);
 
 /* The system's coupling functions (see sw_coupling), user = the contact. */
@@ -138,17 +137,18 @@ sw_contact_verdict sw_contact_review(sw_contact *contact, sw_system *system, con
 double sw_contact_soonest(const sw_contact *contact); /* of a rebound, after the step's start [s] */
 /* Sets the earliest time at which a rebound may cut the step [s]. */
 void sw_contact_cut(sw_contact *contact, double least);
-/* A drive with which wires slide comes to rest soon: friction is then as stiff as a wire. */
+/* Call if a drive on which wires slide comes to rest soon: friction is then as stiff as a wire. */
 void sw_contact_brake(sw_contact *contact);
 /* Sets the wanted size of the part (substep) [s]. Touches that slowly get deeper in parts of this
  * size are stiffened as in whole steps. adaptive: 1: steps follow their error. */
 void sw_contact_ask(sw_contact *contact, double part, int adaptive);
 
+/* First guess of a pose: nodes (x) go with the pads that hold them, from the step's start. */
+sw_status sw_contact_carry(sw_contact *contact, const sw_system *system, double time, double *x,
+                           sw_error *err);
 /* Reviews a static solution x1. Segments that passed an obstacle are kept on their side from now
  * on. Returns 1 if there are any: solve again. */
 int sw_contact_review_static(sw_contact *contact, sw_system *system, const double *x1);
-/* First guess of a pose: nodes x that pads hold go where these carry them, from its start to t. */
-sw_status sw_contact_carry(sw_contact *c, const sw_system *s, double t, double *x, sw_error *err);
 /* Accepts the trial: stores friction anchors and sides for the next step. */
 void sw_contact_commit(sw_contact *contact, sw_system *system);
 
@@ -198,7 +198,7 @@ int sw_contact_shaken(const sw_contact *contact, const sw_system *system);
 #define SW_FACING (-0.7)
 /* A wire's weight; without gravity, its bending force EI/L^2 [N]. */
 double sw_contact_usual_force(const sw_system *system, const sw_plan *plan);
-/* From this force of a touch on a wire is squeezed or taut and cannot come out; 0: a mesh [N]. */
+/* From this force on a wire is squeezed or taut, and cannot come out; 0 for a mesh [N]. */
 double sw_contact_squeezing_force(const sw_system *system, const sw_plan *plan);
 /* Axial stiffness of the edge at a node; 0 for a mesh or a loose particle [N/m]. */
 double sw_contact_edge_stiffness(const sw_system *system, size_t body, size_t node);

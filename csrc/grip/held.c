@@ -6,6 +6,7 @@
 
 #include "base/alloc.h"
 #include "grip/frozen.h"
+#include "scene/drive.h"
 #include "scene/parts.h"
 #include "solve/dense.h"
 #include "system/system.h"
@@ -126,20 +127,42 @@ static void look_at_wire(const list *l, size_t first, size_t end, sw_held *out, 
  * line that bends change from step to step. This is the share of the largest inertia [-]. */
 static const double IDLE = 1e-2;
 
-sw_status sw_held_look(sw_scene *s, sw_tool *t, sw_held *out, sw_vec *slipped, sw_vec *turned,
-                       double *furthest, sw_error *err) {
+/* Reads the touches and their sums; l->touch is NULL if nothing presses. */
+static sw_status read_touches(sw_scene *s, sw_tool *t, list *l, sw_held *out, sw_error *err) {
   *out = (sw_held){0};
-  list l;
   turning w = {{0}, {{0}}};
-  if (make_list(sw_scene_contact(s), t, &l) != SW_OK)
+  if (make_list(sw_scene_contact(s), t, l) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "gripper '%s': out of memory for its touches", t->name);
-  if (!l.touch) return SW_OK;
-  collect(s, t, &l, out);
-  for (size_t first = 0, end; first < l.count; first = end) {
-    for (end = first + 1; end < l.count && l.body[end] == l.body[first];) end++;
-    look_at_wire(&l, first, end, out, &w);
+  if (!l->touch) return SW_OK;
+  collect(s, t, l, out);
+  for (size_t first = 0, end; first < l->count; first = end) {
+    for (end = first + 1; end < l->count && l->body[end] == l->body[first];) end++;
+    look_at_wire(l, first, end, out, &w);
   }
   if (sw_dense_least(&w.inertia[0][0], 3, w.moment, IDLE)) out->turn = sw_load(w.moment);
+  return SW_OK;
+}
+
+sw_status sw_held_search(sw_scene *s, sw_tool *t, sw_error *err) {
+  list l;
+  sw_held sum;
+  sw_motion_state at;
+  const sw_tool_state now = t->now;
+  SW_TRY(sw_drive_eval(s, &t->drive, sw_scene_time(s), &at, err));
+  t->now.centre = at.pose.p, t->now.q = at.pose.q;
+  const sw_status status = read_touches(s, t, &l, &sum, err);
+  t->now = now;
+  t->way = sw_add(t->way, sum.slip), t->swing = sw_add(t->swing, sum.turn);
+  t->searched = 1;
+  return status;
+}
+
+sw_status sw_held_look(sw_scene *s, sw_tool *t, sw_held *out, sw_vec *slipped, sw_vec *turned,
+                       double *furthest, sw_error *err) {
+  list l;
+  SW_TRY(read_touches(s, t, &l, out, err));
+  if (!l.touch) return SW_OK;
+  if (t->searched) out->slip = t->way, out->turn = t->swing;
   *slipped = sw_add(*slipped, out->slip), *turned = sw_add(*turned, out->turn);
   *furthest = 0;
   for (size_t k = 0; k < l.count; k++)

@@ -26,5 +26,8 @@ int sw_held_finger(const sw_contact *contact, const sw_tool *tool, size_t k);
  * both [m], as it was if nothing presses. SW_ENOMEM. */
 sw_status sw_held_look(sw_scene *scene, sw_tool *tool, sw_held *out, sw_vec *slipped,
                        sw_vec *turned, double *furthest, sw_error *err);
+/* Call when a search for a pose has taken a step: adds the slip and turn of that step to t->way and
+ * t->swing. Touches know the slip of the last step only. SW_ENOMEM and errors of its motion. */
+sw_status sw_held_search(sw_scene *scene, sw_tool *tool, sw_error *err);
 
 #endif

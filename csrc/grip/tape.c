@@ -35,7 +35,7 @@ static void tape_tool_state(sw_tape *t, sw_tool_state *x) {
 }
 
 void sw_tape_tool(sw_tape *t, sw_scene *s, sw_tool *x) {
-  SW_TAPE_STRUCT(t, sw_tool, 928); /* room is a growing buffer */
+  SW_TAPE_STRUCT(t, sw_tool, 984); /* room is a growing buffer; way to searched last a pose */
   UINT32(generation), INT(alive), NAME(name);
   sw_tape_drive(t, s, &x->drive);
   sw_tape_jaw(t, &x->jaw);

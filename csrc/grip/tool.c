@@ -278,6 +278,7 @@ sw_status sw_tool_observe(sw_scene *s, sw_error *err) {
       margin = hold_frozen(s, t, force, moment);
     else
       SW_TRY(hold_now(s, t, &margin, err));
+    t->way = t->swing = sw_v(0, 0, 0), t->searched = 0;
     SW_TRY(sw_tool_look_out(s, k, err));
     row[SW_LOG_TIME] = sw_scene_time(s);
     sw_store(row + SW_LOG_FORCE, force);

@@ -92,6 +92,9 @@ typedef struct sw_tool {
   sw_frozen *frozen; /* or NULL */
   double limit;      /* margin at which a frozen grip is lost [-] */
   sw_tool_state now; /* of the accepted state */
+  sw_vec way, swing; /* slip and turn in the searches for the pose that is not accepted yet, in the
+                        tool's axes; not stored [m], [rad] */
+  int searched;      /* 1: those contain the slips of the present touches */
   double tolerance;  /* slip above this is an event [m] */
   int stops;         /* 1: a run ends with the step in which the wire slips */
   sw_crash crash;    /* the last one */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "body/touching.h"
+#include "grip/held.h"
 #include "scene/parts.h"
 #include "scene/wire.h"
 #include "state/mesh.h"
@@ -15,6 +16,26 @@
 
 enum { MOST_REDOS = 20 };
 static const double FIRST_PSEUDO_STEP = 0.02; /* of sqrt(length/g) [-] */
+
+enum { NUMBERS = 6 }; /* of a tool's slip and turn [-] */
+
+size_t sw_rest_room(const sw_scene *s) {
+  return sw_scene_system(s)->state_size + NUMBERS * sw_scene_tool_slots(s);
+}
+
+void sw_rest_put_aside(const sw_scene *s, double *kept) {
+  const sw_system *system = sw_scene_system(s);
+  memcpy(kept, system->state, system->state_size * sizeof(double));
+  double *at = kept + system->state_size;
+  SW_EACH(tool, t, s) sw_store(at, t->way), sw_store(at + 3, t->swing), at += NUMBERS;
+}
+
+void sw_rest_take_back(sw_scene *s, const double *kept) {
+  const sw_system *system = sw_scene_system(s);
+  memcpy(system->state, kept, system->state_size * sizeof(double));
+  const double *at = kept + system->state_size;
+  SW_EACH(tool, t, s) t->way = sw_load(at), t->swing = sw_load(at + 3), at += NUMBERS;
+}
 
 double sw_rest_longest(const sw_scene *s) {
   double length = 0;
@@ -99,6 +120,9 @@ double sw_rest_take(sw_statics *p, int trial) {
   sw_system_strain_from_state(system);
   if (trial) return shift;
   sw_scene_commit_contact(s);
+  sw_error why; /* the sum of slips is then too small, as where memory is lost */
+  SW_EACH(tool, t, s)
+    if (p->args->poses && t->alive && t->pads) (void)sw_held_search(s, t, &why);
   p->touched = sw_scene_time(s);
   return shift;
 }

@@ -263,5 +263,8 @@ sw_status sw_scene_cut_pose(sw_scene *s, double *t1, int *cut, sw_error *err) {
 
 sw_status sw_scene_pose(sw_scene *s, double t1, const sw_pose_args *how, sw_run_report *report,
                         sw_error *err) {
-  return pose(s, t1, MOST_HALVINGS, how, report, err);
+  const sw_status status = pose(s, t1, MOST_HALVINGS, how, report, err);
+  SW_EACH(tool, t, s)
+    if (status != SW_OK) t->way = t->swing = sw_v(0, 0, 0), t->searched = 0;
+  return status;
 }

@@ -243,7 +243,7 @@ double sw_rest_shift_from(const sw_statics *p, const double *before) {
 sw_status sw_scene_rest(sw_scene *s, double since, int *too_far, const sw_settle_args *args,
                         int (*interrupted)(void), sw_settle_report *report, sw_error *why) {
   sw_system *system = sw_scene_system(s);
-  const size_t n = system->freedoms, size = system->state_size;
+  const size_t n = system->freedoms, size = sw_rest_room(s);
   double *block SW_LOCAL = sw_alloc(5 * n + system->edges + 2 * size, sizeof *block);
   sw_pose *poses SW_LOCAL = sw_alloc(system->hold_count, sizeof *poses);
   if (!block || !poses)

@@ -4,8 +4,6 @@
 #ifndef SW_STEP_STATICS_H
 #define SW_STEP_STATICS_H
 
-#include <string.h>
-
 #include "scene/parts.h"
 #include "step/step.h"
 #include "system/system.h"
@@ -33,14 +31,11 @@ typedef struct sw_statics {
   sw_pose *from_poses;         /* (holds) poses of the holds at the start */
 } sw_statics;
 
-/* Stores the state during a solve, and restores it. */
-static inline void sw_rest_put_aside(const sw_scene *s, double *kept) {
-  memcpy(kept, sw_scene_system(s)->state, sw_scene_system(s)->state_size * sizeof(double));
-}
-
-static inline void sw_rest_take_back(sw_scene *s, const double *kept) {
-  memcpy(sw_scene_system(s)->state, kept, sw_scene_system(s)->state_size * sizeof(double));
-}
+/* Returns the room that a stored state takes [numbers]. */
+size_t sw_rest_room(const sw_scene *scene);
+/* Stores the state during a solve, and what slipped in grippers before; restores both. */
+void sw_rest_put_aside(const sw_scene *scene, double *kept);
+void sw_rest_take_back(sw_scene *scene, const double *kept);
 
 enum { SW_REST_ITERATIONS = 60 }; /* usual limit of Newton iterations [-] */
 /* An unstable direction counts as neutral if its disturbance needs longer than this to grow, over
