@@ -23,7 +23,7 @@ end
 
 -- Adds what holds the wire, with its place and orientation, to the list.
 local function add(list, wire, object, pads, at, q)
-  local s, distance = stand.nearest_place(wire, at)
+  local s, distance = core.nearest_place(wire, at)
   if distance > 2 * wire.radius then return end
   list[#list + 1] = { object = object, grips = pads and object.grips, pads = pads, s = s, q = q }
 end
@@ -47,32 +47,6 @@ local function neighbours(self, wire, s)
   return before, after
 end
 
--- Returns the unit tangents of the wire's edges from s1 to s2, in this order.
-local function tangents(wire, s1, s2)
-  local x, s = wire:positions()
-  local list, back = {}, s1 > s2
-  for i = 1, #s - 1 do
-    if s[i + 1] > math.min(s1, s2) and s[i] < math.max(s1, s2) then
-      local k = 3 * i
-      list[#list + 1] = vec.unit{ x[k + 1] - x[k - 2], x[k + 2] - x[k - 1], x[k + 3] - x[k] }
-    end
-  end
-  if back then
-    for i = 1, #list // 2 do list[i], list[#list + 1 - i] = list[#list + 1 - i], list[i] end
-  end
-  return list
-end
-
--- Carries u, across the first tangent, along the tangents without twist.
-local function carried(u, along)
-  u = vec.across(u, along[1])
-  for i = 2, #along do
-    local a, b = along[i - 1], along[i]
-    u = vec.add(u, vec.add(a, b), -vec.dot(u, b) / math.max(1e-9, 1 + vec.dot(a, b)))
-  end
-  return u
-end
-
 -- Returns how far the angle of a record has turned since its first look [rad].
 local function turned(seen, angle)
   seen.angle = seen.angle or angle
@@ -84,11 +58,9 @@ local CLOSES = { 0, 1, 0 } -- pads close along it; the wire stays across it, how
 
 -- Returns the turn of a hold against the pads since the first look [rad]. seen: what that look found.
 local function turn_of(self, wire, s, hold, seen)
-  local along = tangents(wire, s, hold.s)
-  if #along == 0 then return 0 end
   local _, q = self.tool:pose()
-  local last = along[#along]
-  local u = carried(vec.rotate(q, CLOSES), along)
+  local u, last = core.carried(wire, s, hold.s, vec.rotate(q, CLOSES))
+  if not u then return 0 end
   seen.theirs = seen.theirs or hold.pads and CLOSES or vec.rotate(vec.conjugate(hold.q), u)
   local v = vec.across(vec.rotate(hold.q, seen.theirs), last)
   return turned(seen, math.atan(vec.dot(vec.cross(u, v), last), vec.dot(u, v)))
@@ -153,7 +125,7 @@ function untwisted.look(self)
   local seen, wire = records[self], self.wire
   if not seen or seen.grips ~= self.grips or self.scene.time < seen.time then seen = begin(self) end
   if seen.told or self.frozen then return end
-  local s = stand.nearest_place(wire, (self.tool:pose()))
+  local s = core.nearest_place(wire, (self.tool:pose()))
   local across = core.across(wire, s)
   if across then return look_at_frames(self, wire, s, across, seen) end
   local before, after = neighbours(self, wire, s)
@@ -165,7 +137,7 @@ end
 function untwisted.turns(self, turn)
   local seen, wire = records[self], self.wire
   if not seen or seen.told or not wire then return end
-  local along = vec.dot(vec.unit(turn.axis), wire:tangent(stand.nearest_place(wire, (self.tool:pose()))))
+  local along = vec.dot(vec.unit(turn.axis), wire:tangent(core.nearest_place(wire, (self.tool:pose()))))
   seen.whole = math.abs(turn.angle * along) > math.pi
 end
 
