@@ -1,16 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Peaks and loads of recorded steps. Lists are flat. */
+#include <stdint.h>
+
 #include "bind/child.h"
 #include "bind/class.h"
 
 static double item(lua_State *L, int index, size_t i) {
+  int known;
   lua_rawgeti(L, index, (lua_Integer)i + 1);
-  const double x = lua_tonumber(L, -1);
+  const double x = lua_tonumberx(L, -1, &known);
+  if (!known)
+    luaL_error(L, "list %d: item %I must be a number, got %s", index, (LUAI_UACINT)i + 1,
+               luaL_typename(L, -1));
   lua_pop(L, 1);
   return x;
 }
 
+/* The length of a list with holes may be any number. */
 static void *room(lua_State *L, size_t count, size_t size) {
+  if (count > SIZE_MAX / size) luaL_error(L, "the list is too long");
   return lua_newuserdatauv(L, (count ? count : 1) * size, 0);
 }
 
@@ -132,7 +140,7 @@ static sw_load_row *rows_at(lua_State *L, size_t *count) {
 
 static double *held_at(lua_State *L, size_t *spans) {
   *spans = groups_at(L, HELD, 2);
-  double *out = room(L, 2 * *spans, sizeof *out);
+  double *out = room(L, *spans, 2 * sizeof *out);
   for (size_t i = 0; i < 2 * *spans; i++) out[i] = item(L, HELD, i);
   return out;
 }

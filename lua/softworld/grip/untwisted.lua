@@ -22,20 +22,21 @@ local function is_plain(wire)
 end
 
 -- Adds what holds the wire, with its place and orientation, to the list.
-local function add(list, wire, object, at, q)
-  local s, distance = stand.nearest_place(wire, at)
-  if distance <= 2 * wire.radius then list[#list + 1] = { object = object, s = s, q = q } end
+local function add(list, wire, object, pads, at, q)
+  local s, distance = core.nearest_place(wire, at)
+  if distance > 2 * wire.radius then return end
+  list[#list + 1] = { object = object, grips = pads and object.grips, pads = pads, s = s, q = q }
 end
 
 -- Returns the nearest holds before and after s that keep the wire from turning.
 local function neighbours(self, wire, s)
   local list, data = {}, build.data(self.scene)
   for _, g in ipairs(data.grippers) do
-    if g ~= self and g.tool and g.held and not g.left then add(list, wire, g, g.tool:pose()) end
+    if g ~= self and g.tool and g.held and not g.left then add(list, wire, g, true, g.tool:pose()) end
   end
   for _, h in ipairs(data.holds) do
     if keeps[h.kind] and core.exists(h.object) and h.object.held then
-      add(list, wire, h.object, h.object:pose())
+      add(list, wire, h.object, false, h.object:pose())
     end
   end
   local before, after
@@ -43,53 +44,26 @@ local function neighbours(self, wire, s)
     if h.s < s and not (before and before.s > h.s) then before = h end
     if h.s > s and not (after and after.s < h.s) then after = h end
   end
-  return { before, after }
+  return before, after
 end
 
--- Returns the unit tangents of the wire's edges from s1 to s2, in this order.
-local function tangents(wire, s1, s2)
-  local x, s = wire:positions()
-  local list, back = {}, s1 > s2
-  for i = 1, #s - 1 do
-    if s[i + 1] > math.min(s1, s2) and s[i] < math.max(s1, s2) then
-      local k = 3 * i
-      list[#list + 1] = vec.unit{ x[k + 1] - x[k - 2], x[k + 2] - x[k - 1], x[k + 3] - x[k] }
-    end
-  end
-  if back then
-    for i = 1, #list // 2 do list[i], list[#list + 1 - i] = list[#list + 1 - i], list[i] end
-  end
-  return list
+-- Returns how far the angle of a record has turned since its first look [rad].
+local function turned(seen, angle)
+  seen.angle = seen.angle or angle
+  local turn = math.abs(angle - seen.angle)
+  return math.min(turn, 2 * math.pi - turn)
 end
 
--- Carries u, across the first tangent, along the tangents without twist.
-local function carried(u, along)
-  u = vec.across(u, along[1])
-  for i = 2, #along do
-    local a, b = along[i - 1], along[i]
-    u = vec.add(u, vec.add(a, b), -vec.dot(u, b) / math.max(1e-9, 1 + vec.dot(a, b)))
-  end
-  return u
-end
+local CLOSES = { 0, 1, 0 } -- pads close along it; the wire stays across it, however it swings between them
 
 -- Returns the turn of a hold against the pads since the first look [rad]. seen: what that look found.
 local function turn_of(self, wire, s, hold, seen)
-  local along = tangents(wire, s, hold.s)
-  if #along == 0 then return 0 end
   local _, q = self.tool:pose()
-  local last = along[#along]
-  if not seen.ours then
-    local across = vec.unit(vec.across({ 0, 0, 1 }, along[1]))
-    if not across or vec.norm(vec.across({ 0, 0, 1 }, along[1])) < 0.3 then
-      across = vec.unit(vec.across({ 1, 0, 0 }, along[1]))
-    end
-    seen.ours = vec.rotate(vec.conjugate(q), across)
-    seen.theirs = vec.rotate(vec.conjugate(hold.q), carried(across, along))
-    return 0
-  end
-  local u = carried(vec.rotate(q, seen.ours), along)
+  local u, last = core.carried(wire, s, hold.s, vec.rotate(q, CLOSES))
+  if not u then return 0 end
+  seen.theirs = seen.theirs or hold.pads and CLOSES or vec.rotate(vec.conjugate(hold.q), u)
   local v = vec.across(vec.rotate(hold.q, seen.theirs), last)
-  return math.atan(vec.dot(vec.cross(u, v), last), vec.dot(u, v))
+  return turned(seen, math.atan(vec.dot(vec.cross(u, v), last), vec.dot(u, v)))
 end
 
 local WAY = "Give the wire rolls = true, or grasp it imposed"
@@ -105,11 +79,8 @@ end
 local function look_at_frames(self, wire, s, across, seen)
   local _, q = self.tool:pose()
   local t = wire:tangent(s)
-  local ours = vec.across(vec.rotate(q, { 0, 1, 0 }), t)
-  local angle = math.atan(vec.dot(vec.cross(ours, across), t), vec.dot(ours, across))
-  seen.angle = seen.angle or angle
-  local turn = math.abs(angle - seen.angle)
-  turn = math.min(turn, 2 * math.pi - turn)
+  local ours = vec.across(vec.rotate(q, CLOSES), t)
+  local turn = turned(seen, math.atan(vec.dot(vec.cross(ours, across), t), vec.dot(ours, across)))
   if turn <= TOLD then return end
   seen.told = true
   self.scene:tell{ kind = "untwisted", object = self.name, s = s, value = turn, text = ("wire '%s' has "
@@ -132,35 +103,41 @@ local function begin(self)
   return records[self]
 end
 
+-- Looks at the nearest hold (nil: there is none) on one side of s. Its turn counts from its grasp on.
+local function look_at_hold(self, wire, s, hold, seen, side)
+  local last = seen[side]
+  if not hold or seen.told then seen[side] = nil return end
+  if not last or last.object ~= hold.object or last.grips ~= hold.grips then
+    last = { object = hold.object, grips = hold.grips }
+    seen[side] = last
+  end
+  local whole = seen.whole and last.q and rests(last.q, hold.q)
+  last.q = hold.q
+  if turn_of(self, wire, s, hold, last) <= TOLD and not (whole and not stand.is_moving(self)) then return end
+  local other = records[hold.object]
+  seen.told = true
+  if not (other and other.grips == hold.object.grips and other.told) then tell(self, wire, hold) end
+end
+
 --- Looks at the turns of a gripper whose pads hold a wire. They count from the first look since the grasp;
 -- after a resume from a file, from there.
 function untwisted.look(self)
   local seen, wire = records[self], self.wire
   if not seen or seen.grips ~= self.grips or self.scene.time < seen.time then seen = begin(self) end
   if seen.told or self.frozen then return end
-  local s = stand.nearest_place(wire, (self.tool:pose()))
+  local s = core.nearest_place(wire, (self.tool:pose()))
   local across = core.across(wire, s)
   if across then return look_at_frames(self, wire, s, across, seen) end
-  for side, hold in pairs(neighbours(self, wire, s)) do
-    local last = seen[side]
-    if not last or last.object ~= hold.object then last = { object = hold.object } end
-    seen[side] = last
-    local whole = seen.whole and last.q and rests(last.q, hold.q)
-    last.q = hold.q
-    if math.abs(turn_of(self, wire, s, hold, last)) > TOLD or whole and not stand.is_moving(self) then
-      local other = records[hold.object]
-      seen.told = true
-      if not (other and other.grips == hold.object.grips and other.told) then tell(self, wire, hold) end
-      return
-    end
-  end
+  local before, after = neighbours(self, wire, s)
+  look_at_hold(self, wire, s, before, seen, "before")
+  look_at_hold(self, wire, s, after, seen, "after")
 end
 
 --- Notes that a move begins which turns the gripper. Looks may be too far apart to see a whole turn.
 function untwisted.turns(self, turn)
   local seen, wire = records[self], self.wire
   if not seen or seen.told or not wire then return end
-  local along = vec.dot(vec.unit(turn.axis), wire:tangent(stand.nearest_place(wire, (self.tool:pose()))))
+  local along = vec.dot(vec.unit(turn.axis), wire:tangent(core.nearest_place(wire, (self.tool:pose()))))
   seen.whole = math.abs(turn.angle * along) > math.pi
 end
 
