@@ -212,9 +212,9 @@ static sw_status pose(sw_scene *s, double t1, int halvings, const sw_pose_args *
   return status;
 }
 
-/* Largest shift of pads with a wire from one pose to the next, over the thinnest wire's radius. With
- * 16 times as much a laying costs as many iterations in all, and friction on the table follows the
- * way less well: forces differ by 0.5 % (spec/physics/poses_pads_spec) [-]. */
+/* Largest shift of pads with a wire from one pose to the next, over the thinnest wire's radius.
+ * With 16 times as much a laying costs as many iterations in all, and friction on the table follows
+ * the way less well: forces differ by 0.5 % (spec/physics/poses_pads_spec) [-]. */
 static const double WIDEST_SHIFT = 0.5;
 
 /* Returns the largest distance from a tool's centre at which it presses [m]. */
