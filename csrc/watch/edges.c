@@ -97,6 +97,16 @@ static double false_tension(const sw_scene *s, const sw_body *b, double T) {
   return fmin(most, T);
 }
 
+/* 1 if the wire's node is in a feed that obeys a force: its tension is that force, on any path. */
+static int obeys(const sw_scene *s, const sw_body *b, size_t node) {
+  SW_EACH(hold, h, s) {
+    if (&sw_scene_system(s)->bodies[h->wire] != b || h->node != node) continue;
+    const sw_slip *slip = h->cls->hold->slips ? h->cls->hold->slips(h) : NULL;
+    if (slip && isfinite(slip->push)) return 1;
+  }
+  return 0;
+}
+
 /* Returns the same for a wire that lies on a round side as it was drawn, and is straight elsewhere:
  * its edges are chords, shorter than the arcs there that touches take them for (contact/arc.h) [N].
  */
@@ -104,10 +114,13 @@ static double drawn_tension(const sw_scene *s, const sw_body *b, double T) {
   const sw_plan *p = b->plan;
   const double *x = sw_scene_system(s)->x;
   double most = 0, less = 0, on = 0, off = 0; /* [N], [m], [rad] */
+  int yields = 0;                             /* 1: this stretch begins in such a feed */
   if (!p->drawn_arc) return 0;
   for (size_t i = 0, from = p->nodes; i < p->nodes; i++) {
     if (p->held[i] != SW_FREE) {
-      if (i > from + 1 && off < LITTLE * on)
+      const int before = yields;
+      yields = obeys(s, b, i);
+      if (i > from + 1 && off < LITTLE * on && !before && !yields)
         most = fmax(most, b->EA * less / (p->s[i] - p->s[from]));
       from = i, less = on = off = 0;
       continue;
