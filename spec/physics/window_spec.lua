@@ -19,7 +19,7 @@ end
 describe("the largest mean over a window", function()
   it("is exact for a constant force, in uneven steps", function()
     for seed = 1, 20 do
-      local p = window.peak(steps(uneven(seed, 300, 1e-6, 2e-3), function() return -7 end), W)
+      local p = windowed.peak(steps(uneven(seed, 300, 1e-6, 2e-3), function() return -7 end), W)
       t.share(7, p.value, 1e-12, "mean")
       t.share(7, p.raw, 1e-15, "raw")
       assert.is_nil(p.whole)
@@ -29,12 +29,12 @@ describe("the largest mean over a window", function()
   it("loses as little of a ramp as help says", function()
     for _, h in ipairs{ 1e-3, 1e-4 } do
       for _, T in ipairs{ 0.25, 0.5, 2 } do
-        local up = window.peak(steps(even(h, T), function(time) return time / T end), W).value
+        local up = windowed.peak(steps(even(h, T), function(time) return time / T end), W).value
         t.near(1 - W / (2 * T), up, 1e-9, "ends on top")
         t.above(0.98 - 1e-9, up, "ends on top")
-        local stays = window.peak(steps(even(h, T + W), function(time) return math.min(1, time / T) end), W)
+        local stays = windowed.peak(steps(even(h, T + W), function(time) return math.min(1, time / T) end), W)
         t.near(1, stays.value, 1e-9, "stays")
-        local falls = window.peak(steps(even(h, 2 * T), function(time)
+        local falls = windowed.peak(steps(even(h, 2 * T), function(time)
           return 1 - math.abs(time - T) / T
         end), W).value
         t.near(1 - W / (4 * T), falls, 1e-9, "falls again")
@@ -49,7 +49,7 @@ describe("the largest mean over a window", function()
         list[77] = span
         local before = 0
         for i = 1, 76 do before = before + list[i] end
-        local p = window.peak(steps(list, function(time)
+        local p = windowed.peak(steps(list, function(time)
           return time > before and time < before + span and 0.3 / span or 0
         end), W)
         t.share(0.3 / W, p.value, 1e-9, "mean")
@@ -60,32 +60,32 @@ describe("the largest mean over a window", function()
   end)
 
   it("is a step's own force where steps are longer than the window, and says so", function()
-    local p = window.peak(steps({ 0.02, 0.02, 0.02 }, function(time) return time end), W)
+    local p = windowed.peak(steps({ 0.02, 0.02, 0.02 }, function(time) return time end), W)
     t.near(0.05, p.value, 1e-15, "value")
     assert.are.equal("50 mN (raw, in one step of 20 ms; the window is 10 ms)", window.text(p, "N"))
-    p = window.peak({ { t0 = 1, t1 = 1, 3, 4, 0 } }, W)
+    p = windowed.peak({ { t0 = 1, t1 = 1, 3, 4, 0 } }, W)
     assert.are.equal("5 N (at rest)", window.text(p, "N"))
   end)
 
   it("is the mean of the whole record where that is shorter, and says so", function()
-    local p = window.peak(steps({ 1e-3, 2e-3, 1e-3 }, function(time) return time < 1e-3 and 10 or 2 end), W)
+    local p = windowed.peak(steps({ 1e-3, 2e-3, 1e-3 }, function(time) return time < 1e-3 and 10 or 2 end), W)
     t.near(4, p.value, 1e-12, "mean of all")
     assert.are.equal("4 N (mean of all 4 ms; raw 10 N in 1 ms)", window.text(p, "N"))
   end)
 
   it("is raw without a window", function()
-    local p = window.peak(steps({ 4e-4, 1e-3 }, function(time) return time < 4e-4 and 41 or 0 end), 0)
+    local p = windowed.peak(steps({ 4e-4, 1e-3 }, function(time) return time < 4e-4 and 41 or 0 end), 0)
     assert.are.equal("41 N (raw, in 400 us)", window.text(p, "N"))
-    p = window.peak({}, W)
+    p = windowed.peak({}, W)
     assert.are.same({ 0, 0 }, { p.value, p.raw })
   end)
 
   it("is a mean of vectors, without force in gaps", function()
     local list = {}
     for i = 0, 99 do list[i + 1] = { t0 = i * 1e-3, t1 = (i + 1) * 1e-3, i % 2 == 0 and 5 or -5, 0, 0 } end
-    t.near(0, window.peak(list, W).value, 0.5 + 1e-9, "to and fro")
+    t.near(0, windowed.peak(list, W).value, 0.5 + 1e-9, "to and fro")
     list = { { t0 = 0, t1 = 0.004, 5, 0, 0 }, { t0 = 0.006, t1 = 0.01, 5, 0, 0 } }
-    t.near(4, window.peak(list, W).value, 1e-9, "8 of 10 ms")
+    t.near(4, windowed.peak(list, W).value, 1e-9, "8 of 10 ms")
   end)
 
   it("equals the best of all windows tried", function()
@@ -100,7 +100,7 @@ describe("the largest mean over a window", function()
         end
         best = math.max(best, math.abs(sum) / W)
       end
-      local p = window.peak(list, W)
+      local p = windowed.peak(list, W)
       t.near(best, p.value, 0.01, "tried")
       t.above(best - 1e-12, p.value, "tried")
     end

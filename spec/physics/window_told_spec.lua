@@ -88,7 +88,7 @@ end)
 describe("a blow of few steps", function()
   -- A pulse of 8 ms on a small steady force, in even steps; and forces that are steady.
   local function peak(h, f)
-    return window.peak(steps(even(h, 0.2), f), W)
+    return windowed.peak(steps(even(h, 0.2), f), W)
   end
   local function blow(time) return time > 0.1 and time < 0.108 and 5 or 0.5 end
 

@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Steps of given lengths with their forces, for specs of windows.
 package.path = "./?.lua;" .. package.path
+local core = require "softworld.core"
 
 -- Returns steps of these lengths, one after another, with the force f at each one's middle.
 local function steps(lengths, f)
@@ -19,4 +20,13 @@ local function even(h, duration)
   return list
 end
 
-return { steps = steps, even = even }
+-- Returns the peak of such steps over windows of this width [s].
+local function peak(list, width)
+  local flat = {}
+  for _, step in ipairs(list) do
+    table.move({ step.t0, step.t1, step[1], step[2], step[3] }, 1, 5, #flat + 1, flat)
+  end
+  return core.peak(flat, width)
+end
+
+return { steps = steps, even = even, peak = peak }
