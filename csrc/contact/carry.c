@@ -11,12 +11,11 @@
 #include "contact/contact.h"
 #include "contact/touch.h"
 
-/* Returns the number of the pad that a remembered touch pressed on with its wanted force, or -1. */
+/* Returns the number of the pad that a remembered touch pressed on, or -1. */
 static int holds(const sw_contact *c, const sw_memory *m) {
   if (!(m->kept.normal_force > 0)) return -1;
   const size_t o = sw_contact_index(c, m->obstacle);
-  const double grips = o < c->count ? c->obstacles[o].grips : 0.0;
-  return grips > 0 && grips < HUGE_VAL ? (int)o : -1;
+  return o < c->count && c->obstacles[o].grips > 0 ? (int)o : -1;
 }
 
 /* Nodes at such touches, from low to high; low > high: there are none. */

@@ -269,13 +269,6 @@ static void find_surface(const sw_contact *c, const sw_system *s, const sw_candi
   t->acts = sw_madd(t->acts, t->press.normal, sw_norm(t->edge) - radius);
 }
 
-/* 1 for a touch that pressed on a pad of a gripper in the last pose. Pads carry a wire along. By
- * its place alone it would lose one of two pads that move across it, and all friction with it, and
- * fall: 9 of 15 cables laid on a table by pads were lost (spec/physics/poses_pads_spec). */
-static int is_carried(const sw_contact *c, const sw_candidate *k, const sw_memory *m) {
-  return m && m->kept.normal_force > 0 && c->obstacles[k->obstacle].grips > 0;
-}
-
 /* Decides whether a touch presses in this iterate. */
 static void activate(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                      const sw_memory *m, const sw_touch *last, sw_press *press) {
@@ -284,7 +277,7 @@ static void activate(const sw_contact *c, const sw_system *s, const sw_candidate
   if (still && m && web && web->per_ring) press->spare = SPARE_PULLS;
   sw_press_activate(press, goes_on(c, k, press, last) ? &last->press : NULL);
   if (!still || last || web || press->active) return;
-  press->active = sw_press_lies(press) || is_carried(c, k, m); /* it may carry the whole wire */
+  press->active = sw_press_lies(press); /* this touch may carry the whole wire */
 }
 
 /* Sets the distance of the wire's arc outside its chord or smooth curve. */

@@ -8,9 +8,10 @@ local sw = require "softworld"
 local t = require "spec.physics.tools"
 
 -- Lifts the end of a cable by 0.1 m, then lowers it and moves it aside by `aside` for each half of the
--- height. approach, force: of the grasp, nil for a rigid grip. Returns the forces of the hand [N] after
--- each part, the place of the other end [m], and the run.
-local function laid(case, approach, force)
+-- height. approach, force: of the grasp, nil for a rigid grip; share: distance of the pads over the
+-- diameter, instead of a force. Returns the forces of the hand [N] after each part, the place of the other
+-- end [m], and the run.
+local function laid(case, approach, force, share)
   local scene = sw.scene{}
   local c, s = math.cos(case.yaw), math.sin(case.yaw)
   local function at(x, y, z) return { c * x - s * y, s * x + c * y, z } end
@@ -22,7 +23,8 @@ local function laid(case, approach, force)
   local hand = scene:gripper{ name = "hand", pads = { width = 0.02, height = 0.01, friction = 0.5 } }
   local forces = {}
   scene:process(function()
-    hand:grasp(wire, { s = case.turned and 0.03 or 0.37, approach = approach, force = force })
+    hand:grasp(wire, { s = case.turned and 0.03 or 0.37, approach = approach, force = force,
+      distance = share and share * 2 * r })
     hand:move{ by = at(-0.05, 0, 0.1), duration = 2 }
     forces[1] = hand:force()
     hand:move{ by = at(0, case.aside, -0.05), duration = 2, law = "linear" }
@@ -45,13 +47,17 @@ describe("pads in poses", function()
         local case = { cable = row[1], dt = row[2], friction = way[1], segments = way[2], aside = way[3],
           yaw = way[4], turned = way[5] }
         local what = ("%s, way %d"):format(case.cable, k)
-        local forces, place, run = laid(case, "plates", 10)
         local rigid, there = laid(case)
-        for i = 1, 2 do -- pads hold 20 mm, a rigid grip one place: the bend beside them differs
-          t.below(0.05 * rigid[i]:norm(), (forces[i] - rigid[i]):norm(), what .. ": force " .. i)
+        local function check(how, ...) -- with a force, or at a distance between the pads
+          local forces, place, run = laid(case, "plates", ...)
+          for i = 1, 2 do -- pads hold 20 mm, a rigid grip one place: the bend beside them differs
+            t.below(0.05 * rigid[i]:norm(), (forces[i] - rigid[i]):norm(), what .. how .. ": force " .. i)
+          end
+          t.below(2e-3, (place - there):norm(), what .. how .. ": place of the other end")
+          t.below(20000, run.iterations, what .. how .. ": iterations")
         end
-        t.below(2e-3, (place - there):norm(), what .. ": place of the other end")
-        t.below(20000, run.iterations, what .. ": iterations")
+        check(", force", 10)
+        if k < 3 then check(", distance", nil, 0.95) end
       end
     end)
   end
