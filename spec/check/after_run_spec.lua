@@ -96,6 +96,22 @@ describe("run:check where nothing was computed", function()
     assert.is_nil(row.s)
     assert.is_nil(row.time)
   end)
+
+  it("fails a check whose place or time is no number, such as a vector", function()
+    local scene = hung()
+    local run = scene:run { duration = 0.05 }
+    local function row_of(s, time)
+      return run:check { checks = { { name = "x", unit = "m", max = 1,
+        of = function() return 0.5, s, time end } } }:row "x"
+    end
+    local row = row_of(scene:find "cable":position(0))
+    assert.equal("FAIL", row.verdict)
+    assert.matches("must return a place along the wire %[m%] as its second value, or nil, got ", row.note)
+    row = row_of(0.1, "late")
+    assert.equal("FAIL", row.verdict)
+    assert.matches("must return a time %[s%] as its third value, or nil, got ", row.note)
+    assert.equal("PASS", row_of(nil, 0.05).verdict)
+  end)
 end)
 
 describe("run:check of checks of one's own", function()

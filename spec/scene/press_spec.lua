@@ -152,4 +152,38 @@ describe("gripper:press", function()
     assert.equal("replaced", run.events[1].kind)
     assert.equal(1, #run.events)
   end)
+
+  -- The tool is set back from a hard stop: the move was overridden, without a word.
+  it("that is set back leaves a move of another process alone", function()
+    for _, after in ipairs{ 0.005, 0.05, 0.1 } do
+      local scene = sw.scene{ name = "overridden", gravity = { 0, 0, 0 } }
+      scene:obstacle{ name = "stop", shape = "sphere", radius = 0.05, at = { 0.06, 0, 0 } }
+      local wire = scene:wire{ name = "wire", cable = "H07V-K 4", from = { 0, 0, 0 }, to = { -0.3, 0, 0 },
+        segments = 40 }
+      scene:force{ kind = "damping", on = wire, mass = 3, stiffness = 0.002 }
+      local hand = scene:gripper{ name = "hand" }
+      local there, ended, begun, from, to
+      scene:process(function(p)
+        hand:grasp(wire, { s = 0.06 })
+        there = select(3, hand:press{ direction = { 1, 0, 0 }, force = 1, distance = 0.03, speed = 0.05 })
+        ended = p.time
+      end)
+      scene:process(function(p)
+        p:wait_until(function() return hand:force().x > 1 end)
+        p:wait(after)
+        begun, from = p.time, hand:position()
+        hand:move{ by = { -0.05, 0, 0.02 }, duration = 0.5 }
+        to = hand:position()
+      end)
+      local run = t.fine(scene:run{ dt = 0.005 })
+      assert.is_false(there)
+      t.below(begun + 0.2, ended, "end of the press")
+      t.near(-0.05, to.x - from.x, 1e-9, "way of the move")
+      t.near(0.02, to.z - from.z, 1e-9, "way of the move")
+      local kinds = {}
+      for _, e in ipairs(run.events) do kinds[e.kind] = e.text end
+      assert.matches("move at .* replaces the one under way", kinds.replaced)
+      assert.matches("another process moved the gripper before it was set back", kinds.coarse)
+    end
+  end)
 end)

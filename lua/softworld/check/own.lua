@@ -62,7 +62,18 @@ function own.read(given, taken)
 end
 
 -- Returns a finite number, or nil.
-local function finite(x) return type(x) == "number" and x - x == 0 and x or nil end
+local function finite(x) return x and x - x == 0 and x or nil end
+
+-- Returns why the second and third value are not a place and a time, or nil.
+local function misplaced(s, time)
+  if s ~= nil and type(s) ~= "number" then
+    return "its function must return a place along the wire [m] as its second value, or nil, got "
+      .. checks.got(s)
+  end
+  if time ~= nil and type(time) ~= "number" then
+    return "its function must return a time [s] as its third value, or nil, got " .. checks.got(time)
+  end
+end
 
 --- Returns the value, or nil and why there is none.
 function own.value(one, run, scene)
@@ -75,6 +86,8 @@ function own.value(one, run, scene)
   if type(value) ~= "number" then
     return nil, "its function must return a number, got " .. checks.got(value)
   end
+  local why = misplaced(s, time)
+  if why then return nil, why end
   local doubt = value == -math.huge and "the value is -inf, as the largest of no values is" or nil
   return { value = value, s = finite(s), time = finite(time), doubt = doubt }
 end

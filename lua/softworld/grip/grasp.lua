@@ -252,8 +252,9 @@ function Methods:grasp(wire, args)
     self.way, self.frozen, self.held = approach, nil, false
     return self
   end
-  self.way, self.frozen, self.held = approach, nil, false
+  self.way, self.frozen, self.held, self.closing = approach, nil, false, p and true or nil
   local fine, why = pcall(grasp_by_pads, self, wires, args)
+  self.closing = nil
   if not fine then
     self.wire, self.grips = nil, {}
     if type(why) ~= "string" then error(why, 0) end
@@ -298,7 +299,7 @@ function grasp.release(self, args)
     return self
   end
   if self.frozen then
-    mixed.thaw(self)
+    mixed.let_go(self)
     if build.data(self.scene).slow then mixed.finish(self) end -- a loose mesh may search for rest for minutes
   end
   self.held = false

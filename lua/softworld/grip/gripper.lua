@@ -269,12 +269,19 @@ local fields = {}
 for _, key in ipairs{ "gone", "wires", "hold", "at", "rotation", "tool", "wire", "way", "frozen", "on_slip",
   "opening", "order", "obstacles", "held", "unchecked", "s", "free_height", "margin", "segments",
   "mesh_model", "rod_model", "slip_event", "crash_time", "on_crash", "carrier", "facing",
-  "busy_until", "left", "bereft", "astray", "rating", "unlooked" } do
+  "busy_until", "left", "bereft", "astray", "rating", "unlooked", "turns_seen",
+  "closing" } do
   fields[key] = true
 end
 
+-- What scripts see while pads close in a grasp: the gripper holds nothing yet.
+local unheld = { wire = function() return nil end, wires = function() return {} end }
+
 function Gripper:__index(key)
   if reactions.looks[key] and not sealed.by_library() then reactions.seen(self) end
+  if unheld[key] and rawget(sealed.fields(self), "closing") and not sealed.by_library() then
+    return unheld[key]()
+  end
   local own = rawget(sealed.fields(self), key)
   if own ~= nil then return own end
   if shortcuts[key] then return self:over()[key] end
@@ -353,7 +360,8 @@ function Gripper:__tostring()
   local names = {}
   for i, grip in ipairs(self.grips) do names[i] = ("'%s'"):format(grip.wire.name) end
   if self.left then doing = "taken away" end
-  if #names > 0 then doing = ("holding %s, %s"):format(table.concat(names, " and "), self.way) end
+  local verb = rawget(sealed.fields(self), "closing") and "closing on" or "holding"
+  if #names > 0 then doing = ("%s %s, %s"):format(verb, table.concat(names, " and "), self.way) end
   return ("gripper '%s' (%s)"):format(self.name, doing)
 end
 

@@ -5,7 +5,9 @@
 -- state it was frozen in.
 -- @module softworld.grip.mixed
 local build = require "softworld.scene.build"
+local number = require "softworld.output.number"
 local process = require "softworld.run.process"
+local untwisted = require "softworld.grip.untwisted"
 local vec = require "softworld.vec"
 
 local mixed = {}
@@ -22,6 +24,22 @@ local function note(self, kind, report)
   self.events[#self.events + 1] = { kind = kind, time = self.scene.time, s = self.s,
     energy = report.energy_after - report.energy_before, before = report.before,
     after = report.after, force = report.force, moment = report.moment }
+end
+
+-- Raises the error of a remodel again, in the words of a grasp: its script gave no region, or another one.
+local function explain(self, how, why)
+  local wire, region = self.wire, how.region
+  if type(why) ~= "string" then error(why, 0) end
+  local plain = build.plain(why)
+  local short, twist = plain:find("cover all of wire", 1, true), plain:match "twisted by (%S+ rad)"
+  if not (short or twist) then error(plain, 0) end
+  local what = twist and ("is twisted by %s, which the wire beside the mesh of a mixed grasp, from s = %s to "
+      .. "%s, would lose"):format(twist, number.text(region[1], "m"), number.text(region[2], "m"))
+    or ("is %s long, and the mesh of a mixed grasp, from s = %s to %s, with those round clamps, takes all of "
+      .. "it"):format(number.text(wire.length, "m"), number.text(region[1], "m"), number.text(region[2], "m"))
+  error(("gripper '%s': wire '%s' %s. Make all of it a mesh before: wire:remodel{ model = '%s' }; or %s")
+    :format(self.name, wire.name, what, how.model, twist and "grasp it imposed"
+      or "give a smaller region [m], or narrower pads, or grasp it by 'plates'"), 0)
 end
 
 --- Turns the wire into a mesh around the pads.
@@ -42,7 +60,8 @@ function mixed.prepare(self, args)
   local _, q = self.tool:pose()
   how.normal = vec.rotate(q, { 0, 1, 0 }) -- the pads close along it: they must not turn sections like a nut
   self.segments = wire.segments
-  build.call(4, wire.remodel, wire, how)
+  local fine, why = pcall(wire.remodel, wire, how)
+  if not fine then explain(self, how, why) end
 end
 
 --- Waits until the squeeze is steady, then freezes the grip.
@@ -85,16 +104,24 @@ function mixed.freeze(self)
   return self
 end
 
---- Returns to the pads and the mesh between them.
-function mixed.thaw(self)
+-- Returns to the pads and the mesh between them. leaves: the gripper is about to let go.
+local function thaw(self, leaves)
   if not self.frozen then return self end
+  local torsion = untwisted.torsion(self.wire)
   local report = build.call(3, self.tool.thaw, self.tool)
   self.frozen = nil
   note(self, "thawed", report)
+  untwisted.thawed(self, torsion, leaves)
   self.events[#self.events].on = report.on
   if report.on then self.way = "plates" end -- the mesh is between another gripper's pads
   return self
 end
+
+--- Returns to the pads and the mesh between them.
+function mixed.thaw(self) return thaw(self, false) end
+
+--- The same, of a gripper that is about to let go.
+function mixed.let_go(self) return thaw(self, true) end
 
 --- Thaws a frozen grip whose load exceeds what the pads could bear.
 function mixed.lose(self, state)

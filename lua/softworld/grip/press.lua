@@ -31,12 +31,20 @@ local function acceleration_of(self, args)
   return math.max(START * args.force / mass, 4 * args.speed ^ 2 / args.distance)
 end
 
--- Goes to the way x [m] and waits until the push is that of rest; h: a step [s]. Returns the push.
-local function go_to(p, held, way, x, now, speed, h, push)
+-- Waits in the process of a press. Returns false if another process moved or stopped the gripper meanwhile.
+local function rest(self, p, seconds)
+  local mine = self.scene.time + seconds
+  self.busy_until = mine
+  p:wait(seconds)
+  return self.busy_until == mine
+end
+
+-- Goes to the way x [m] and waits until the push is that of rest; h: a step [s]. Returns the push, or nil if
+-- another process moved the gripper.
+local function go_to(self, p, held, way, x, now, speed, h, push)
   local time = math.max(math.abs(x - now) / speed, h)
   held:follow{ points = { { 0, 0, 0 }, vec.scale(way, x - now) }, relative = true, duration = time }
-  p:wait(time + math.max(STILL * h, REST))
-  return push()
+  return rest(self, p, time + math.max(STILL * h, REST)) and push() or nil
 end
 
 -- Returns the next way between low, where the push is too small, and high, where it is too large: on the line
@@ -76,40 +84,42 @@ local function next_way(ends, now, f, args)
   return short and math.min(args.distance, now + ends.stride) or math.max(0, now - ends.stride)
 end
 
--- Sets the tool to where the push at rest is the wanted one. Returns the push [N].
-local function set_back(p, held, way, args, seen, push)
+-- Sets the tool to where the push at rest is the wanted one. Returns the push [N], or nil if another process
+-- moved the gripper.
+local function set_back(self, p, held, way, args, seen, push)
   local now = seen.last.x
   local ends = { low = seen.before, stride = now - seen.before.x, grow = 1 }
-  p:wait(math.max(STILL * seen.step, REST))
-  local f = push()
-  if f > BEYOND * args.force then -- the blow bends a cable and turns its end aside: it comes free first
+  local f = rest(self, p, math.max(STILL * seen.step, REST)) and push() or nil
+  if f and f > BEYOND * args.force then -- the blow bends a cable and turns its end aside: it comes free first
     ends.high, now = { x = now, f = f }, ends.low.x
-    f = go_to(p, held, way, now, ends.high.x, args.speed, seen.step, push)
+    f = go_to(self, p, held, way, now, ends.high.x, args.speed, seen.step, push)
   end
   local function is_set() return f >= args.force and f <= BEYOND * args.force end
   for _ = 1, MOST do
+    if not f then return nil end
     if is_set() then
-      p:wait(SURE)
+      if not rest(self, p, SURE) then return nil end
       local later = push()
       if math.abs(later - f) <= LOST * args.force then break end
       f = later
     end
     local x = next_way(ends, now, f, args)
     if math.abs(x - now) < FINEST then break end
-    f = go_to(p, held, way, x, now, args.speed, seen.step, push)
+    f = go_to(self, p, held, way, x, now, args.speed, seen.step, push)
     now = x
   end
   return f
 end
 
--- Tells that the push rose far beyond the wanted one in a step.
+-- Tells that the push rose far beyond the wanted one in a step. f: to what it was set then, or nil.
 local function tell(self, args, seen, f)
   local first = seen.last.f
   self.scene:tell{ kind = "coarse", object = self.name, value = first, text = ("gripper '%s': the press "
-    .. "was to end at %s. Its force rose to %s within a step of %s, over %s, and was then set to %s. This "
-    .. "peak depends on dt and on the speed of the press"):format(self.name, number.text(args.force, "N"),
+    .. "was to end at %s. Its force rose to %s within a step of %s, over %s, %s. This peak depends on dt and "
+    .. "on the speed of the press"):format(self.name, number.text(args.force, "N"),
       number.text(first, "N"), number.text(seen.step, "s"), number.text(seen.last.x - seen.before.x, "m"),
-      number.text(f, "N")) }
+      f and "and was then set to " .. number.text(f, "N")
+        or "and another process moved the gripper before it was set back") }
 end
 
 -- Tells that nothing stopped the wire, or that its push was lost as the tool was set back.
@@ -152,9 +162,11 @@ function press.run(self, p, held, way, args)
   self.busy_until = self.scene.time
   local f, lost = push(), false
   if done and f > BEYOND * args.force and seen.last.x > seen.before.x then
-    f = set_back(p, held, way, args, seen, push)
+    f = set_back(self, p, held, way, args, seen, push)
     tell(self, args, seen, f)
+    if not f then return push(), gone(), false end
     held:follow(nil)
+    self.busy_until = self.scene.time
     done = f >= args.force and f <= REACHED * args.force
     lost = args.distance - gone() > FINEST
   end

@@ -8,6 +8,7 @@
 --
 -- In the core it is the force `tether`, or a join with slack.
 -- @module softworld.link.tie
+local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local core = require "softworld.core"
 local fixing = require "softworld.link.fixing"
@@ -19,7 +20,7 @@ local vec = require "softworld.vec"
 local vector = require "softworld.vector"
 
 local properties = {}
-local Tie = fixing.class("tie", properties, { "other", "strength" })
+local Tie = fixing.class("tie", properties, { "other", "strength", "ended" })
 local STIFFNESS = 1e5 -- default, of a nylon tie round a few millimetres [N/m]
 
 local new = rows.call("scene:tie", "wire, {...}", "keeps a place of a wire at a point or at another wire", {
@@ -136,11 +137,18 @@ function Tie:force()
   return vector.of{ r.force_x, r.force_y, r.force_z }
 end
 
---- Cuts the tie.
+--- Cuts the tie. What it has measured stays.
 function Tie:release()
   require("softworld.check.released").note(self, "tie")
+  local r = reading(self)
+  local broken = r.broken > 0 and { time = r.broken_time, force = r.broken_force } or false
+  self.ended = { broken = broken, raw_peak_force = r.peak,
+    peak_force = build.data(self.scene).began and self:over().peak_force or r.peak }
   self.object:release()
 end
+
+-- Returns what the tie had measured when it was released, or nil: it was not, or it is back with a snapshot.
+local function ended(self) return not self:exists() and self.ended or nil end
 
 --- Returns the pull between two times; see help "peaks".
 function Tie:over(t1, t2, options)
@@ -153,13 +161,21 @@ function Tie:over(t1, t2, options)
 end
 
 --- Largest mean of the pull over the run's window so far [N].
-function properties.peak_force(self) return self:over().peak_force end
+function properties.peak_force(self)
+  local last = ended(self)
+  return last and last.peak_force or self:over().peak_force
+end
 
 --- Largest pull of a single step so far, which is compared with the strength [N].
-function properties.raw_peak_force(self) return reading(self).peak end
+function properties.raw_peak_force(self)
+  local last = ended(self)
+  return last and last.raw_peak_force or reading(self).peak
+end
 
 --- { time = [s], force = [N] } once it broke, or nil.
 function properties.broken(self)
+  local last = ended(self)
+  if last then return last.broken or nil end
   local r = reading(self)
   return r.broken > 0 and { time = r.broken_time, force = r.broken_force } or nil
 end
