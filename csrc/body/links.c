@@ -148,9 +148,28 @@ static void drop_stop(const sw_scene *s, sw_joint_end *e) {
   e->stop = 0;
 }
 
+/* Adds the places of a released join. */
+static sw_status add_parted(sw_scene *s, const sw_joint *j) {
+  uint32_t nodes[SW_JOIN_ENDS];
+  size_t n = 0;
+  for (size_t k = 0; k < j->count; k++) {
+    const sw_joint_end *e = &j->ends[k];
+    if (e->wire == SIZE_MAX || sw_scene_wire_in(s, e->wire)->cls->mesh) continue;
+    const sw_link_wire w = sw_scene_link_wire(s, e->wire);
+    const double at = sw_mesh_snap(w.mesh, e->asked * w.mesh->scale / e->scale);
+    const sw_joint_end here = {.wire = e->wire, .s = at};
+    nodes[n++] = sw_joint_node(&here, &w);
+  }
+  for (size_t k = 1; k < n; k++)
+    for (size_t i = 0; i < k; i++)
+      SW_TRY(sw_system_add_parted(sw_scene_system(s), nodes[i], nodes[k]));
+  return SW_OK;
+}
+
 sw_status sw_scene_add_joins(sw_scene *s) {
   sw_link_wire wires[SW_JOIN_ENDS];
   SW_EACH(join, j, s) {
+    if (!j->alive && !j->cls->joint->apart) SW_TRY(add_parted(s, j));
     if (!j->alive) continue;
     for (size_t k = 0; k < j->count; k++) drop_stop(s, &j->ends[k]);
     sw_scene_joint_wires(s, j, wires);

@@ -274,9 +274,9 @@ sw_status sw_scene_linearise(sw_scene *s, const size_t *only, size_t count, sw_e
 double sw_scene_deepest(const sw_scene *s, size_t *node) {
   size_t other = 0;
   const double obstacle = s->contact ? sw_contact_penetration(s->contact, node) : 0.0;
-  const double wire = s->pairs ? sw_mutual_penetration(s->pairs, &other) : 0.0;
+  const double wire = s->pairs ? sw_mutual_penetration(s->pairs, &s->system, &other) : 0.0;
   if (wire > obstacle && node) *node = other;
-  const double grain = s->grains ? sw_mutual_penetration(s->grains, &other) : 0.0;
+  const double grain = s->grains ? sw_mutual_penetration(s->grains, &s->system, &other) : 0.0;
   if (grain > fmax(obstacle, wire) && node) *node = other;
   return fmax(grain, fmax(obstacle, wire));
 }

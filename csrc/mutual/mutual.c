@@ -373,18 +373,6 @@ int sw_mutual_next_place(const sw_mutual *m, size_t body, size_t *next, sw_pair_
   return 0;
 }
 
-double sw_mutual_penetration(const sw_mutual *m, size_t *node) {
-  double deepest = 0;
-  for (size_t i = 0; i < all_of(m); i++) {
-    const sw_meet *t = meet_at(m, i);
-    const double depth = t->forgiven - t->press.gap_after - t->aslant;
-    if (depth <= deepest) continue;
-    deepest = depth;
-    if (node) *node = t->of.node[0];
-  }
-  return deepest;
-}
-
 int sw_mutual_steady(const sw_mutual *m) {
   size_t before = 0;
   for (size_t i = 0; i < m->memory_count; i++) before += m->memory[i].kept.normal_force > 0;

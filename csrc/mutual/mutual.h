@@ -106,7 +106,10 @@ typedef struct sw_pair_place {
 /* Reads the next place with a force, from touch *next on (0 at first), of this body or of any
  * (SIZE_MAX). 0: no more places. sw_presses_count (touch/tally.h) counts those of all bodies. */
 int sw_mutual_next_place(const sw_mutual *mutual, size_t body, size_t *next, sw_pair_place *out);
-double sw_mutual_penetration(const sw_mutual *mutual, size_t *node); /* [m] */
+/* Depth that a released join left does not count [m]. */
+double sw_mutual_penetration(const sw_mutual *mutual, const sw_system *system, size_t *node);
+/* 1 if wires come apart that a released join kept together. */
+int sw_mutual_parts(const sw_mutual *mutual, const sw_system *system);
 /* Like those of sw_contact. */
 struct sw_presses sw_mutual_presses(const sw_mutual *mutual);
 struct sw_presses sw_mutual_still_presses(const sw_mutual *mutual); /* between bodies that wait */

@@ -34,8 +34,8 @@ enum { MOST_ACCEPTED = 16 };
  * above PLENTY, only rounding. The aim is a run that gains less than 0.5 %
  * (spec/physics/ledger_gain_spec) [-]. */
 static const double ENOUGH = 0.00125, PLENTY = 0.0025, LITTLE = 1e-5;
-/* Wires that begin inside obstacles are pushed out. They get at most the speed THROWN and rise at
- * about LET_OUT [m/s]. */
+/* Wires that begin inside obstacles, or in each other where a join was released, are pushed out.
+ * They get at most the speed THROWN and rise at about LET_OUT [m/s]. */
 static const double THROWN = 0.02, LET_OUT = 0.01;
 /* Where nothing touches, the method may make IN_FLIGHT of the energy in play, and each whole step
  * EACH_IN_FLIGHT beyond that; without an allowance steps would collapse. After a blow cables ring
@@ -69,10 +69,13 @@ static void judge_outer_forces(sw_books *b, double h, double *most) {
   step->damping = sw_ledger_over_step(b->powers.damping, step->powers.damping, h);
 }
 
+static double pushed_out(const sw_scene *s, double h) {
+  return sw_scene_books(s)->mass * (THROWN * THROWN + LET_OUT * h * sw_norm(sw_scene_gravity(s)));
+}
+
 static void judge_touches(sw_scene *s, double h, sw_step_energy *step) {
   sw_mutual *const mutual[] = {sw_scene_pairs(s), sw_scene_grains(s)};
   sw_contact *contact = sw_scene_contact(s);
-  const sw_books *b = sw_scene_books(s);
   size_t impacts = 0;
   step->touching = sw_scene_touches(s) > 0;
   step->friction += sw_scene_rubbed(s);
@@ -82,13 +85,13 @@ static void judge_touches(sw_scene *s, double h, sw_step_energy *step) {
     step->obstacles += sw_contact_struck(contact);
     step->let_out = sw_contact_hardened(contact) + sw_contact_unbent(contact);
     if (sw_contact_emerges(contact))
-      step->let_out += sw_contact_emerged(contact) +
-                       b->mass * (THROWN * THROWN + LET_OUT * h * sw_norm(sw_scene_gravity(s)));
+      step->let_out += sw_contact_emerged(contact) + pushed_out(s, h);
   }
   for (int k = 0; k < 2; k++) {
     if (!mutual[k]) continue;
     impacts += sw_mutual_impacts(mutual[k]);
     step->let_out += sw_presses_emerged(sw_mutual_presses(mutual[k]));
+    if (sw_mutual_parts(mutual[k], sw_scene_system(s))) step->let_out += pushed_out(s, h);
     step->steady &= sw_mutual_steady(mutual[k]);
   }
   if (impacts) /* impacts changed the velocities at the step's start */

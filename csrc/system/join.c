@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lists of joins: their bridges, the bodies that they couple, and the contact near them. */
+/* Lists of joins: their bridges, and the bodies that they couple. */
 #include "system/join.h"
 
 #include <math.h>
@@ -106,33 +106,4 @@ int sw_joins_wake(sw_system *s) {
   int any = 0;
   while (s->joins && wake_once(s)) any = 1;
   return any;
-}
-
-/* Returns the length along the wire from the edge that starts at a node to another node; infinite
- * on another wire [m]. */
-static double along(const sw_system *s, uint32_t edge, uint32_t node) {
-  const sw_body *b = &s->bodies[sw_system_body_of(s, edge)];
-  if (node < b->first_node || node >= b->first_node + b->plan->nodes) return HUGE_VAL;
-  const double *at = b->plan->s + (edge - b->first_node), to = b->plan->s[node - b->first_node];
-  return to < at[0] ? at[0] - to : to > at[1] ? to - at[1] : 0.0;
-}
-
-/* Along both wires within this distance from a join, over the sum of their radii, contact between
- * them is ignored [-]. */
-static const double AT_A_JOIN = 4.0;
-
-static double radius_at(const sw_system *s, uint32_t node) {
-  return s->bodies[sw_system_body_of(s, node)].plan->beam.radius;
-}
-
-int sw_joins_near(const sw_system *s, uint32_t one, uint32_t two) {
-  const struct sw_joins *all = s->joins;
-  const double reach = all ? AT_A_JOIN * (radius_at(s, one) + radius_at(s, two)) : 0;
-  for (size_t k = 0; all && k < all->spring_count; k++) {
-    const sw_join_spring *p = &all->springs[k];
-    if (p->tie) continue; /* tied wires lie on each other */
-    if (along(s, one, p->i) <= reach && along(s, two, p->j) <= reach) return 1;
-    if (along(s, one, p->j) <= reach && along(s, two, p->i) <= reach) return 1;
-  }
-  return 0;
 }

@@ -131,6 +131,12 @@ double sw_joins_energy(const sw_system *system); /* at the state [J] */
  * for contact between them. */
 int sw_joins_near(const sw_system *system, uint32_t one, uint32_t two);
 
+/* Two nodes that a released join kept together. The wires lie in each other there until they have
+ * come out. SW_ENOMEM. */
+sw_status sw_system_add_parted(sw_system *system, uint32_t i, uint32_t j);
+/* The same as sw_joins_near for joins that were released. */
+int sw_joins_were_near(const sw_system *system, uint32_t one, uint32_t two);
+
 void sw_joins_free(sw_system *system);
 
 #endif

@@ -34,7 +34,8 @@ void sw_system_free(sw_system *system) {
   sw_joins_free(system);
   SW_FREE_ALL(system->bodies, system->held, system->rails, system->rail_room, system->directors,
               system->hold_states, system->loads, system->standing, system->state,
-              system->pull_block, system->borne, system->work, system->trial_history);
+              system->pull_block, system->borne, system->work, system->trial_history,
+              system->parted);
   memset(system, 0, sizeof *system);
 }
 

@@ -62,6 +62,10 @@ struct sw_system {
   struct sw_rail *rails;      /* of held nodes that stay on curves (system/rail.h), or NULL */
   double *rail_room;
   struct sw_joins *joins; /* joins between wires (system/join.h), or NULL */
+  struct sw_parted {
+    uint32_t i, j;
+  } * parted; /* nodes that released joins kept together */
+  size_t parted_count, parted_capacity;
   sw_counters counters;
   double factor_hbar;   /* hbar of the bodies' factors, made in this step; 0: none [s] */
   int factor_solves;    /* solves in a row with old factors in this stage [-] */
