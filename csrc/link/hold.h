@@ -46,6 +46,7 @@ typedef struct sw_hold_watch {
   double looked;  /* time of the last check [s] */
   double given;   /* depth in an obstacle at the first check [m] */
   sw_crash crash; /* the last one, with part unused; depth 0: none */
+  int over;       /* what touches the held part, see watch/passed.c; not in files */
 } sw_hold_watch;
 
 /* Impulse, and its moment, that a hold bears up to each stage of a trial step [N s], [N m s]. */

@@ -122,7 +122,7 @@ static void tape_sums(sw_tape *t, sw_hold_sums *x) {
 }
 
 void sw_tape_hold(sw_tape *t, sw_scene *s, sw_hold *x) {
-  SW_TAPE_STRUCT(t, sw_hold, 1648); /* node, number and rail are set when it is built */
+  SW_TAPE_STRUCT(t, sw_hold, 1656); /* node, number and rail are set when it is built */
   UINT32(generation), INT(alive), NAME(name);
   SW_TAPE_CLASS(t, x->cls, sw_link_find);
   sw_tape_expect(t, x->cls && x->cls->hold, "a clamp of an unknown kind");
@@ -136,7 +136,7 @@ void sw_tape_hold(sw_tape *t, sw_scene *s, sw_hold *x) {
   sw_tape_mesh_frame(t, &x->frame[0]), sw_tape_mesh_frame(t, &x->frame[1]);
   tape_give(t, &x->give[0]), tape_give(t, &x->give[1]);
   QUAT(turn), VEC(force), VEC(moment), VEC(end_force), VEC(end_moment), POSE(last_pose);
-  SW_TAPE_STRUCT(t, sw_hold_watch, 56);
+  SW_TAPE_STRUCT(t, sw_hold_watch, 64); /* over begins anew */
   INT(watch.looking), INT(watch.crashing), DOUBLE(watch.looked), DOUBLE(watch.given);
   DOUBLE(watch.crash.time), DOUBLE(watch.crash.depth), SIZE(watch.crash.obstacle);
   tape_sums(t, &x->sums);

@@ -41,6 +41,8 @@ void sw_scene_end_inside(sw_scene *scene);
 void sw_scene_watch_pierced(sw_scene *scene, size_t wire);
 /* Reports a wire or object that passes through an open mesh from its back. */
 void sw_scene_watch_sheets(sw_scene *scene, size_t wire);
+/* Reports a wire that slips over a part of itself in a rigid grip. */
+void sw_scene_watch_passed(sw_scene *scene);
 /* Reports joints that pass no twist where this may count. Call at the end of a run. */
 void sw_scene_end_joints(sw_scene *scene);
 /* Reports joints that have rolled about a wire that a hold keeps from rolling. judges = 0: only
