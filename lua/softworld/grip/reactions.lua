@@ -5,6 +5,7 @@ local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local grasped = require "softworld.grip.grasped"
 local mixed = require "softworld.grip.mixed"
+local rolled = require "softworld.link.rolled"
 local sealed = require "softworld.sealed"
 local stand = require "softworld.grip.stand"
 local unread = require "softworld.unread"
@@ -175,6 +176,7 @@ function reactions.look(scene)
     if self.tool and not self.left then why = look_at(self) or why
     elseif self.hold then why = look_at_hold(self) or why end
   end
+  rolled.look(scene)
   return why
 end
 

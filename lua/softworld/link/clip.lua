@@ -23,7 +23,7 @@ local fixshape = require "softworld.link.fixshape"
 local vector = require "softworld.vector"
 
 local properties = {}
-local Clip = fixing.class("clip", properties, { "on", "radius", "damper", "stiffness" })
+local Clip = fixing.class("clip", properties, { "on", "radius", "damper", "stiffness", "turned" })
 local EMPTY, INSERTING, SEATED = 0, 1, 2 -- the core's states
 local BROKEN = { "its floor", "a wall", "a wall from outside", [5] = "it within one step" }
 local SNAP = 2e-3 -- default time of the snap damping [s]

@@ -15,6 +15,7 @@ local turns = require "softworld.run.turns"
 local reactions = require "softworld.grip.reactions"
 local released = require "softworld.check.released"
 local save = require "softworld.scene.save"
+local rolled = require "softworld.link.rolled"
 local settings = require "softworld.run.settings"
 local tables = require "softworld.rows"
 local told = require "softworld.run.told"
@@ -111,6 +112,7 @@ local function begin(scene, args)
   data.origin = data.origin or save.origin(scene)
   if not data.going then build.call(3, core.begin_run, scene, args.wear) end -- else the file's run goes on
   told.begin(scene)
+  rolled.look(scene)
   data.going = nil
   local now = settings.of(args)
   if going then settings.tell(scene, total.settings, now, data.from_file) end

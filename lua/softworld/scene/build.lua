@@ -184,7 +184,7 @@ function class.scene.wire(scene, args)
   local wire = build.call(3, new_wire, scene, args)
   data.wires[#data.wires + 1] = { object = wire, name = args.name }
   local kept = core.data(wire)
-  kept.auto = auto or nil
+  kept.auto, kept.curved = auto or nil, args.rest == "path" or nil
   if entry then kept.cable, kept.use = entry, use end
   if args.breaking_load then
     kept.breaking = { value = args.breaking_load, flag = args.breaking_flag or "given" }
