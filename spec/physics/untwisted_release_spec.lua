@@ -149,6 +149,23 @@ describe("pads beside a hand that turns", function()
     assert.equal(1, turned{ 1, -1, 0.1 })
   end)
 
+  it("forget it once they have let go, also when the wire is removed", function()
+    local scene, wire, _, one, two = held{}
+    scene:process(function()
+      one:grasp(wire, { s = FIRST })
+      two:grasp(wire, { s = SECOND, approach = "plates", force = 20 })
+      one:rotate{ axis = { 1, 0, 0 }, angle = 0.1, duration = 0.2 }
+      two:release()
+      one:rotate{ axis = { 1, 0, 0 }, angle = 2 * math.pi, duration = 0.2 }
+      two:grasp(wire, { s = SECOND, approach = "plates", force = 20 })
+      scene:remove(wire)
+    end)
+    assert.equal(0, #told_of(t.fine(scene:run{ dt = 0.01 })))
+    local file = os.tmpname()
+    scene:save(file)
+    os.remove(file)
+  end)
+
   it("count turns before a resume", function()
     assert.equal(1, turned{ 0.15, 0.15 })
     assert.equal(1, turned({ 0.15, 0.15 }, 1))

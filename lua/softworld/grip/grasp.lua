@@ -306,7 +306,7 @@ function grasp.release(self, args)
   self:open_jaws{ speed = args.speed, distance = args.distance }
   if not self.wire then return self end -- another process let go meanwhile
   if self.way == "mixed" then mixed.finish(self) end
-  self.wire, self.grips = nil, {}
+  self.wire, self.grips, self.turns_seen = nil, {}, nil
   return self
 end
 

@@ -24,7 +24,7 @@ function losing.wire(self, wire)
     if grip.wire == wire then held = true else left[#left + 1] = grip end
   end
   if not held then return end
-  self.bereft = true
+  self.bereft, self.turns_seen = true, nil
   if not self.tool then return grasp.drop(self, wire) end
   if self.wire == wire then self.frozen = nil end
   self.grips, self.wire = left, left[1] and left[1].wire

@@ -185,7 +185,7 @@ function untwisted.turns(self, turn)
     seen.whole = math.abs(turn_along(self, wire, turn)) > math.pi
   end
   for _, g in ipairs(build.data(self.scene).grippers) do
-    local other = g ~= self and g.turns_seen
+    local other = g ~= self and g.held and g.turns_seen
     for _, side in ipairs{ other and other.before or false, other and other.after or false } do
       local mine = side and side.by == self
       for _, grip in ipairs(self.grips) do mine = mine or side and grip.hold == side.by end
