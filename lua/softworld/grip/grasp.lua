@@ -275,6 +275,18 @@ local let_go = rows.call("gripper:release", "{...}", "lets go", {
   { "speed", "number", "m/s", "of the opening", min = 0, max = jaws.MOST, above = true, usual = jaws.SPEED },
 })
 
+-- True if pads of another gripper press on the wire as on a rod, without a mesh of theirs.
+local function is_pressed(self)
+  for _, other in ipairs(build.data(self.scene).grippers) do
+    if other ~= self and other.tool and other.held and other.way == "plates" then
+      for _, grip in ipairs(other.grips) do
+        if grip.wire == self.wire then return true end
+      end
+    end
+  end
+  return false
+end
+
 --- Lets go; see gripper:release.
 function grasp.release(self, args)
   args = let_go:read(args or {})
@@ -300,7 +312,8 @@ function grasp.release(self, args)
   end
   if self.frozen then
     mixed.let_go(self)
-    if build.data(self.scene).slow then mixed.finish(self) end -- a loose mesh may search for rest for minutes
+    -- A loose mesh may search for rest for minutes; other pads would press on a line beside the mesh.
+    if build.data(self.scene).slow or is_pressed(self) then mixed.finish(self) end
   end
   self.held = false
   self:open_jaws{ speed = args.speed, distance = args.distance }
