@@ -122,3 +122,9 @@ void sw_mutual_along(const sw_mutual *m, const sw_system *s, size_t body, sw_alo
                  sum);
   }
 }
+
+int sw_mutual_rubs(const sw_mutual *m) {
+  for (size_t i = 0; i < m->bodies * m->bodies; i++)
+    if (m->rules[i].on && m->rules[i].friction > 0) return 1;
+  return 0;
+}

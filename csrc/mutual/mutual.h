@@ -37,6 +37,9 @@ int sw_grains_have_loose(const sw_mutual *grains);
 sw_status sw_mutual_copy(const sw_mutual *mutual, const sw_system *system, sw_mutual **out);
 void sw_mutual_free(sw_mutual *mutual); /* NULL is allowed */
 
+/* 1 if something that touches rubs. */
+int sw_mutual_rubs(const sw_mutual *mutual);
+
 /* 1: nothing can touch in this step. */
 int sw_mutual_idle(const sw_mutual *mutual);
 

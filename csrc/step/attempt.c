@@ -119,6 +119,7 @@ double sw_rest_take(sw_statics *p, int trial) {
   memset(system->a, 0, system->freedoms * sizeof(double));
   sw_system_strain_from_state(system);
   if (trial) return shift;
+  p->leads = 0;
   sw_scene_commit_contact(s);
   sw_error why; /* the sum of slips is then too small, as where memory is lost */
   SW_EACH(tool, t, s)

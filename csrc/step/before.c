@@ -31,6 +31,7 @@ sw_status sw_rest_before(sw_statics *p, int *fell, sw_error *err) {
   double part;
   const sw_pose *const from = sw_scene_part(s, &part);
   const double now = sw_scene_time(s), touched = p->touched;
+  const double leads = p->leads;
   const int most_far = p->most_far, transient = p->report->transient;
   const size_t negative = p->report->negative;
   sw_tape start = {0};
@@ -39,9 +40,10 @@ sw_status sw_rest_before(sw_statics *p, int *fell, sw_error *err) {
   sw_status status = sw_live_take(s, &start);
   if (status == SW_OK) {
     sw_scene_set_time(s, touched), sw_scene_go_part(s, p->from_poses, 0);
-    p->most_far = 0;
+    p->most_far = 0, p->leads = 0;
     status = find(p, fell, &why);
     sw_scene_set_time(s, now), sw_scene_go_part(s, from, part);
+    p->leads = leads;
     p->most_far = most_far, p->touched = touched, p->report->transient = transient;
   }
   if (sw_rest_stops(status)) {

@@ -163,7 +163,7 @@ sw_status sw_rest_find(sw_statics *p, sw_error *err) {
   sw_rest_put_aside(p->s, p->kept);
   sw_status status = sw_rest_newton(p, SW_REST_ITERATIONS, err);
   if (found(p, status)) return status;
-  if (!p->rests && sw_rest_dragged(p)) {
+  if (!p->rests && (sw_rest_dragged(p) || p->leads > 0)) {
     sw_rest_take_back(p->s, p->kept);
     SW_TRY(sw_rest_before(p, &fell, err));
     if (fell) {
@@ -185,5 +185,10 @@ sw_status sw_rest_find(sw_statics *p, sw_error *err) {
   }
   p->divides = p->may_divide && status == SW_ENOCONV && !sw_rest_dragged(p);
   if (p->divides) return status;
+  const int last = p->leads > 0 && !p->too_far;
+  status = sw_rest_continue(p, err);
+  if (status != SW_ENOCONV || !last) return status;
+  sw_rest_take_back(p->s, p->kept); /* wires slide on those that drag them, but come to rest */
+  p->leads = 0, p->before = p->report->iterations;
   return sw_rest_continue(p, err);
 }

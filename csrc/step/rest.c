@@ -9,6 +9,7 @@
 #include "base/alloc.h"
 #include "body/live.h"
 #include "body/touching.h"
+#include "mutual/mutual.h"
 #include "scene/course.h"
 #include "scene/drive.h"
 #include "scene/obstacle.h"
@@ -110,6 +111,23 @@ static int has_slid(const sw_statics *p) {
   return 0;
 }
 
+/* Returns the holds' largest shift; a turn counts as the shift of half a wire by it [m]. */
+static double drive_shift(const sw_statics *p) {
+  double largest = 0, turn;
+  for (size_t k = 0; k < sw_scene_system(p->s)->hold_count; k++)
+    largest = fmax(largest, hold_shift(p, k, 0.5 * sw_rest_longest(p->s), &turn));
+  return largest;
+}
+
+static int rubs(const sw_mutual *m) { return m && sw_mutual_rubs(m); }
+
+/* Returns the shift of the holds in a part of their path, if wires may drag each other along [m].
+ */
+static double led(const sw_statics *p, size_t parts) {
+  const int drags = rubs(sw_scene_pairs(p->s)) || rubs(sw_scene_grains(p->s));
+  return drags ? drive_shift(p) / (double)parts : 0.0;
+}
+
 static sw_status follow_in(sw_statics *p, size_t parts, sw_error *err) {
   sw_status status = SW_OK;
   const size_t most = MOST_DIVIDED * parts;
@@ -118,6 +136,7 @@ static sw_status follow_in(sw_statics *p, size_t parts, sw_error *err) {
     sw_scene_go_part(p->s, i < parts ? p->from_poses : NULL, (double)i / (double)parts);
     p->passing = i < parts || p->args->passing ? PASSING : 0.0;
     p->before = p->report->iterations;
+    p->leads = led(p, parts);
     const int slid = p->divides ? p->may_divide : has_slid(p);
     p->may_divide = p->slides && slid && parts < most, p->divides = 0;
     status = sw_rest_find(p, err);
@@ -191,14 +210,6 @@ static sw_status follow_fast(sw_statics *p, size_t parts, int *done, sw_error *e
   }
   sw_tape_free(&start);
   return status;
-}
-
-/* Returns the holds' largest shift; a turn counts as the shift of half a wire by it [m]. */
-static double drive_shift(const sw_statics *p) {
-  double largest = 0, turn;
-  for (size_t k = 0; k < sw_scene_system(p->s)->hold_count; k++)
-    largest = fmax(largest, hold_shift(p, k, 0.5 * sw_rest_longest(p->s), &turn));
-  return largest;
 }
 
 /* Settles after every part of the holds' path. The parts only help convergence: the memory of

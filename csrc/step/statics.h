@@ -18,6 +18,8 @@ typedef struct sw_statics {
   int slides;     /* 1: holds draw wires that something rubs */
   int may_divide; /* 1: a part of the holds' path is divided if no equilibrium follows directly */
   int divides;    /* 1: this part must be divided */
+  double leads;   /* shift of the holds by which wires may drag each other along; 0 from the first
+                     accepted step on [m] */
   double passing; /* accuracy before the last part of the holds' path: largest shift of a node, over
                      an edge [-] */
   double edge;    /* length of the shortest edge [m] */
