@@ -6,7 +6,7 @@
 
 typedef struct tell_args {
   char kind[SW_NAME_SIZE], object[SW_NAME_SIZE];
-  double s, value;
+  double s, value, time;
 } tell_args;
 
 static const sw_param tell_rows[] = {
@@ -18,18 +18,20 @@ static const sw_param tell_rows[] = {
      "arc length"},
     {"value", SW_PARAM_NUMBER, "-", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL, offsetof(tell_args, value),
      "size of the event, in the unit of the text; of repeated events the largest is kept"},
+    {"time", SW_PARAM_NUMBER, "s", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL, offsetof(tell_args, time),
+     "when it happened; default: now"},
     {"text", SW_PARAM_OTHER, "-", 0, 0, 0, SW_PARAM_REQUIRED, NULL, 0, "one sentence"},
 };
 static const sw_params tell_params = SW_PARAMS("scene:tell", tell_rows);
 
-/* scene:tell{ kind =, object =, s =, value =, text = } */
+/* scene:tell{ kind =, object =, s =, value =, time =, text = } */
 int lsw_scene_tell(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
   tell_args args;
   lsw_arguments(L, 2, "scene:tell", &tell_params, &args);
   if (lua_getfield(L, 2, "text") != LUA_TSTRING)
     return luaL_error(L, "scene:tell: text must be a string, got %s", luaL_typename(L, -1));
-  LSW_DO(L, sw_scene_book_event, scene, args.kind, args.object, args.s, args.value,
+  LSW_DO(L, sw_scene_book_event, scene, args.kind, args.object, args.s, args.value, args.time,
          lua_tostring(L, -1));
   return 0;
 }

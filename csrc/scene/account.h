@@ -59,8 +59,9 @@ typedef struct sw_event {
 size_t sw_scene_events_dropped(const sw_scene *scene); /* because the list was full [-] */
 /* Returns event number k of the last run, or NULL if there are no more. */
 const sw_event *sw_scene_event(const sw_scene *scene, size_t k);
-/* Books an event at the scene's time; value and arc may be NAN. */
+/* Books an event; value and arc may be NAN. time: NAN = the scene's; SW_EINVAL if it is later [s].
+ */
 sw_status sw_scene_book_event(sw_scene *scene, const char *kind, const char *object, double arc,
-                              double value, const char *text, sw_error *err);
+                              double value, double time, const char *text, sw_error *err);
 
 #endif

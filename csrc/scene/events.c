@@ -53,32 +53,48 @@ static void mark_cut(char *text, size_t size) {
   memcpy(text + end, "...", sizeof "...");
 }
 
-void sw_scene_tell(sw_scene *s, const char *kind, const char *object, double arc, double value,
-                   const char *format, ...) {
+/* Books an event at this time [s]; see sw_scene_tell. */
+__attribute__((format(printf, 7, 0))) static void book(sw_scene *s, double time, const char *kind,
+                                                       const char *object, double arc, double value,
+                                                       const char *format, va_list arguments) {
   sw_course *c = sw_scene_course(s);
   char name[SW_NAME_SIZE], word[SW_NAME_SIZE];
   copy_name(name, object);
   copy_name(word, kind);
   sw_event *e = latest(sw_scene_events_of(s), word, name);
   const double soon = fmax(REPEAT, c->has_stepper ? REPEAT_STEPS * c->stepper.last_h : 0.0);
-  if (e && (sw_scene_time(s) - e->last > soon && sw_scene_events_of(s)->count < SW_EVENTS_MOST))
-    e = NULL;
+  if (e && (time - e->last > soon && sw_scene_events_of(s)->count < SW_EVENTS_MOST)) e = NULL;
   const int repeat = e != NULL;
   if (!e && !(e = append(sw_scene_events_of(s)))) return;
   if (!repeat) {
-    *e = (sw_event){.first = sw_scene_time(s), .value = NAN, .s = NAN};
+    *e = (sw_event){.first = time, .value = NAN, .s = NAN};
     memcpy(e->kind, word, sizeof e->kind);
     memcpy(e->object, name, sizeof e->object);
   }
   e->count++;
-  e->last = sw_scene_time(s);
+  e->last = time;
   if (repeat && !(fabs(value) > fabs(e->value))) return;
-  e->time = sw_scene_time(s), e->s = arc, e->value = value;
+  e->time = time, e->s = arc, e->value = value;
+  const int length = vsnprintf(e->text, sizeof e->text, format, arguments);
+  if (length >= (int)sizeof e->text) mark_cut(e->text, sizeof e->text);
+}
+
+void sw_scene_tell(sw_scene *s, const char *kind, const char *object, double arc, double value,
+                   const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);
-  const int length = vsnprintf(e->text, sizeof e->text, format, arguments);
+  book(s, sw_scene_time(s), kind, object, arc, value, format, arguments);
   va_end(arguments);
-  if (length >= (int)sizeof e->text) mark_cut(e->text, sizeof e->text);
+}
+
+__attribute__((format(printf, 7, 8))) static void tell_at(sw_scene *s, double time,
+                                                          const char *kind, const char *object,
+                                                          double arc, double value,
+                                                          const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  book(s, time, kind, object, arc, value, format, arguments);
+  va_end(arguments);
 }
 
 size_t sw_scene_events_dropped(const sw_scene *s) { return sw_scene_events_of(s)->dropped; }
@@ -87,9 +103,14 @@ const sw_event *sw_scene_event(const sw_scene *s, size_t k) {
 }
 
 sw_status sw_scene_book_event(sw_scene *s, const char *kind, const char *object, double arc,
-                              double value, const char *text, sw_error *err) {
+                              double value, double time, const char *text, sw_error *err) {
+  const double now = sw_scene_time(s);
   if (!kind[0]) return sw_fail(err, SW_EINVAL, "scene:tell: kind is empty; it is a word");
-  sw_scene_tell(s, kind, object, arc, value, "%s", text);
+  if (time > now)
+    return sw_fail(err, SW_EINVAL,
+                   "scene:tell: time = %g s lies ahead; it must be at most the scene's %g s", time,
+                   now);
+  tell_at(s, isnan(time) ? now : time, kind, object, arc, value, "%s", text);
   return SW_OK;
 }
 

@@ -34,8 +34,8 @@ describe("a wire that slips out of the pads", function()
   after_each(program.clean)
 
   it("is told at the end of a script that did not look", function()
-    local out, err, code = script(lifted .. "local run, hand = lift(0.1)\nprint(run.ok, #run.events)")
-    assert.equal("true\t0\n", out)
+    local out, err, code = script(lifted .. "local run, hand = lift(0.1)\nprint(run.ok)")
+    assert.equal("true\n", out)
     assert.truthy(err:find("softworld: note: the run of 'lifted' at script.lua:18 is ok, but gripper 'hand': "
       .. "nothing is left between the pads at t = ", 1, true), err)
     assert.equal(0, code)
@@ -50,6 +50,15 @@ describe("a wire that slips out of the pads", function()
       assert.equal(0, status)
     end)
   end
+
+  it("is in run.events if it was lost; if it only slipped, a note tells it", function()
+    local list = "\nfor _, e in ipairs(run.events) do print(e.kind, e.object) end"
+    local out, err = script(lifted .. "local run = lift(0.1)" .. list)
+    assert.same({ "lost\thand\n", "" }, { out, err })
+    out, err = script(lifted .. "local run = lift(0.7)" .. list)
+    assert.equal("", out)
+    assert.truthy(err:find("gripper 'hand': the wire slips, ", 1, true), err)
+  end)
 
   it("is not told when the process looks, or something reacts", function()
     local _, err = script(lifted .. "lift(0.1, { asks = true })")

@@ -74,6 +74,22 @@ describe("events", function()
     for _, e in ipairs((s:events())) do assert.not_equal("gone", e.kind) end
   end)
 
+  it("may be told of an earlier time", function()
+    local s = scene()
+    s:process(function(p)
+      p:wait(0.5)
+      s:tell{ kind = "early", text = "seen late", time = 0.2 }
+      s:tell{ kind = "early", text = "seen late, too", time = 0.25 }
+      s:tell{ kind = "early", text = "another", time = 0.45 }
+      assert.has_error(function() s:tell{ kind = "x", text = "y", time = 0.6 } end,
+        "scene:tell: time = 0.6 s lies ahead; it must be at most the scene's 0.5 s")
+    end)
+    local list = s:run{}.events
+    assert.equal(2, #list)
+    assert.same({ 0.2, 0.2, 0.25, 2 }, { list[1].time, list[1].first, list[1].last, list[1].count })
+    assert.same({ 0.45, "another" }, { list[2].time, list[2].text })
+  end)
+
   it("refuse missing and unknown parameters", function()
     local s = scene()
     assert.has_error(function() s:tell{ kind = "x" } end, "scene:tell: text is required [-]: one sentence")

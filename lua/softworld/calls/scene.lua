@@ -43,7 +43,7 @@ rows.calls{
   { "scene:touches", "", "where wires touch each other, now",
     "a list of { wires, s [m], point [m], normal, force, friction, normal_force [N] }" },
   { "scene:events", "", "events of the run", "a list, and the number of events that had no room" },
-  { "scene:tell", "{ kind =, text =, object =, s =, value = }", "adds an event of your own" },
+  { "scene:tell", "{ kind =, text =, object =, s =, value =, time = }", "adds an event of your own" },
   { "scene:stable_dt", "", "longest stable step of explicit methods", "s" },
   -- for players
   { "scene:frame_count", "", "frames that the run kept", "count" },

@@ -78,22 +78,32 @@ local texts = { slip = slip_text, lost = lost_text, missed = missed_text }
 
 --- Stores a note for each gripper from which the wire slipped or was lost since a time, or that closed on
 -- nothing, unless something reacts to it or the script asks for it. what: the run in words. Returns their
--- marks.
+-- marks; mark.lost: the note is about a lost wire, which run.events shows too.
 function reactions.tell(scene, since, what)
   local list = {}
   for _, self in ipairs(build.data(scene).grippers) do
     local own = sealed.fields(self)
     local quiet = own.on_slip == nil or own.on_slip == "record"
-    local said
+    local said, lost
     for _, e in ipairs(quiet and not looked[self] and own.events or {}) do
       local text = (e.kind ~= "missed" or e.alone) and texts[e.kind] -- else an error told it
-      if text and e.time >= since then said = text(self, e) end
+      if text and e.time >= since then said, lost = text(self, e), e.kind == "lost" end
     end
     if said then
       marks[self] = unread.note(("softworld: note: %s is ok, but %s; see .events of the gripper"):format(what,
         said), said)
+      marks[self].lost = lost
       list[#list + 1] = marks[self]
     end
+  end
+  return list
+end
+
+--- Returns the events without those of lost wires: reactions.tell has notes about them.
+function reactions.others(events)
+  local list = {}
+  for _, e in ipairs(events) do
+    if e.kind ~= "lost" then list[#list + 1] = e end
   end
   return list
 end
@@ -104,6 +114,13 @@ local function react(self, event, reaction, text)
   if reaction == "warn" then io.stderr:write("softworld: ", text(self, event), "\n")
   elseif reaction == "stop" then return text(self, event)
   elseif type(reaction) == "function" then reaction(self, event) end
+end
+
+-- The same for a lost wire, which the run's list shows too.
+local function react_to_loss(self, event)
+  self.scene:tell{ kind = "lost", object = self.name, s = event.s, time = event.time,
+    text = lost_text(self, event) }
+  return react(self, event, self.on_slip, lost_text)
 end
 
 -- Looks for a crash of an imposed grip: it drives the wire itself into an obstacle.
@@ -129,7 +146,7 @@ local function look_at_list(self)
     self.astray = astray
     local s = stand.nearest_place(wire, (self.tool:pose()))
     local event = { kind = "lost", time = self.scene.time, s = s, wire = wire.name }
-    why = react(self, event, self.on_slip, lost_text) or why
+    why = react_to_loss(self, event) or why
   end
   return why
 end
@@ -160,7 +177,7 @@ local function look_at(self)
   if self.held and now.normal == 0 and not now.frozen then
     self.held = false
     local event = { kind = "lost", time = now.lost_time or self.scene.time, s = now.place }
-    why = react(self, event, self.on_slip, lost_text) or why
+    why = react_to_loss(self, event) or why
   elseif self.held and #self.grips > 1 then
     why = look_at_list(self) or why
   end

@@ -163,8 +163,8 @@ local words = {
   thawed = function(g) return ("gripper '%s' holds the wire by its pads again"):format(g.name) end,
 }
 
--- Returns the events of the run and of its grippers, in the order of time. A crash is in both lists; it is
--- kept once.
+-- Returns the events of the run and of its grippers, in the order of time. A crash and a lost wire are in
+-- both lists; they are kept once.
 local function events_of(run)
   local list, told = {}, {}
   for _, e in ipairs(run.events) do

@@ -40,7 +40,7 @@ local function mark_events(run)
   local what = ("the run of '%s'%s"):format(run.name, at and " at " .. at or "")
   run.unseen_met = trust.watch(run, what)
   run.unseen_slips = reactions.tell(run.scene, run.start, what)
-  local events = outs.others(run.scene, sealed.fields(run).events or {})
+  local events = reactions.others(outs.others(run.scene, sealed.fields(run).events or {}))
   if #events == 0 then return run end
   local event = ("%s: %s"):format(events[1].kind, events[1].text)
   run.unseen = unread.note(("softworld: note: %s is ok, but has %s; see run.events: %s"):format(what,
@@ -207,8 +207,11 @@ end
 function Run.__index(self, key)
   local own = sealed.fields(self)
   if key == "events" and own.unseen then unread.seen(own.unseen) end
-  if key == "events" and own.unseen_slips and sealed.by_library() then -- summaries, pages, checks tell them
-    for _, mark in ipairs(own.unseen_slips) do unread.seen(mark) end
+  if key == "events" and own.unseen_slips then -- summaries, pages, checks tell slips too
+    local all = sealed.by_library()
+    for _, mark in ipairs(own.unseen_slips) do
+      if all or mark.lost then unread.seen(mark) end
+    end
   end
   if (key == "met" or key == "advice") and own.unseen_met then unread.seen(own.unseen_met) end
   local value = own[key]

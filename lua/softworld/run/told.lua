@@ -11,7 +11,7 @@ local told = {}
 
 local tell = core.class.scene.tell
 
---- scene:tell{ kind =, object =, s =, value =, text = }: adds an event to the run under way.
+--- scene:tell{ kind =, object =, s =, value =, time =, text = }: adds an event to the run under way.
 function core.class.scene.tell(scene, event)
   build.call(3, tell, scene, event)
   local caller = debug.getinfo(2, "S")
