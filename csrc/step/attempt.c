@@ -17,6 +17,10 @@
 enum { MOST_REDOS = 20 };
 static const double FIRST_PSEUDO_STEP = 0.02; /* of sqrt(length/g) [-] */
 
+/* Longest step of continuation in which a wire may leave the pads that hold it, over the first one.
+ * In longer steps and in statics it may jump to a place beside them [-]. */
+static const double HASTY = 0.1;
+
 enum { NUMBERS = 6 }; /* of a tool's slip and turn [-] */
 
 size_t sw_rest_room(const sw_scene *s) {
@@ -69,10 +73,17 @@ static int thrown(const sw_statics *p) {
   return 0;
 }
 
+/* 1 if a wire may not leave the pads in this attempt. held: they held all wires before it. */
+static int refuses(const sw_statics *p, double hbar, const sw_newton *newton, int held) {
+  if (p->too_far) return 1;
+  return p->args->holds && held && (newton->statics || hbar > HASTY * sw_rest_first_step(p->s));
+}
+
 sw_status sw_rest_solve(sw_statics *p, double hbar, const sw_newton *newton, sw_error *err) {
   sw_scene *s = p->s;
   sw_system *system = sw_scene_system(s);
   sw_stage_report r = {0};
+  const int held = !sw_jaws_let_go(s);
   const sw_stage stage = {.time = sw_scene_time(s),
                           .hbar = hbar,
                           .xhat = p->from,
@@ -101,7 +112,7 @@ sw_status sw_rest_solve(sw_statics *p, double hbar, const sw_newton *newton, sw_
     status = sw_fail(err, SW_ENOCONV, "a loose mesh would be thrown far");
   if (status == SW_OK && !p->args->stays && sw_passing_too_far(s, p->y))
     status = sw_fail(err, SW_ENOCONV, "a wire would spring past a clip");
-  if (status == SW_OK && p->args->poses && p->too_far && sw_jaws_let_go(s))
+  if (status == SW_OK && p->args->poses && refuses(p, hbar, newton, held) && sw_jaws_let_go(s))
     status = sw_fail(err, SW_ENOCONV, "a wire would leave the pads that hold it");
   p->report->negative = r.negative;
   if (status != SW_OK) memcpy(system->tension, p->tension, system->edges * sizeof(double));

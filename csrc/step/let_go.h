@@ -8,4 +8,7 @@
 /* After a trial of a pose: 1 if jaws that held with their force no longer press on anything. */
 int sw_jaws_let_go(const sw_scene *scene);
 
+/* 1 if jaws hold with another force than the wanted one: they bear what they could not with it. */
+int sw_jaws_strained(const sw_scene *scene);
+
 #endif

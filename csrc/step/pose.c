@@ -14,6 +14,7 @@
 #include "scene/wire.h"
 #include "step/energy.h"
 #include "step/jaw.h"
+#include "step/let_go.h"
 #include "step/outer.h"
 #include "step/passing.h"
 #include "step/rest.h"
@@ -155,6 +156,59 @@ static sw_status find_rest(sw_scene *s, double t0, int *too_far, const sw_settle
   return status == SW_OK ? SW_OK : sw_fail(err, status, "%s", why.text);
 }
 
+static sw_status search(sw_scene *s, double t0, int *too_far, int squeezes,
+                        const sw_settle_args *args, int (*interrupted)(void),
+                        sw_settle_report *rest, sw_error *err) {
+  return squeezes ? sw_scene_squeezed_rest(s, t0, too_far, args, interrupted, rest, err)
+                  : find_rest(s, t0, too_far, args, interrupted, rest, err);
+}
+
+/* The jaws and the course at the start of a search. */
+typedef struct begun {
+  sw_tape live;
+  sw_jaw *jaws; /* (tools) */
+  int next;     /* see sw_course */
+} begun;
+
+static sw_status begin(const sw_scene *s, begun *b, sw_error *err) {
+  *b = (begun){.jaws = sw_alloc(sw_scene_tool_slots(s), sizeof *b->jaws),
+               .next = sw_scene_course(s)->next};
+  if (!b->jaws || sw_live_take(s, &b->live) != SW_OK)
+    return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", sw_scene_name(s));
+  for (size_t k = 0; k < sw_scene_tool_slots(s); k++) b->jaws[k] = sw_scene_tool_in(s, k)->jaw;
+  return SW_OK;
+}
+
+static sw_status begin_again(sw_scene *s, const begun *b, sw_error *err) {
+  sw_scene_course(s)->next = b->next;
+  for (size_t k = 0; k < sw_scene_tool_slots(s); k++) sw_scene_tool_in(s, k)->jaw = b->jaws[k];
+  return sw_live_back(s, &b->live, err);
+}
+
+/* Finds the equilibrium. In a pose that cannot be divided any more wires leave pads that hold them
+ * by short steps, as they would in motion. If none is found so, or with other forces of the jaws
+ * only, they may jump out of them. */
+static sw_status hold_on(sw_scene *s, double t0, int *too_far, int squeezes, sw_settle_args *args,
+                         int (*interrupted)(void), sw_settle_report *rest, sw_error *err) {
+  if (!squeezes || sw_jaws_strained(s))
+    return search(s, t0, too_far, squeezes, args, interrupted, rest, err);
+  begun start = {0};
+  sw_status status = begin(s, &start, err);
+  args->holds = 1;
+  if (status == SW_OK) status = search(s, t0, too_far, 1, args, interrupted, rest, err);
+  args->holds = 0;
+  if ((status == SW_ENOCONV && !too_far) || (status == SW_OK && sw_jaws_strained(s))) {
+    const size_t before = rest->iterations;
+    *rest = (sw_settle_report){0};
+    status = begin_again(s, &start, err);
+    if (status == SW_OK) status = search(s, t0, too_far, 1, args, interrupted, rest, err);
+    rest->iterations += before;
+  }
+  sw_tape_free(&start.live);
+  sw_free(start.jaws);
+  return status;
+}
+
 /* Moves holds and obstacles to t1 and the wires to their equilibrium there. Without friction the
  * size of the pose step does not matter; with friction, halve it to see how much it does. */
 static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_args *how,
@@ -172,8 +226,7 @@ static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_ar
   args.stays = start->x && !shortest && halvings;
   if (squeezes && halvings) args.max_iterations = FEW_ITERATIONS;
   sw_scene_set_time(s, t1);
-  sw_status status = squeezes ? sw_scene_squeezed_rest(s, t0, tells, &args, interrupted, &rest, err)
-                              : find_rest(s, t0, tells, &args, interrupted, &rest, err);
+  sw_status status = hold_on(s, t0, tells, squeezes, &args, interrupted, &rest, err);
   if (status == SW_OK && !squeezes) status = rest_again(s, &args, interrupted, &rest, err);
   report->iterations += rest.iterations;
   if (status != SW_OK) {

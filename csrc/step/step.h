@@ -73,6 +73,7 @@ typedef struct sw_settle_args {
   int poses;   /* 1: one of many poses, between which jaws need not be exact */
   int tight;   /* 1: wires drawn taut may be in each other only a little */
   double farthest; /* largest allowed shift of a node on the way to rest; 0: any [m] */
+  int holds;       /* 1: a wire leaves pads that hold it only by short steps of continuation */
   int passing; /* 1: a pose on the way to the next one that is asked for; it need not be exact */
 } sw_settle_args;
 extern const sw_params sw_settle_params;
