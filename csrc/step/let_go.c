@@ -28,7 +28,7 @@ int sw_jaws_let_go(const sw_scene *s) {
   return 0;
 }
 
-static const double STRAINED = 0.1; /* deviation from the wanted force, over it [-] */
+static const double STRAINED = 0.5; /* deviation from the wanted force, over it [-] */
 
 int sw_jaws_strained(const sw_scene *s) {
   SW_EACH(tool, t, s) {
