@@ -2,6 +2,7 @@
 /* Reports rods whose edges are too long for a bend. A bend over something sharp is then as wide as
  * an edge, and a taut wire, which cannot bend as much as it should, is stretched instead. */
 #include <math.h>
+#include <string.h>
 
 #include "base/halving.h"
 #include "contact/contact.h"
@@ -107,29 +108,70 @@ static int obeys(const sw_scene *s, const sw_body *b, size_t node) {
   return 0;
 }
 
-/* Returns the same for a wire that lies on a round side as it was drawn, and is straight elsewhere:
- * its edges are chords, shorter than the arcs there that touches take them for (contact/arc.h) [N].
- */
-static double drawn_tension(const sw_scene *s, const sw_body *b, double T) {
+/* A wire is taut round something above this share of EI K^2, with its sharpest bend K [-]. */
+static const double TAUT = 0.25;
+
+/* The turn at a node that bends round facets, which press its edges from within; else 0. They press
+ * its chords where a round side would press its arc [rad]. */
+static double turn_on_facets(const sw_scene *s, const sw_body *b, size_t i) {
+  const sw_contact *c = sw_scene_contact(s);
+  const sw_system *system = sw_scene_system(s);
+  const size_t node = b->first_node + i;
+  size_t first = 0, end = 0;
+  if (!c || i == 0 || i >= b->plan->edges || is_on_round(s, node)) return 0;
+  const sw_vec in = sw_madd(sw_vec_at(system->x, node - 1), sw_vec_at(system->x, node), -2.0);
+  const sw_vec bend = sw_add(in, sw_vec_at(system->x, node + 1));
+  sw_contact_touches_of(c, node - 1, node + 1, &first, &end);
+  for (size_t k = first; k < end; k++) {
+    sw_contact_push push;
+    if (!sw_contact_push_at(c, system, k, &push)) continue;
+    if (sw_dot(push.normal, bend) < -0.5 * sw_norm(bend)) return turn_at(b, system->x, i);
+  }
+  return 0;
+}
+
+/* A taut wire that goes round something, between two holds: lengths that it lacks, since its edges
+ * were drawn as chords of arcs that touches take them for (contact/arc.h), and since they lie on
+ * facets as chords [m]; turns at nodes there, and elsewhere [rad]. */
+typedef struct around {
+  double drawn, facets, on, off;
+} around;
+
+static around go_round(const sw_scene *s, const sw_body *b, size_t from, size_t to) {
   const sw_plan *p = b->plan;
   const double *x = sw_scene_system(s)->x;
-  double most = 0, less = 0, on = 0, off = 0; /* [N], [m], [rad] */
-  int yields = 0;                             /* 1: this stretch begins in such a feed */
-  if (!p->drawn_arc) return 0;
-  for (size_t i = 0, from = p->nodes; i < p->nodes; i++) {
-    if (p->held[i] != SW_FREE) {
-      const int before = yields;
-      yields = obeys(s, b, i);
-      if (i > from + 1 && off < LITTLE * on && !before && !yields)
-        most = fmax(most, b->EA * less / (p->s[i] - p->s[from]));
-      from = i, less = on = off = 0;
-      continue;
-    }
-    const int round = is_on_round(s, b->first_node + i);
-    if (i > from && i < p->edges) *(round ? &on : &off) += turn_at(b, x, i);
-    if (round && i < p->edges) less += p->drawn_arc[i] * p->rest[i];
+  around sum = {0};
+  double two_back = 0, back = 0; /* such turns at the nodes before [rad] */
+  for (size_t i = from + 1; i < to; i++) {
+    const double turn = turn_on_facets(s, b, i);
+    const int on = turn > 0 || is_on_round(s, b->first_node + i);
+    const double least = fmin(fmin(two_back, back), turn);
+    if (on && p->drawn_arc) sum.drawn += p->drawn_arc[i] * p->rest[i];
+    sum.facets += least * least * p->rest[i] / 12.0;
+    *(on ? &sum.on : &sum.off) += turn_at(b, x, i);
+    two_back = back, back = turn;
   }
-  return fmin(most, T);
+  return sum;
+}
+
+/* Returns the part of the tension that may be false for a wire that goes round something, and is
+ * straight elsewhere; facets: 1 if most of it comes from facets [N]. */
+static double round_tension(const sw_scene *s, const sw_body *b, int *facets) {
+  const sw_plan *p = b->plan;
+  double most = 0;
+  int yields = 0; /* 1: this stretch begins in such a feed */
+  for (size_t i = 0, from = p->nodes; i < p->nodes; i++) {
+    if (p->held[i] == SW_FREE) continue;
+    const int before = yields;
+    yields = obeys(s, b, i);
+    if (i > from + 1 && !before && !yields) {
+      const around sum = go_round(s, b, from, i);
+      const double more = b->EA * (sum.drawn + sum.facets) / (p->s[i] - p->s[from]);
+      if (sum.off < LITTLE * sum.on && more > most) most = more, *facets = sum.facets > sum.drawn;
+    }
+    from = i;
+  }
+  return most;
 }
 
 /* A bend by a at one place of a wire under the tension T has the curvature a/2 sqrt(T/EI). Edges h
@@ -182,19 +224,31 @@ static void watch_layer(sw_scene *s, const sw_body *b, const sw_scene_wire *w,
       1e3 * edge, w->name, at, T, 1e3 / (bend->value * over), 1e3 / bend->value, segments);
 }
 
-/* Returns 1 if it has told that edges drawn along a round side are too short. */
-static int watch_drawn(sw_scene *s, size_t wire, const sw_wire_extremes *now, double edge) {
+/* Least true part of a tension that is taken for an advice, over its false part [-]. */
+static const double LEAST_TRUE = 0.1;
+
+/* Returns 1 if it has told that edges drawn along a round side are too short, or that facets press
+ * chords too far out. The advice that stays is that for the largest tension: the fewest segments.
+ */
+static int watch_round(sw_scene *s, size_t wire, const sw_wire_extremes *now, double edge) {
   const sw_body *b = &sw_scene_system(s)->bodies[wire];
   const sw_scene_wire *w = sw_scene_wire_in(s, wire);
-  const double T = now->tension.value, more = drawn_tension(s, b, T);
-  if (!(T > 0) || !(more > FALSE_PART * T)) return 0;
-  const double segments = ceil((double)b->plan->edges * sqrt(more / (FALSE_PART * T)));
-  sw_events_go_on(sw_scene_events_of(s), "edges", w->name, sw_scene_time(s));
+  const double T = now->tension.value, bend = now->curvature.value;
+  int facets = 0;
+  if (!(T > TAUT * b->plan->beam.EI * bend * bend)) return 0;
+  const double more = round_tension(s, b, &facets);
+  if (!(more > FALSE_PART * T)) return 0;
+  const double allowed = FALSE_PART * fmax(T - more, LEAST_TRUE * more);
+  const double segments = ceil((double)b->plan->edges * sqrt(more / allowed));
+  sw_event *e = sw_events_go_on(sw_scene_events_of(s), "edges", w->name, sw_scene_time(s));
+  if (e && strstr(e->text, "chords") && e->value > segments) e->value = 0;
   sw_scene_tell(s, "edges", w->name, now->tension.s - w->mesh.s[0], segments,
-                "edges of %.4g mm of taut wire '%s' were drawn along an arc as its chords, and are "
-                "shorter: if only its stretch sets the tension, %.4g of its %.4g N may be too "
-                "much; try segments = %.0f",
-                1e3 * edge, w->name, more, T, segments);
+                "edges of %.4g mm of taut wire '%s' %s: if only its stretch sets the tension, %.4g "
+                "of its %.4g N may be too much; try segments = %.0f",
+                1e3 * edge, w->name,
+                facets ? "lie on a round of facets as chords, which is a longer way"
+                       : "were drawn along an arc as its chords, and are shorter",
+                fmin(more, T), T, segments);
   return 1;
 }
 
@@ -223,7 +277,7 @@ void sw_scene_watch_edges(sw_scene *s, size_t wire, const sw_wire_extremes *now)
   const sw_extreme *bend = &now->curvature;
   if (plan->web || !(plan->beam.EI > 0) || !(bend->value > 0)) return;
   const double edge = plan->rest[edge_at(plan, bend->s)];
-  if (edge * bend->value <= LONG && !watch_drawn(s, wire, now, edge))
+  if (edge * bend->value <= LONG && !watch_round(s, wire, now, edge))
     watch_taut(s, wire, now, edge);
   if (!(edge * bend->value > LONG)) return;
   const sw_scene_wire *w = sw_scene_wire_in(s, wire);
