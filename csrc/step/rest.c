@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "body/hold.h"
 #include "body/live.h"
 #include "body/touching.h"
 #include "mutual/mutual.h"
@@ -121,11 +122,17 @@ static double drive_shift(const sw_statics *p) {
 
 static int rubs(const sw_mutual *m) { return m && sw_mutual_rubs(m); }
 
-/* Returns the shift of the holds in a part of their path, if wires may drag each other along [m].
- */
+/* Returns the shift of holds and fed wire in a part of the path, if wires may drag each other along
+ * [m]. */
 static double led(const sw_statics *p, size_t parts) {
-  const int drags = rubs(sw_scene_pairs(p->s)) || rubs(sw_scene_grains(p->s));
-  return drags ? drive_shift(p) / (double)parts : 0.0;
+  if (!rubs(sw_scene_pairs(p->s)) && !rubs(sw_scene_grains(p->s))) return 0;
+  double fed = 0;
+  SW_EACH(hold, h, p->s) {
+    if (!h->alive || !sw_hold_passes(h)) continue;
+    const double before = sw_hold_way_of(p->s, h, p->touched, NULL).way;
+    fed = fmax(fed, fabs(sw_hold_way_of(p->s, h, sw_scene_time(p->s), NULL).way - before));
+  }
+  return fmax(drive_shift(p) / (double)parts, fed);
 }
 
 static sw_status follow_in(sw_statics *p, size_t parts, sw_error *err) {
