@@ -248,14 +248,15 @@ int sw_broad_disturbs(const sw_contact *c, size_t o, const sw_bounds *box, doubl
          own->min.z - most <= box->max.z && own->max.z + most >= box->min.z;
 }
 
-int sw_contact_moves(const sw_contact *c) {
+double sw_contact_shift(const sw_contact *c, double lever) {
+  double most = 0;
   for (size_t k = 0; k < c->broad.mover_count; k++) {
     const int o = c->broad.mover[k];
     const sw_pose *a = &c->start[o].pose, *b = &c->now[o].pose;
-    const sw_quat p = a->q, q = b->q;
-    if (sw_dist(a->p, b->p) > 0 || p.w != q.w || p.x != q.x || p.y != q.y || p.z != q.z) return 1;
+    const double turn = sw_norm(sw_quat_log(sw_quat_mul(b->q, sw_quat_conj(a->q))));
+    most = sw_larger(most, sw_dist(a->p, b->p) + lever * turn);
   }
-  return 0;
+  return most;
 }
 
 size_t sw_contact_index(const sw_contact *c, int id) {

@@ -120,8 +120,8 @@ int sw_contact_informed(const sw_contact *contact);
 void sw_contact_recall(sw_contact *contact, sw_contact_past_function past,
                        sw_contact_moves_function moves);
 void sw_contact_ask_again(sw_contact *contact);
-/* 1: an obstacle has moved since the step's start. */
-int sw_contact_moves(const sw_contact *contact);
+/* Largest shift of an obstacle since the step's start, its turn at this lever included [m]. */
+double sw_contact_shift(const sw_contact *contact, double lever);
 
 /* Result of a review of the trial positions x1 and velocities v1. dull: 1 if the step does not
  * rebound, as in steps in which wires strike each other. */

@@ -143,9 +143,10 @@ int sw_rest_is_late(const sw_statics *p, double share) {
   return (double)(p->report->iterations - p->before) >= share * (double)p->args->max_iterations;
 }
 
-int sw_rest_dragged(const sw_statics *p) {
-  return sw_scene_contact(p->s) && p->touched != sw_scene_time(p->s) &&
-         sw_contact_moves(sw_scene_contact(p->s));
+double sw_rest_dragged(const sw_statics *p) {
+  const sw_contact *contact = sw_scene_contact(p->s);
+  if (!contact || p->touched == sw_scene_time(p->s)) return 0;
+  return sw_contact_shift(contact, sw_rest_longest(p->s));
 }
 
 int sw_rest_stops(sw_status status) {

@@ -100,13 +100,26 @@ static int ends_unstable(const sw_statics *p, double tau) {
  * have no stable place nearby [-]. */
 static const double PATIENCE = 0.5;
 
+/* A wire that obstacles or other wires drag along must follow in the first step of continuation,
+ * for friction then forgets what it slid. So the inertia in this step must be small beside
+ * friction: below 1/LED^2 of the weight, and 1/LEAST_LED^2 after failures. Else a pose is halved
+ * [-]. */
+static const double LED = 30.0, LEAST_LED = 7.0;
+
+/* Returns how far obstacles or held and fed wires lead others along [m]. */
+static double led_by(const sw_statics *p) { return fmax(p->leads, sw_rest_dragged(p)); }
+
+/* Returns the time in which a wire falls about as far [s]. */
+static double led_time(const sw_statics *p) {
+  return sqrt(led_by(p) / fmax(sw_norm(sw_scene_gravity(p->s)), 1.0));
+}
+
 /* unstable: 1 if the step failed because it ended in an unstable place. */
 static sw_status continue_by(sw_statics *p, double tau, int *unstable, sw_error *err) {
   sw_system *s = sw_scene_system(p->s);
   *unstable = 0;
   SW_TRY(sw_rest_solve(p, tau, &CONTINUE, err));
-  if (sw_rest_dragged(p) || p->leads > 0 || !ends_unstable(p, tau) || sw_rest_is_late(p, PATIENCE))
-    return SW_OK;
+  if (led_by(p) > 0 || !ends_unstable(p, tau) || sw_rest_is_late(p, PATIENCE)) return SW_OK;
   *unstable = 1;
   memcpy(s->tension, p->tension, s->edges * sizeof(double));
   return sw_fail(err, SW_ENOCONV, "a mesh would come to rest in an unstable place");
@@ -118,33 +131,15 @@ static sw_status continue_by(sw_statics *p, double tau, int *unstable, sw_error 
 enum { MOST_LONGEST = 8 };
 static const double SHORTER_LONGEST = 0.01, LEAST_GROWTH = 10.0;
 
-/* A wire that a held wire drags along must follow in the first step of continuation, for friction
- * then forgets what it slid. So the inertia in this step must be small beside friction: below
- * 1/LED^2 of the weight, and 1/LEAST_LED^2 after failures. Else a pose is halved [-]. */
-static const double LED = 30.0, LEAST_LED = 7.0;
-
-/* Returns the time in which a wire falls about as far as holds lead others along [s]. */
-static double led_time(const sw_statics *p) {
-  return sqrt(p->leads / fmax(sw_norm(sw_scene_gravity(p->s)), 1.0));
-}
-
-/* 1 if wires cannot follow what drags them in a step as short as tau [s]. */
-static int drags_too_far(const sw_statics *p, double tau) {
-  if (!p->too_far) return 0;
-  return (p->leads > 0 && tau < LEAST_LED * led_time(p)) ||
-         (sw_rest_dragged(p) && tau < sw_rest_time_scale(p->s));
-}
-
 sw_status sw_rest_transient(sw_statics *p, sw_error *err) {
   sw_scene *s = p->s;
   drift d = {0};
   const double first = sw_rest_first_step(s);
   double longest = LARGEST_GROWTH * first;
   int steps = 0; /* of the longest ones, in a row [-] */
-  const int led = p->leads > 0;
-  /* inertia must not keep back wires that obstacles drag along */
-  double tau = fmax(sw_rest_dragged(p) ? SW_REST_SLOWEST_GROWTH * sw_rest_time_scale(s) : first,
-                    LED * led_time(p));
+  const int led = led_by(p) > 0;
+  double tau =
+      p->slow ? SW_REST_SLOWEST_GROWTH * sw_rest_time_scale(s) : fmax(first, LED * led_time(p));
   p->report->transient = 1;
   while (!sw_rest_is_late(p, 1)) {
     if (p->interrupted && p->interrupted()) return SW_EINTR;
@@ -154,10 +149,9 @@ sw_status sw_rest_transient(sw_statics *p, sw_error *err) {
     if (sw_rest_stops(status)) return status;
     if (status != SW_OK) {
       tau *= unstable ? SHORTER_UNSTABLE : SHORTER;
-      if (drags_too_far(p, tau)) {
+      if (p->too_far && tau < LEAST_LED * led_time(p)) {
         *p->too_far = 1;
-        return sw_fail(err, SW_ENOCONV, "%s drag wires too far in one step",
-                       p->leads > 0 ? "wires" : "obstacles");
+        return sw_fail(err, SW_ENOCONV, "wires are dragged too far in one step");
       }
       if (tau < 1e-9 * first) return status;
       continue;

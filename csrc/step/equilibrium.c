@@ -12,7 +12,6 @@
 #include "step/statics.h"
 #include "system/rail.h"
 
-enum { SLIDES = 8 };
 static const double STATIC_TURN = 1e-7; /* last rotation of a converged solve [rad] */
 static const double NUDGE = 1e-4; /* push away from an unstable equilibrium, over the length [-] */
 enum { MOST_NUDGES = 2 };
@@ -150,20 +149,38 @@ sw_status sw_rest_continue(sw_statics *p, sw_error *err) {
   }
 }
 
-/* Of all iterations, so that some are left to find out that the pose is too far from the last one
- * [-]. */
+/* Newton's iteration once more where obstacles drag a wire: updates for each node, and most of them
+ * as a share of all iterations [-]. */
+enum { SLIDES = 8 };
 static const double MOST_SLIDES = 0.5;
 
 static int found(const sw_statics *p, sw_status status) {
   return (status == SW_OK && p->report->negative == 0) || sw_rest_stops(status);
 }
 
+/* Continues. If obstacles or wires drag others, the pose cannot be halved any more and no rest is
+ * found, other first steps may find one: a long one where obstacles drag (touched: the time up to
+ * which contact followed them), a short one else. Wires then slide on what drags them. */
+static sw_status continue_led(sw_statics *p, double touched, sw_error *err) {
+  const double dragged = sw_rest_dragged(p);
+  const int may_slide = !p->too_far && (p->leads > 0 || dragged > 0);
+  sw_status status = sw_rest_continue(p, err);
+  if (status != SW_ENOCONV || !may_slide) return status;
+  sw_rest_take_back(p->s, p->kept);
+  p->slow = dragged > 0, p->leads = 0, p->before = p->report->iterations;
+  if (p->slow) p->touched = touched;
+  status = sw_rest_continue(p, err);
+  p->slow = 0;
+  return status;
+}
+
 sw_status sw_rest_find(sw_statics *p, sw_error *err) {
   int fell = 0;
+  const double touched = p->touched, leads = p->leads;
   sw_rest_put_aside(p->s, p->kept);
   sw_status status = sw_rest_newton(p, SW_REST_ITERATIONS, err);
   if (found(p, status)) return status;
-  if (!p->rests && (sw_rest_dragged(p) || p->leads > 0)) {
+  if (!p->rests && (sw_rest_dragged(p) > 0 || p->leads > 0)) {
     sw_rest_take_back(p->s, p->kept);
     SW_TRY(sw_rest_before(p, &fell, err));
     if (fell) {
@@ -172,8 +189,8 @@ sw_status sw_rest_find(sw_statics *p, sw_error *err) {
       if (found(p, status)) return status;
     }
   }
-  if (status == SW_ENOCONV && sw_rest_dragged(p)) { /* touches may begin to slide one by one */
-    sw_rest_take_back(p->s, p->kept);
+  if (status == SW_ENOCONV && sw_rest_dragged(p) > 0 && !p->rubs) {
+    sw_rest_take_back(p->s, p->kept); /* touches may begin to slide one by one */
     const double most = SW_REST_ITERATIONS + SLIDES * (double)sw_scene_system(p->s)->nodes;
     status = sw_rest_newton(p, (int)fmin(most, MOST_SLIDES * (double)p->args->max_iterations), err);
   }
@@ -183,12 +200,8 @@ sw_status sw_rest_find(sw_statics *p, sw_error *err) {
     *p->too_far = 1;
     return sw_fail(err, SW_ENOCONV, "a wire may spring past a clip");
   }
-  p->divides = p->may_divide && status == SW_ENOCONV && !sw_rest_dragged(p);
+  p->divides = p->may_divide && status == SW_ENOCONV && !(sw_rest_dragged(p) > 0);
   if (p->divides) return status;
-  const int last = p->leads > 0 && !p->too_far;
-  status = sw_rest_continue(p, err);
-  if (status != SW_ENOCONV || !last) return status;
-  sw_rest_take_back(p->s, p->kept); /* wires slide on those that drag them, but come to rest */
-  p->leads = 0, p->before = p->report->iterations;
-  return sw_rest_continue(p, err);
+  p->leads = leads;
+  return continue_led(p, touched, err);
 }

@@ -122,28 +122,28 @@ static double drive_shift(const sw_statics *p) {
 
 static int rubs(const sw_mutual *m) { return m && sw_mutual_rubs(m); }
 
-/* Returns the shift of holds and fed wire in a part of the path, if wires may drag each other along
- * [m]. */
-static double led(const sw_statics *p, size_t parts) {
-  if (!rubs(sw_scene_pairs(p->s)) && !rubs(sw_scene_grains(p->s))) return 0;
-  double fed = 0;
+/* Returns the longest way of fed wire since the state [m]. */
+static double fed(const sw_statics *p) {
+  double most = 0;
   SW_EACH(hold, h, p->s) {
     if (!h->alive || !sw_hold_passes(h)) continue;
     const double before = sw_hold_way_of(p->s, h, p->touched, NULL).way;
-    fed = fmax(fed, fabs(sw_hold_way_of(p->s, h, sw_scene_time(p->s), NULL).way - before));
+    most = fmax(most, fabs(sw_hold_way_of(p->s, h, sw_scene_time(p->s), NULL).way - before));
   }
-  return fmax(drive_shift(p) / (double)parts, fed);
+  return most;
 }
 
 static sw_status follow_in(sw_statics *p, size_t parts, sw_error *err) {
   sw_status status = SW_OK;
   const size_t most = MOST_DIVIDED * parts;
+  p->rubs = rubs(sw_scene_pairs(p->s)) || rubs(sw_scene_grains(p->s));
+  const double way = p->rubs ? drive_shift(p) : 0, fed_way = p->rubs ? fed(p) : 0;
   p->report->rubbed = 0, p->divides = 0;
   for (size_t i = 1; status == SW_OK && i <= parts; i++) {
     sw_scene_go_part(p->s, i < parts ? p->from_poses : NULL, (double)i / (double)parts);
     p->passing = i < parts || p->args->passing ? PASSING : 0.0;
     p->before = p->report->iterations;
-    p->leads = led(p, parts);
+    p->leads = fmax(way / (double)parts, fed_way);
     const int slid = p->divides ? p->may_divide : has_slid(p);
     p->may_divide = p->slides && slid && parts < most, p->divides = 0;
     status = sw_rest_find(p, err);

@@ -18,8 +18,10 @@ typedef struct sw_statics {
   int slides;     /* 1: holds draw wires that something rubs */
   int may_divide; /* 1: a part of the holds' path is divided if no equilibrium follows directly */
   int divides;    /* 1: this part must be divided */
+  int rubs;       /* 1: wires may drag each other along */
   double leads;   /* shift of the holds by which wires may drag each other along; 0 from the first
                      accepted step on [m] */
+  int slow;       /* 1: continuation begins with a step as long as the slowest growth */
   double passing; /* accuracy before the last part of the holds' path: largest shift of a node, over
                      an edge [-] */
   double edge;    /* length of the shortest edge [m] */
@@ -48,8 +50,8 @@ enum { SW_REST_ITERATIONS = 60 }; /* usual limit of Newton iterations [-] */
 double sw_rest_time_scale(const sw_scene *scene);
 /* Returns the first step of continuation [s]. */
 double sw_rest_first_step(const sw_scene *scene);
-/* 1 if obstacles have moved since contact last followed them. Friction then drags the wires. */
-int sw_rest_dragged(const sw_statics *p);
+/* Shift of obstacles since contact last followed them. Friction then drags the wires [m]. */
+double sw_rest_dragged(const sw_statics *p);
 /* 1 if this part of the path has taken more than this share of the iterations that it may take. */
 int sw_rest_is_late(const sw_statics *p, double share);
 /* Finds y from the present state, with a step hbar of implicit Euler or (HUGE_VAL) at rest. */

@@ -204,7 +204,7 @@ static bounds work_of_obstacle(sw_scene *s, size_t k, const sw_worker *from, con
 static double work_of_obstacles(sw_scene *s, double h, int changed) {
   sw_contact *contact = sw_scene_contact(s);
   double most = 0;
-  if (!contact || !sw_contact_moves(contact)) return 0;
+  if (!contact || !(sw_contact_shift(contact, 1.0) > 0)) return 0;
   size_t count;
   const int *movers = sw_contact_movers(contact, &count);
   for (size_t i = 0; i < count; i++) {
