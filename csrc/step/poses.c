@@ -44,6 +44,7 @@ static sw_status pose_steps(sw_ladder *p, double t, sw_error *err) {
     sw_scene_course(s)->span = 0;
     SW_TRY(sw_step_observe(s, err));
     for (size_t w = 0; w < sw_scene_wire_slots(s); w++) sw_scene_watch_sinking(s, w);
+    sw_scene_watch_unkept(s);
   }
   return SW_OK;
 }

@@ -5,6 +5,7 @@
 
 #include "base/alloc.h"
 #include "body/live.h"
+#include "grip/jaws.h"
 #include "scene/course.h"
 #include "scene/gripper.h"
 #include "scene/parts.h"
@@ -22,9 +23,28 @@ typedef struct poser {
   int next;       /* course->next at that state */
   sw_jaw *before; /* (tools) at the start of the pose */
   double *speed;  /* (tools) speeds of jaws in the trial that came nearest [m/s] */
-  int rests;      /* see sw_jaw_correct */
+  double
+      *loses; /* (tools) speed in a trial in which the jaws lost their wire; NAN: none did [m/s] */
+  int rests;  /* see sw_jaw_correct */
   double nearest; /* deviation of its force; INFINITY = no trial converged [-] */
 } poser;
+
+/* Deviation from the wanted force above which jaws rather let go of a wire that slips from them as
+ * soon as they open, over that force [-]. */
+static const double FAR = 0.5;
+
+/* Returns the deviation of the jaws' force, over the wanted one; 0 for jaws that do not keep one
+ * [-]. */
+static double deviation(sw_scene *s, const sw_tool *t) {
+  const sw_jaw *j = &t->jaw;
+  if (!t->alive || t->frozen || j->mode != SW_JAW_FORCE || j->status != SW_JAW_HOLDS) return 0;
+  return sw_tool_squeeze(s, t, sw_scene_time(s)) / j->force - 1.0;
+}
+
+static void note_speeds(poser *p) {
+  for (size_t k = 0; k < sw_scene_tool_slots(p->s); k++)
+    p->speed[k] = sw_scene_tool_in(p->s, k)->jaw.speed;
+}
 
 static sw_status try(poser *p, double since, int *too_far, sw_error *err) {
   sw_settle_report trial = {0};
@@ -34,11 +54,14 @@ static sw_status try(poser *p, double since, int *too_far, sw_error *err) {
   trial.iterations += p->report->iterations;
   *p->report = trial;
   if (status != SW_OK) return status;
+  for (size_t k = 0; k < sw_scene_tool_slots(p->s); k++) {
+    const sw_tool *t = sw_scene_tool_in(p->s, k);
+    if (deviation(p->s, t) <= -1.0) p->loses[k] = t->jaw.speed;
+  }
   const double off = sw_jaw_off(p->s);
   if (off > p->nearest) return SW_OK;
   p->nearest = off;
-  for (size_t k = 0; k < sw_scene_tool_slots(p->s); k++)
-    p->speed[k] = sw_scene_tool_in(p->s, k)->jaw.speed;
+  note_speeds(p);
   return SW_OK;
 }
 
@@ -50,17 +73,38 @@ static sw_status fall_back(poser *p, double since, sw_error *err) {
   return try(p, since, NULL, err);
 }
 
+/* In poses: jaws whose force stays far too large, because a wire slips out of them as soon as they
+ * open a little, let go of it. */
+static sw_status let_go(poser *p, double since, sw_error *err) {
+  const size_t n = sw_scene_tool_slots(p->s);
+  sw_error why;
+  int any = 0;
+  note_speeds(p);
+  for (size_t k = 0; k < n && p->rests == SW_JAW_POSES; k++)
+    if (!isnan(p->loses[k]) && deviation(p->s, sw_scene_tool_in(p->s, k)) > FAR) any = 1;
+  if (!any) return SW_OK;
+  for (size_t k = 0; k < n; k++) {
+    sw_tool *t = sw_scene_tool_in(p->s, k);
+    if (!isnan(p->loses[k]) && deviation(p->s, t) > FAR) t->jaw.speed = p->loses[k];
+  }
+  SW_TRY(sw_live_back(p->s, &p->start, err));
+  const sw_status status = try(p, since, NULL, &why);
+  if (status == SW_ENOCONV) return fall_back(p, since, err);
+  return status == SW_OK ? SW_OK : sw_fail(err, status, "%s", why.text);
+}
+
 /* Finds equilibria, all from one start, until the jaws have the wanted forces or cannot have them.
  * If it fails, the scene is at that start. */
 static sw_status search(poser *p, double since, int *too_far, sw_error *err) {
   sw_error why;
   p->nearest = HUGE_VAL;
+  for (size_t k = 0; k < sw_scene_tool_slots(p->s); k++) p->loses[k] = NAN;
   for (;;) {
     sw_status status = try(p, since, too_far, &why);
-    if (status == SW_OK && sw_jaw_correct(p->s, p->rests)) return SW_OK;
+    if (status == SW_OK && sw_jaw_correct(p->s, p->rests)) return let_go(p, since, err);
     if (status == SW_ENOCONV && p->nearest < HUGE_VAL) {
       status = fall_back(p, since, &why);
-      if (status == SW_OK) return SW_OK;
+      if (status == SW_OK) return let_go(p, since, err);
     }
     const sw_status back = sw_live_back(p->s, &p->start, err);
     if (status != SW_OK) return sw_fail(err, status, "%s", why.text);
@@ -87,7 +131,7 @@ static sw_status search_on(poser *p, sw_error *err) {
 
 static sw_status prepare(poser *p) {
   const size_t n = sw_scene_tool_slots(p->s);
-  SW_TRY(SW_ALLOC_ALL(SW_ROOM(p->before, n), SW_ROOM(p->speed, n)));
+  SW_TRY(SW_ALLOC_ALL(SW_ROOM(p->before, n), SW_ROOM(p->speed, n), SW_ROOM(p->loses, n)));
   p->next = sw_scene_course(p->s)->next;
   for (size_t k = 0; k < n; k++) p->before[k] = sw_scene_tool_in(p->s, k)->jaw;
   return sw_live_take(p->s, &p->start);
@@ -110,5 +154,6 @@ sw_status sw_scene_squeezed_rest(sw_scene *s, double since, int *too_far,
   sw_tape_free(&p.start);
   sw_free(p.before);
   sw_free(p.speed);
+  sw_free(p.loses);
   return status;
 }

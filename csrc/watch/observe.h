@@ -89,6 +89,8 @@ void sw_scene_watch_squeezed(sw_scene *scene, size_t wire);
 void sw_scene_watch_pads_press(sw_scene *scene, size_t wire);
 /* In poses: the same where pads squeeze a mesh of springs on an obstacle. */
 void sw_scene_watch_sinking(sw_scene *scene, size_t wire);
+/* In poses: logs "unkept" where pads end with another force than the one that they are to keep. */
+void sw_scene_watch_unkept(sw_scene *scene);
 
 /* Reports pads that hold a mesh along them by more than their friction. */
 sw_status sw_scene_watch_caught(sw_scene *scene, size_t wire, sw_error *err);
