@@ -65,12 +65,13 @@ static sw_status try(poser *p, double since, int *too_far, sw_error *err) {
   return SW_OK;
 }
 
-/* Repeats the trial that came nearest, because the last one did not come to rest. */
-static sw_status fall_back(poser *p, double since, sw_error *err) {
+/* Repeats the trial that came nearest, because the last one did not come to rest. Without too_far
+ * the wire could leave the pads in it. */
+static sw_status fall_back(poser *p, double since, int *too_far, sw_error *err) {
   SW_TRY(sw_live_back(p->s, &p->start, err));
   for (size_t k = 0; k < sw_scene_tool_slots(p->s); k++)
     sw_scene_tool_in(p->s, k)->jaw.speed = p->speed[k];
-  return try(p, since, NULL, err);
+  return try(p, since, too_far, err);
 }
 
 /* In poses: jaws whose force stays far too large, because a wire slips out of them as soon as they
@@ -89,7 +90,7 @@ static sw_status let_go(poser *p, double since, sw_error *err) {
   }
   SW_TRY(sw_live_back(p->s, &p->start, err));
   const sw_status status = try(p, since, NULL, &why);
-  if (status == SW_ENOCONV) return fall_back(p, since, err);
+  if (status == SW_ENOCONV) return fall_back(p, since, NULL, err);
   return status == SW_OK ? SW_OK : sw_fail(err, status, "%s", why.text);
 }
 
@@ -103,7 +104,7 @@ static sw_status search(poser *p, double since, int *too_far, sw_error *err) {
     sw_status status = try(p, since, too_far, &why);
     if (status == SW_OK && sw_jaw_correct(p->s, p->rests)) return let_go(p, since, err);
     if (status == SW_ENOCONV && p->nearest < HUGE_VAL) {
-      status = fall_back(p, since, &why);
+      status = fall_back(p, since, too_far, &why);
       if (status == SW_OK) return let_go(p, since, err);
     }
     const sw_status back = sw_live_back(p->s, &p->start, err);
