@@ -110,7 +110,12 @@ sw_status sw_scene_book_event(sw_scene *s, const char *kind, const char *object,
     return sw_fail(err, SW_EINVAL,
                    "scene:tell: time = %g s lies ahead; it must be at most the scene's %g s", time,
                    now);
+  sw_events *all = sw_scene_events_of(s);
+  const sw_event *before = latest(all, kind, object);
+  const size_t count = before && before->last == time ? before->count : 0;
   tell_at(s, isnan(time) ? now : time, kind, object, arc, value, "%s", text);
+  sw_event *e = count ? latest(all, kind, object) : NULL;
+  if (e) e->count = count; /* told again for its own time: it has a larger value now */
   return SW_OK;
 }
 

@@ -63,7 +63,7 @@ local function lifted(o)
     hand:move{ by = { 0, 0, 0.2 }, duration = 1 }
     p:wait(0.7)
   end)
-  return t.fine(scene:run{ dt = 0.01 }), wire:position(0).z - wire:position(0.15).z
+  return t.fine(scene:run{ dt = o.dt or 0.01 }), wire:position(0).z - wire:position(0.15).z
 end
 
 -- Returns a scene with a cable of 0.4 m, turned by an angle about z, on a table.
@@ -158,6 +158,16 @@ describe("pads that turn about the axis of a rod", function()
       of = function() return -sag end } } }
     assert.equal("OPEN", check:row "sag".verdict)
     assert.equal("OPEN", check:row "wire.min_bend_radius".verdict)
+  end)
+
+  -- The angle was that of the first look beyond 0.2 rad: 20 degrees of 102 at 2 ms.
+  it("tell the angle that such a rod has rolled in the end", function()
+    for _, dt in ipairs{ 0.01, 0.002 } do
+      local told = told_of((lifted{ approach = "plates", dt = dt }))
+      assert.equal(1, #told)
+      assert.equal(1, told[1].count)
+      t.share(1.78, told[1].value, 0.05, ("angle at %g s [rad]"):format(dt))
+    end
   end)
 
   it("say nothing if nothing resists, or if both turn together", function()

@@ -90,6 +90,20 @@ describe("events", function()
     assert.same({ 0.45, "another" }, { list[2].time, list[2].text })
   end)
 
+  it("may be told again for their time, with a larger value", function()
+    local s = scene()
+    s:process(function(p)
+      for k = 1, 5 do
+        p:wait(0.2)
+        s:tell{ kind = "grows", text = ("value %d"):format(k), value = k, time = 0.2 }
+      end
+    end)
+    local list = s:run{}.events
+    assert.equal(1, #list)
+    assert.same({ 0.2, 0.2, 1, 5, "value 5" },
+      { list[1].time, list[1].last, list[1].count, list[1].value, list[1].text })
+  end)
+
   it("refuse missing and unknown parameters", function()
     local s = scene()
     assert.has_error(function() s:tell{ kind = "x" } end, "scene:tell: text is required [-]: one sentence")

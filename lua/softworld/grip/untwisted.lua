@@ -17,6 +17,7 @@ local vec = require "softworld.vec"
 local untwisted = {}
 
 local TOLD = 0.2 -- smaller turns are left out [rad]
+local MORE = 1.02 -- an angle that has grown by this factor is told instead of the last one [-]
 local keeps = checks.set "clamp grip feed" -- holds that keep a wire from turning
 local function is_plain(wire)
   return wire.model == "rod" and wire.beam.GJ > 0 and not wire:get().spin_inertia
@@ -89,11 +90,12 @@ local function look_at_frames(self, wire, s, across, seen)
   local t = wire:tangent(s)
   local ours = vec.across(vec.rotate(q, CLOSES), t)
   local turn = turned(seen, math.atan(vec.dot(vec.cross(ours, across), t), vec.dot(ours, across)))
-  if turn <= TOLD then return end
-  seen.told = true
-  self.scene:tell{ kind = "untwisted", object = self.name, s = s, value = turn, text = ("wire '%s' has "
-    .. "rolled in the pads of '%s' by %.3g degrees: they do not keep a rod from turning about its axis, as "
-    .. "friction would. Places and bends are wrong. %s"):format(wire.name, self.name, math.deg(turn), WAY) }
+  if turn <= MORE * (seen.most or TOLD / MORE) then return end
+  seen.most, seen.time = turn, seen.time or self.scene.time
+  self.scene:tell{ kind = "untwisted", object = self.name, s = s, value = turn, time = seen.time,
+    text = ("wire '%s' has rolled in the pads of '%s' by %.3g degrees: they do not keep a rod from turning "
+    .. "about its axis, as friction would. Places and bends are wrong. %s"):format(wire.name, self.name,
+    math.deg(turn), WAY) }
 end
 
 -- True if two orientations are the same.

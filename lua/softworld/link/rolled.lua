@@ -10,6 +10,7 @@ local vec = require "softworld.vec"
 local rolled = {}
 
 local TOLD = 0.5 -- smaller turns are left out [rad]
+local MORE = 1.02 -- an angle that has grown by this factor is told instead of the last one [-]
 
 -- Returns the wires of a scene that are curved at rest, as rods.
 local function curved(scene)
@@ -35,24 +36,29 @@ local function angle_of(clip, wire)
   return math.atan(vec.dot(vec.cross(out, across), t), vec.dot(out, across)), s
 end
 
+local function tell(clip, wire, s, turn, time)
+  clip.scene:tell{ kind = "rolled", object = clip.name, s = s, value = turn, time = time, text = ("wire '%s', "
+    .. "which is curved at rest, has rolled in clip '%s' by %.3g degrees: a clip does not keep a wire from "
+    .. "turning about its axis. If the real one squeezes it, hold it there by a clamp or a gripper"):format(
+    wire.name, clip.name, math.deg(turn)) }
+end
+
 local function look_at(clip, wire)
-  local seen = clip.turned or {}
+  local all = clip.turned or {}
   local angle, s = nil, nil
   if clip:seated(wire) then angle, s = angle_of(clip, wire) end
-  if seen[wire.name] == true then return end -- told
-  if not angle or not seen[wire.name] then
-    seen[wire.name] = angle
-    clip.turned = seen
+  local seen = all[wire.name]
+  if not angle or not seen then
+    if seen and seen.told then return end
+    all[wire.name] = angle and { angle = angle } or nil
+    clip.turned = all
     return
   end
-  local turn = math.abs(angle - seen[wire.name])
+  local turn = math.abs(angle - seen.angle)
   turn = math.min(turn, 2 * math.pi - turn)
-  if turn <= TOLD then return end
-  seen[wire.name] = true
-  clip.scene:tell{ kind = "rolled", object = clip.name, s = s, value = turn, text = ("wire '%s', which is "
-    .. "curved at rest, has rolled in clip '%s' by %.3g degrees: a clip does not keep a wire from turning "
-    .. "about its axis. If the real one squeezes it, hold it there by a clamp or a gripper"):format(wire.name,
-    clip.name, math.deg(turn)) }
+  if turn <= MORE * (seen.told or TOLD / MORE) then return end
+  seen.told, seen.time = turn, seen.time or clip.scene.time
+  tell(clip, wire, s, turn, seen.time)
 end
 
 --- Looks at all clips of a scene.
