@@ -60,6 +60,7 @@ typedef struct sw_books {
   sw_outer_sum outer[SW_OUTER_SUMS]; /* of this run, anew after a file was read */
   int put;                           /* 1: a hold was put elsewhere since the last step */
   int has_powers;                    /* 1: there are forces without a potential */
+  size_t in_each_other;              /* places of released joins where wires still are so [-] */
   int known;                         /* 1: all of the above belongs to the present state */
   int begun;                         /* 1: at_start is known */
   sw_step_energy step;               /* the step judged last */

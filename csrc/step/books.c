@@ -14,6 +14,7 @@
 #include "step/energy.h"
 #include "step/outer.h"
 #include "step/step.h"
+#include "system/join.h"
 #include "system/system.h"
 #include "system/wait.h"
 #include "watch/observe.h"
@@ -103,6 +104,7 @@ sw_status sw_ledger_open(sw_scene *s, sw_error *err) {
   b->begun = 1;
   take_as_now(b, &e, contact);
   b->put = was_put(s, err);
+  b->in_each_other = sw_joins_still_in(system);
   b->dissipated = sw_system_dissipated(system, &any);
   b->rubbed_off = sw_system_rubbed(system);
   if (sw_ledger_note_workers(s, 1) != SW_OK)
@@ -257,6 +259,9 @@ sw_status sw_ledger_pose(sw_scene *s, double t0, int jumped, double rubbed, doub
   step->work = sw_ledger_effort(step);
   const double before = b->sums.integrator;
   step->gain = 0; /* poses have no referee */
+  const size_t still_in = sw_joins_still_in(sw_scene_system(s));
+  if (still_in < b->in_each_other) step->let_out = HUGE_VAL; /* they come apart at once */
+  b->in_each_other = still_in;
   book_step(s, 1);
   if (jumped) b->sums.jumps += b->sums.integrator - before, b->sums.integrator = before;
   if (sw_ledger_note_workers(s, 0) != SW_OK || log_row(s) != SW_OK)

@@ -134,6 +134,8 @@ int sw_joins_near(const sw_system *system, uint32_t one, uint32_t two);
 /* Two nodes that a released join kept together. The wires lie in each other there until they have
  * come out. SW_ENOMEM. */
 sw_status sw_system_add_parted(sw_system *system, uint32_t i, uint32_t j);
+/* Number of pairs of nodes that released joins kept together and that are still in each other. */
+size_t sw_joins_still_in(const sw_system *system);
 /* The same as sw_joins_near for joins that were released. */
 int sw_joins_were_near(const sw_system *system, uint32_t one, uint32_t two);
 

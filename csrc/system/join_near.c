@@ -51,6 +51,18 @@ sw_status sw_system_add_parted(sw_system *s, uint32_t i, uint32_t j) {
   return SW_OK;
 }
 
+/* Axes of wires nearer than this share of the sum of their radii are in each other [-]. */
+static const double IN = 0.5;
+
+size_t sw_joins_still_in(const sw_system *s) {
+  size_t count = 0;
+  SW_ITEMS(const struct sw_parted, p, s->parted, s->parted_count) {
+    const double apart = sw_dist(sw_vec_at(s->x, p->i), sw_vec_at(s->x, p->j));
+    count += apart < IN * (radius_at(s, p->i) + radius_at(s, p->j));
+  }
+  return count;
+}
+
 int sw_joins_were_near(const sw_system *s, uint32_t one, uint32_t two) {
   if (!s->parted_count) return 0;
   const double reach = reach_of(s, one, two);

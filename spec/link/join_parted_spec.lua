@@ -57,6 +57,22 @@ describe("a join that is released between wires that touch", function()
     end)
   end
 
+  -- An event `energy` told 22 and 30 % from nowhere, at any step.
+  it("lets them come apart in one pose", function()
+    for _, branch in ipairs{ false, true } do
+      local scene, one, two, join = joined{ branch = branch }
+      scene:process(function(p)
+        p:wait(0.1)
+        join:release()
+        p:wait(0.1)
+      end)
+      local run = t.fine(scene:run{ dt = 0.01, quasistatic = true })
+      assert.equal(0, #run.events)
+      t.below(1e-9, run:ledger().gap, "energy from nowhere [J]")
+      t.near(2 * RADIUS, math.abs(one:position(0.2).z - two:position(0).z), 1e-4, "distance")
+    end
+  end)
+
   it("lets the lower one fall", function()
     local run, fastest, scene = released{ hung = true }
     assert.equal(0, #run.events)

@@ -37,10 +37,10 @@ local function angle_of(clip, wire)
 end
 
 local function tell(clip, wire, s, turn, time)
-  clip.scene:tell{ kind = "rolled", object = clip.name, s = s, value = turn, time = time, text = ("wire '%s', "
-    .. "which is curved at rest, has rolled in clip '%s' by %.3g degrees: a clip does not keep a wire from "
-    .. "turning about its axis. If the real one squeezes it, hold it there by a clamp or a gripper"):format(
-    wire.name, clip.name, math.deg(turn)) }
+  clip.scene:tell{ kind = "rolled", object = clip.name, s = s, value = turn, time = time,
+    text = ("wire '%s', which is curved at rest, has rolled in clip '%s' by %.3g degrees: a clip does not "
+    .. "keep a wire from turning about its axis. If the real one squeezes it, hold it there by a clamp or a "
+    .. "gripper"):format(wire.name, clip.name, math.deg(turn)) }
 end
 
 local function look_at(clip, wire)
