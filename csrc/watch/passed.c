@@ -11,7 +11,7 @@
 #include "scene/wire.h"
 #include "watch/observe.h"
 
-/* What touches the held part. A coil that is gripped may touch itself there from the start. */
+/* What touches the held part. A loop may be round it from the start. */
 enum { NOT_SEEN, CLEAR, TOUCHED, TOLD };
 
 /* A knot that is drawn tight at the grip touches the wire at its face. This part of the grip, in
@@ -39,7 +39,52 @@ static double place_on(const sw_system *s, const sw_pair_place *p, int k) {
   return from + p->at[k] * (to - from);
 }
 
-/* Returns where the wire touches its part in the grip, or NAN: nowhere [m]. */
+/* A loop goes round the grip's axis by more than this angle within this distance, over the wire's
+ * radius. A straight piece that lies on the part, such as a turn of a coil beside it, goes by less
+ * than half a turn [rad], [-]. */
+static const double ROUND = 3.5, NEAR = 20.0;
+
+/* A line through a place of the wire, along it. */
+typedef struct line {
+  sw_vec at, along;
+} line;
+
+static line axis_at(const sw_system *s, const sw_pair_place *p, int k) {
+  const sw_vec from = sw_vec_at(s->x, p->node[k]), to = sw_vec_at(s->x, p->end[k]);
+  const sw_vec way = sw_sub(to, from);
+  return (line){sw_madd(from, way, p->at[k]), sw_unit_or(way, sw_v(0, 0, 1))};
+}
+
+/* Returns the angle by which the wire goes round the axis from a node on, in steps of `step` nodes,
+ * within a distance [rad]. */
+static double goes_round(const sw_system *s, const sw_body *b, size_t node, int step, line axis,
+                         double within) {
+  const size_t first = b->first_node, last = first + b->plan->nodes - 1;
+  sw_vec before = sw_sub(sw_vec_at(s->x, node), axis.at);
+  double sum = 0;
+  while (node != (step > 0 ? last : first)) {
+    node += (size_t)step;
+    const sw_vec now = sw_sub(sw_vec_at(s->x, node), axis.at);
+    if (sw_norm(now) > within) break;
+    const sw_vec u = sw_madd(before, axis.along, -sw_dot(before, axis.along));
+    const sw_vec v = sw_madd(now, axis.along, -sw_dot(now, axis.along));
+    sum += atan2(sw_dot(sw_cross(u, v), axis.along), sw_dot(u, v));
+    before = now;
+  }
+  return sum;
+}
+
+/* 1 if the wire goes round its place k of these two as a loop does, at the other one. */
+static int is_loop(const sw_system *s, const sw_pair_place *p, int k) {
+  const sw_body *b = &s->bodies[p->body[k]];
+  const line axis = axis_at(s, p, k);
+  const double within = NEAR * b->plan->beam.radius;
+  const size_t node = p->at[1 - k] < 0.5 ? p->node[1 - k] : p->end[1 - k];
+  const double on = goes_round(s, b, node, 1, axis, within);
+  return fabs(on - goes_round(s, b, node, -1, axis, within)) > ROUND;
+}
+
+/* Returns where a loop of the wire touches its part in the grip, or NAN: nowhere [m]. */
 static double touched(const sw_scene *s, const sw_hold *h) {
   const sw_system *system = sw_scene_system(s);
   size_t next[2] = {0, 0};
@@ -48,7 +93,8 @@ static double touched(const sw_scene *s, const sw_hold *h) {
     if (p.body[0] != p.body[1]) continue;
     for (int k = 0; k < 2; k++) {
       const double here = place_on(system, &p, k), there = place_on(system, &p, 1 - k);
-      if (is_inside(s, h, here) && !(there >= h->s1 && there <= h->s2)) return here;
+      if (!is_inside(s, h, here) || (there >= h->s1 && there <= h->s2)) continue;
+      if (is_loop(system, &p, k)) return here;
     }
   }
   return NAN;
