@@ -36,6 +36,13 @@ describe("help", function()
     assert.truthy(shown "GXL 1.6":find("no help on 'GXL 1.6'", 1, true))
   end)
 
+  it("knows kinds of events, which reports name", function()
+    assert.matches("^event `passed`: a wire slips over a part of itself.*help \"grip\"$", shown "passed")
+    assert.matches("^event `slip`: .*; see help \"gripper\"$", shown "slip")
+    assert.truthy(shown "energy":find("^Where the energy went"))
+    assert.truthy(shown "slipp":find("no help on 'slipp'", 1, true))
+  end)
+
   it("of other values shows them", function()
     assert.truthy(shown(print):find "^function")
     assert.equal("5", shown(5))

@@ -313,12 +313,24 @@ function topics.overview()
   return table.concat(lines, "\n")
 end
 
---- Returns the text under a name, or nil: the page of the manual first, then parameters.
+-- Returns the texts of the manual's rows about a kind of event: what it means, and where more is.
+local function events_of(kind)
+  local texts = {}
+  for kinds, means, more in manual.page "events":gmatch "\n| ([^|]+) | ([^|]+) | ([^|\n]+) |" do
+    if kinds:find("`" .. kind .. "`", 1, true) then
+      texts[#texts + 1] = text_of(("event `%s`: %s; see %s"):format(kind, means, more))
+    end
+  end
+  return texts
+end
+
+--- Returns the text under a name, or nil: the page of the manual first, then parameters; else the events.
 function topics.text(topic)
   local texts, parts = {}, topics.parts(topic)
   local page = manual.has(topic) and topic or #parts == 0 and manual.also[topic]
   if page then texts[1] = text_of(manual.page(page)) end
   for _, part in ipairs(parts) do texts[#texts + 1] = part_text(part) end
+  if #texts == 0 then texts = events_of(topic) end
   return #texts > 0 and table.concat(texts, "\n\n") or nil
 end
 
