@@ -77,8 +77,10 @@ static void forgive(const sw_mutual *m, const sw_system *s, const sw_met *met, s
   sw_kept kept = met ? met->kept : (sw_kept){0};
   t->squeezed = is_squeezed(m, s, met, t);
   if (!t->squeezed) kept.left = 0;
-  const sw_left left =
+  sw_left left =
       sw_press_leave(depth, met ? &kept : NULL, (t->emerges ? SW_LET_OUT : SW_PART) * m->h);
+  if (t->emerges && sw_meet_abuts(s, t))
+    left = (sw_left){.forgiven = sw_larger(0.0, depth - kept.depth)};
   t->forgiven += left.forgiven, t->left = left.left;
   if (t->emerges) t->let_out = left.let_out;
 }

@@ -68,6 +68,9 @@ typedef struct sw_met {
   int smooth; /* 1: smooth curves met there */
 } sw_met;
 
+/* 1 if two wires that a released join kept together touch end on. Ends have round caps here, which
+ * overlap there, but a cable that is cut has none: they do not push each other apart. */
+int sw_meet_abuts(const sw_system *system, const sw_meet *touch);
 /* Makes the memory of a touch at a step's end. */
 sw_met sw_meet_remember(const sw_system *system, const sw_meet *touch);
 /* Depth below which its stiffness is higher than needed [m]. */

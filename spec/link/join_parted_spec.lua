@@ -73,6 +73,28 @@ describe("a join that is released between wires that touch", function()
     end
   end)
 
+  -- Their round caps pushed each other along the line, with 254 N at 5 ms.
+  it("leaves two halves in line between hands where they are, without a push", function()
+    for _, dt in ipairs{ 0.02, 0.005, 0.002, 0.0005 } do
+      local scene, one, two, join = joined{}
+      local first, second = scene:gripper{ name = "first" }, scene:gripper{ name = "second" }
+      local pushed
+      scene:process(function(p)
+        first:grasp(one, { s = 0.01 })
+        second:grasp(two, { s = 0.19 })
+        second:move{ by = { 1e-7, 0, 0 }, duration = 0.2 }
+        join:release()
+        p:wait(0.5)
+        pushed = first.peak_force
+        if dt < 0.02 then second:move{ by = { -1e-5, 0, 0 }, duration = 0.1 } end
+      end)
+      local run = t.fine(scene:run{ dt = dt })
+      t.below(0.1, pushed, "push after the release [N]")
+      if dt < 0.02 then t.above(1, first.peak_force, "push of ends that are pressed together [N]") end
+      for _, e in ipairs(run.events) do assert.equal("buckling", e.kind) end
+    end
+  end)
+
   it("lets the lower one fall", function()
     local run, fastest, scene = released{ hung = true }
     assert.equal(0, #run.events)
