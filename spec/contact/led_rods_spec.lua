@@ -3,19 +3,22 @@
 -- fed under one to three others. Where the middles of all cables are, in poses of 50 ms, is compared with a
 -- slow motion of the same scene (10 s instead of 1 s, damped). Heaps branch, and friction depends on the way,
 -- so single cables may differ by millimetres; the means tell whether cables follow those that drag them.
--- Before this was so, the means were 1.9 mm, and 8.5 mm of 30 mm fed.
+-- Before this was so, the means were 1.9 mm, and 8.5 mm of 30 mm fed. The third kind of scene, a table that
+-- moves below a held cable of a heap, was right, but took 3,930,000 iterations for 30 heaps.
 local sw = require "softworld"
 local t = require "physics.tools"
 
 local CABLES = { "GXL 1.5", "FLRY-B 0.5", "H07V-K 4" }
 local SCENES, FIRST = 60, 1001
 
-local function heap(seed)
+local function heap(seed, most, moving)
   math.randomseed(seed)
   local draw = math.random
   local scene = sw.scene{ name = "heap" .. seed }
-  scene:obstacle{ name = "table", shape = "plane", friction = 0.1 + 0.4 * draw() }
-  local count, wires = draw(2, 5), {}
+  local at = { name = "table", shape = "plane", friction = 0.1 + 0.4 * draw() }
+  if moving then at.shape, at.size, at.at = "box", { 2, 2, 0.1 }, { 0, 0, -0.05 } end
+  local ground = scene:obstacle(at)
+  local count, wires = draw(2, most), {}
   for i = 1, count do
     local cable, a = CABLES[draw(3)], math.pi * draw()
     local x, y, half, z = 0.1 * draw(), 0.1 * draw(), 0.075 + 0.075 * draw(), 0.003 + 0.005 * (i - 1)
@@ -26,6 +29,10 @@ local function heap(seed)
   scene:wire_contact{ friction = 0.1 + 0.4 * draw() }
   scene:settle()
   local drawn = wires[draw(count)]
+  if moving then
+    scene:clamp(drawn, { s = 0 })
+    return scene, wires, ground, { { 0, 0, 0 }, { 0.03, 0.01, 0 } }
+  end
   local hand = scene:clamp(drawn, { s = draw(2) == 1 and 0 or drawn.length })
   local x, y, z = 0.06 * (draw() - 0.5), 0.06 * (draw() - 0.5), 0.02 * draw()
   return scene, wires, hand, { { 0, 0, 0 }, { x, y, z }, { 2 * x, y, 0.5 * z } }
@@ -53,19 +60,26 @@ local function fed(seed)
   return scene, wires, feed
 end
 
--- Returns the middles of the wires after a run, or nil if no rest was found.
+-- Returns the middles of the wires after a run, or nil if no rest was found; iterations of poses.
 local function middles(scene, wires, o)
   if not o.quasistatic then scene:force{ kind = "damping", mass = 8 } end
   o.progress = false
-  if not scene:run(o).ok then return end
+  local run = scene:run(o)
+  if not run.ok then return nil, run.iterations end
   local out = {}
   for i, w in ipairs(wires) do out[i] = w:position(w.length / 2) end
-  return out
+  return out, run.iterations
 end
 
 local function after_draw(seed, o)
-  local scene, wires, hand, points = heap(seed)
+  local scene, wires, hand, points = heap(seed, 5)
   hand:follow{ relative = true, duration = o.duration, points = points }
+  return middles(scene, wires, o)
+end
+
+local function after_table(seed, o)
+  local scene, wires, ground, points = heap(seed, 4, true)
+  ground:follow{ relative = true, duration = o.duration, points = points }
   return middles(scene, wires, o)
 end
 
@@ -83,11 +97,13 @@ local function largest_distance(a, b)
   return most
 end
 
--- Returns the mean distance from slow motion, how many scenes came to rest, and in how many it is over 5 mm.
+-- Returns the mean distance from slow motion, how many scenes came to rest, in how many it is over 5 mm, and
+-- the iterations of poses.
 local function compare(after, first, scenes)
-  local sum, count, far = 0, 0, 0
+  local sum, count, far, all = 0, 0, 0, 0
   for seed = first, first + scenes - 1 do
-    local poses = after(seed, { duration = 1, dt = 0.05, quasistatic = true })
+    local poses, iterations = after(seed, { duration = 1, dt = 0.05, quasistatic = true })
+    all = all + iterations
     local motion = after(seed, { duration = 10, dt = 0.01 })
     if poses and motion then
       local d = largest_distance(poses, motion)
@@ -95,7 +111,7 @@ local function compare(after, first, scenes)
       if d > 5e-3 then far = far + 1 end
     end
   end
-  return sum / count, count, far
+  return sum / count, count, far, all
 end
 
 describe("cables that drag others along, in poses", function()
@@ -111,5 +127,13 @@ describe("cables that drag others along, in poses", function()
     t.above(39, count)
     t.below(1e-3, mean) -- 0.44 mm
     t.below(3, far)
+  end)
+
+  it("go with a table that moves below one of them, which is held", function()
+    local mean, count, far, iterations = compare(after_table, 1, 30)
+    t.above(28, count)
+    t.below(1e-3, mean) -- 0.35 mm
+    t.below(1, far)
+    t.below(600000, iterations) -- 251,000
   end)
 end)
