@@ -23,9 +23,8 @@ typedef struct poser {
   int next;       /* course->next at that state */
   sw_jaw *before; /* (tools) at the start of the pose */
   double *speed;  /* (tools) speeds of jaws in the trial that came nearest [m/s] */
-  double
-      *loses; /* (tools) speed in a trial in which the jaws lost their wire; NAN: none did [m/s] */
-  int rests;  /* see sw_jaw_correct */
+  double *loses;  /* (tools) speeds with which they lost their wire; NAN: they did not [m/s] */
+  int rests;      /* see sw_jaw_correct */
   double nearest; /* deviation of its force; INFINITY = no trial converged [-] */
 } poser;
 
