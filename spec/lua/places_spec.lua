@@ -40,7 +40,7 @@ describe("an error", function()
     ["a function in a file"] = function() scene:save "x.sws" end,
     ["a state without pads"] = function() gripper:state() end,
     ["an opening that is none"] = function() gripper:close_jaws{ force = {} } end,
-    ["a fixing that is gone"] = function() return tie.peak_force end,
+    ["a fixing that is gone"] = function() tie:tension() end,
     ["a wire that is none"] = function() clip:force(12) end,
     ["a scene that is none"] = function() scene.settle({}) end,
     ["a gripper that is nowhere"] = function()
