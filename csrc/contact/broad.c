@@ -248,6 +248,16 @@ int sw_broad_disturbs(const sw_contact *c, size_t o, const sw_bounds *box, doubl
          own->min.z - most <= box->max.z && own->max.z + most >= box->min.z;
 }
 
+int sw_broad_moves(const sw_contact *c) {
+  for (size_t k = 0; k < c->broad.mover_count; k++) {
+    const int o = c->broad.mover[k];
+    const sw_pose *a = &c->start[o].pose, *b = &c->now[o].pose;
+    const sw_quat p = a->q, q = b->q;
+    if (sw_dist(a->p, b->p) > 0 || p.w != q.w || p.x != q.x || p.y != q.y || p.z != q.z) return 1;
+  }
+  return 0;
+}
+
 double sw_contact_shift(const sw_contact *c, double lever) {
   double most = 0;
   for (size_t k = 0; k < c->broad.mover_count; k++) {

@@ -62,6 +62,8 @@ const int *sw_broad_near(sw_broad *broad, const sw_bounds *box, double reach, si
 
 /* Updates the boxes of obstacles that may move, as placed at the step's start. */
 void sw_broad_bound_movers(sw_contact *c);
+/* 1 if an obstacle has moved since the step's start. */
+int sw_broad_moves(const sw_contact *c);
 /* 1 if the obstacle may come within reach of the box in the step. */
 int sw_broad_disturbs(const sw_contact *c, size_t o, const sw_bounds *box, double reach);
 

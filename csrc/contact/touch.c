@@ -150,7 +150,7 @@ static int closed_here(const sw_web *web, const sw_press *press, const sw_touch 
 static int counts_reversals(const sw_contact *c, const sw_system *s, const sw_touch *t) {
   if (c->regime == SW_CONTACT_IMPLICIT) return c->updates > 0;
   const sw_web *web = s->bodies[t->body].plan->web;
-  return (web && web->solid_rate2 > 0) || sw_contact_shift(c, 1.0) > 0;
+  return (web && web->solid_rate2 > 0) || sw_broad_moves(c);
 }
 
 /* Sets the spring of friction. A turning obstacle turns the slide of the step's first stage with

@@ -163,28 +163,6 @@ static sw_status search(sw_scene *s, double t0, int *too_far, int squeezes,
                   : find_rest(s, t0, too_far, args, interrupted, rest, err);
 }
 
-/* The jaws and the course at the start of a search. */
-typedef struct begun {
-  sw_tape live;
-  sw_jaw *jaws; /* (tools) */
-  int next;     /* see sw_course */
-} begun;
-
-static sw_status begin(const sw_scene *s, begun *b, sw_error *err) {
-  *b = (begun){.jaws = sw_alloc(sw_scene_tool_slots(s), sizeof *b->jaws),
-               .next = sw_scene_course(s)->next};
-  if (!b->jaws || sw_live_take(s, &b->live) != SW_OK)
-    return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", sw_scene_name(s));
-  for (size_t k = 0; k < sw_scene_tool_slots(s); k++) b->jaws[k] = sw_scene_tool_in(s, k)->jaw;
-  return SW_OK;
-}
-
-static sw_status begin_again(sw_scene *s, const begun *b, sw_error *err) {
-  sw_scene_course(s)->next = b->next;
-  for (size_t k = 0; k < sw_scene_tool_slots(s); k++) sw_scene_tool_in(s, k)->jaw = b->jaws[k];
-  return sw_live_back(s, &b->live, err);
-}
-
 /* Finds the equilibrium. In a pose that cannot be divided any more wires leave pads that hold them
  * by short steps, as they would in motion. If none is found so, or with other forces of the jaws
  * only, they may jump out of them. */
@@ -192,20 +170,19 @@ static sw_status hold_on(sw_scene *s, double t0, int *too_far, int squeezes, sw_
                          int (*interrupted)(void), sw_settle_report *rest, sw_error *err) {
   if (!squeezes || sw_jaws_strained(s))
     return search(s, t0, too_far, squeezes, args, interrupted, rest, err);
-  begun start = {0};
-  sw_status status = begin(s, &start, err);
+  kept start = {0};
+  sw_status status = keep_loosely(s, &start, err);
   args->holds = 1;
   if (status == SW_OK) status = search(s, t0, too_far, 1, args, interrupted, rest, err);
   args->holds = 0;
   if ((status == SW_ENOCONV && !too_far) || (status == SW_OK && sw_jaws_strained(s))) {
     const size_t before = rest->iterations;
     *rest = (sw_settle_report){0};
-    status = begin_again(s, &start, err);
+    status = put_back(s, &start, sw_scene_time(s), err);
     if (status == SW_OK) status = search(s, t0, too_far, 1, args, interrupted, rest, err);
     rest->iterations += before;
   }
-  sw_tape_free(&start.live);
-  sw_free(start.jaws);
+  drop(&start);
   return status;
 }
 
