@@ -184,4 +184,13 @@ function tools.largest(list)
   return most
 end
 
+--- Returns the events of a run of this kind.
+function tools.events(run, kind)
+  local list = {}
+  for _, e in ipairs(run.events) do
+    if e.kind == kind then list[#list + 1] = e end
+  end
+  return list
+end
+
 return tools

@@ -20,13 +20,7 @@ local function held(o)
   return scene, wire, clamp, one, two, along
 end
 
-local function told_of(run)
-  local told = {}
-  for _, e in ipairs(run.events) do
-    if e.kind == "untwisted" then told[#told + 1] = e end
-  end
-  return told
-end
+local function told_of(run) return t.events(run, "untwisted") end
 
 -- The first hand twists the cable, the second one takes hold, and the first one (or the clamp) lets go.
 -- Returns the run, its events `untwisted`, the second hand, and the moment before, about the axis [N m].

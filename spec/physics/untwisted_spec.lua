@@ -36,13 +36,7 @@ local function moved(o)
   return t.fine(scene:run{ dt = o.dt or 0.01 }), two, wire
 end
 
-local function told_of(run)
-  local told = {}
-  for _, e in ipairs(run.events) do
-    if e.kind == "untwisted" then told[#told + 1] = e end
-  end
-  return told
-end
+local function told_of(run) return t.events(run, "untwisted") end
 
 -- Pads lift a cable that is curved at rest by its middle off a table. Returns the run and the end's height
 -- above the middle [m].
