@@ -231,9 +231,9 @@ int sw_scene_review_static(sw_scene *s, const double *x1) {
   return again;
 }
 
-void sw_scene_commit_contact(sw_scene *s) {
+void sw_scene_commit_contact(sw_scene *s, int holds) {
   if (s->contact) {
-    sw_contact_commit(s->contact, &s->system);
+    sw_contact_commit(s->contact, &s->system, holds);
     size_t count;
     const int *busy = sw_contact_busy(s->contact, &count);
     for (size_t i = 0; i < count; i++) {
@@ -241,8 +241,8 @@ void sw_scene_commit_contact(sw_scene *s) {
       s->obstacles[sw_contact_id(s->contact, k)].past = *sw_contact_past_of(s->contact, k);
     }
   }
-  if (s->pairs) sw_mutual_commit(s->pairs, &s->system);
-  if (s->grains) sw_mutual_commit(s->grains, &s->system);
+  if (s->pairs) sw_mutual_commit(s->pairs, &s->system, holds);
+  if (s->grains) sw_mutual_commit(s->grains, &s->system, holds);
 }
 
 /* Uses copies of contact as it presses now; other wires stay where they are. */

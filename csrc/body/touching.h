@@ -38,7 +38,7 @@ int sw_scene_was_struck(const sw_scene *scene);
 sw_contact_verdict sw_scene_review_contact(sw_scene *scene, const double *x1, const double *v1,
                                            double h);
 int sw_scene_review_static(sw_scene *scene, const double *x1);
-void sw_scene_commit_contact(sw_scene *scene);
+void sw_scene_commit_contact(sw_scene *scene, int holds); /* see sw_contact_commit */
 /* A step was accepted: stops the wires that came to rest (system/wait.h). */
 void sw_scene_stop_wires(sw_scene *scene);
 /* Computes the built system's stiffness at its state, with contact as it presses now: of these

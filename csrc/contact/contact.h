@@ -149,8 +149,8 @@ sw_status sw_contact_carry(sw_contact *contact, const sw_system *system, double 
 /* Reviews a static solution x1. Segments that passed an obstacle are kept on their side from now
  * on. Returns 1 if there are any: solve again. */
 int sw_contact_review_static(sw_contact *contact, sw_system *system, const double *x1);
-/* Accepts the trial: stores friction anchors and sides for the next step. */
-void sw_contact_commit(sw_contact *contact, sw_system *system);
+/* Accepts the trial: stores friction anchors and sides. holds: 1: see sw_kept_hold_slide. */
+void sw_contact_commit(sw_contact *contact, sw_system *system, int holds);
 
 /* Total force on obstacle o (the owner's number) in the last evaluation; its moment [N], [N m]. */
 void sw_contact_force(const sw_contact *contact, int o, sw_vec about, sw_vec *force,

@@ -33,7 +33,7 @@ static double goes_back_to(const sw_contact *c, const sw_system *s, const sw_tou
  * a soft wire in pads sprang when it was thawed (spec/physics/mixed_narrow_spec) [s]. */
 static const double FULL = 1e-4;
 
-static sw_status remember(sw_contact *c, const sw_system *s, const sw_touch *t) {
+static sw_status remember(sw_contact *c, const sw_system *s, const sw_touch *t, int holds) {
   const sw_contact_at *o = &c->now[t->obstacle];
   sw_touch_fetch(t, SW_FETCH_ALL);
   const sw_quat back = sw_quat_conj(o->pose.q);
@@ -55,8 +55,9 @@ static sw_status remember(sw_contact *c, const sw_system *s, const sw_touch *t) 
   m->kept.steady = steady_force(c, s, t), m->kept.left = t->left;
   if (t->squeezed && c->regime == SW_CONTACT_IMPLICIT && !sw_contact_is_pinched(c, t))
     sw_kept_harden(&m->kept, sw_contact_edge_stiffness(s, t->body, t->node), deepest);
-  if (!(t->press.normal_force > 0)) return SW_OK;
-  m->slid = t->slid + sw_norm(t->press.slip);
+  if (holds) sw_kept_hold_slide(&m->kept, &t->press, t->known);
+  if (!(m->kept.normal_force > 0)) return SW_OK;
+  m->slid = holds ? t->slid : t->slid + sw_norm(t->press.slip);
   m->kept.elastic = sw_rotate(back, m->kept.elastic);
   return SW_OK;
 }
@@ -77,7 +78,7 @@ static void swap_memories(sw_contact *c) {
   SW_SWAP(c->memory_capacity, c->next_capacity);
 }
 
-void sw_contact_commit(sw_contact *c, sw_system *s) {
+void sw_contact_commit(sw_contact *c, sw_system *s, int holds) {
   c->next_count = 0;
   c->fresh = sw_contact_emerges(c) ? SW_CONTACT_EMERGING : 0;
   sw_contact_conclude(c, s);
@@ -88,7 +89,7 @@ void sw_contact_commit(sw_contact *c, sw_system *s) {
   for (size_t b = 0, i = 0, m = 0; b < s->body_count; b++) {
     if (c->still.any && c->still.kept[b]) m = carry_over(c, &s->bodies[b], m);
     for (; i < c->touch_count && c->touches[i].body == b; i++)
-      (void)remember(c, s, &c->touches[i]); /* a lost anchor starts anew */
+      (void)remember(c, s, &c->touches[i], holds); /* a lost anchor starts anew */
   }
   swap_memories(c);
   c->memory_count = c->next_count;

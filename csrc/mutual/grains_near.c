@@ -154,6 +154,9 @@ static double largest_difference(const sw_grains *g, const sw_system *s, const d
  * lasts for SOME_STEPS steps [-]. With twice and half of the share crossing tubes take as long,
  * within 10 %. */
 static const double SPARE = 0.25, SOME_STEPS = 4.0;
+/* A list that reaches this many times further than needed is made anew: a failed step that threw
+ * things far left one that made all later steps ten times slower [-]. */
+static const double TOO_WIDE = 4.0;
 
 static sw_status list(sw_grains *g, const sw_system *s) {
   double reach = 0;
@@ -161,10 +164,11 @@ static sw_status list(sw_grains *g, const sw_system *s) {
     if (sw_mutual_takes_part(&g->m, k)) reach = fmax(reach, 2.0 * sw_thing_radius(&s->bodies[k]));
   const double speed = g->m.h > 0 ? largest_difference(g, s, s->v, NULL) : 0.0;
   const double gap = reserve_of(g, reach, speed), spare = SPARE * reach;
-  if (g->listed_nodes == s->nodes &&
+  const double wanted = gap + (SOME_STEPS * g->m.h * speed < spare ? spare : 0.0);
+  if (g->listed_nodes == s->nodes && g->listed_gap < TOO_WIDE * (wanted + spare) &&
       gap + largest_difference(g, s, s->x, g->listed_at) < g->listed_gap)
     return SW_OK;
-  return list_anew(g, s, gap + (SOME_STEPS * g->m.h * speed < spare ? spare : 0.0));
+  return list_anew(g, s, wanted);
 }
 
 static sw_status find_pairs(sw_grains *g, const sw_system *s) {

@@ -205,7 +205,7 @@ int sw_mutual_review_static(sw_mutual *m, sw_system *s, const double *x1) {
 
 /* --- memory ---------------------------------------------------------------------- */
 
-void sw_mutual_commit(sw_mutual *m, sw_system *s) {
+void sw_mutual_commit(sw_mutual *m, sw_system *s, int holds) {
   m->next_count = 0;
   for (size_t i = 0; i < m->touch_count; i++) {
     const sw_meet *t = &m->touches[i];
@@ -213,6 +213,7 @@ void sw_mutual_commit(sw_mutual *m, sw_system *s) {
       break; /* a lost anchor starts anew */
     sw_met *out = &m->next_memory[m->next_count++];
     *out = sw_meet_remember(s, t);
+    if (holds) sw_kept_hold_slide(&out->kept, &t->press, t->known);
     if (m->finder->note) m->finder->note(m, s, t, out);
   }
   (void)sw_mutual_carry_over(m);

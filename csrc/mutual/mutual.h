@@ -74,7 +74,7 @@ sw_contact_verdict sw_mutual_review(sw_mutual *mutual, sw_system *system, const 
                                     double h, int dull);
 /* 1 = solve again. */
 int sw_mutual_review_static(sw_mutual *mutual, sw_system *system, const double *x1);
-void sw_mutual_commit(sw_mutual *mutual, sw_system *system);
+void sw_mutual_commit(sw_mutual *mutual, sw_system *system, int holds); /* see sw_contact_commit */
 
 /* Memory between steps, like sw_contact_memory. */
 const void *sw_mutual_memory(const sw_mutual *mutual, size_t *bytes);

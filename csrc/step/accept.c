@@ -110,7 +110,7 @@ void sw_ladder_accept(sw_ladder *p, double h, double t) {
   }
   const int stopped = sw_scene_contact(s) && sw_scene_time(s) < c->stop_until;
   const double landed = stopped ? sw_contact_landed(sw_scene_contact(s), system) : 0.0;
-  sw_scene_commit_contact(s);
+  sw_scene_commit_contact(s, 0);
   if (sw_scene_contact(s) && !sw_course_lumps(c) && !is_followed(p)) sw_scene_stop_wires(s);
   sw_restart_taken(s);
   c->span = h;

@@ -119,11 +119,17 @@ sw_status sw_rest_solve(sw_statics *p, double hbar, const sw_newton *newton, sw_
   return status;
 }
 
+double sw_rest_shift(const sw_statics *p) {
+  const sw_system *s = sw_scene_system(p->s);
+  double shift = 0;
+  for (size_t i = 0; i < 3 * s->nodes; i++) shift = fmax(shift, fabs(p->y[i] - s->x[i]));
+  return shift;
+}
+
 double sw_rest_take(sw_statics *p, int trial) {
   sw_scene *s = p->s;
   sw_system *system = sw_scene_system(s);
-  double shift = 0;
-  for (size_t i = 0; i < 3 * system->nodes; i++) shift = fmax(shift, fabs(p->y[i] - system->x[i]));
+  const double shift = sw_rest_shift(p);
   sw_system_follow(system, p->y);
   memcpy(system->x, p->y, system->freedoms * sizeof(double));
   memset(system->v, 0, system->freedoms * sizeof(double));
@@ -131,10 +137,10 @@ double sw_rest_take(sw_statics *p, int trial) {
   sw_system_strain_from_state(system);
   if (trial) return shift;
   p->leads = 0;
-  sw_scene_commit_contact(s);
+  sw_scene_commit_contact(s, p->holds);
   sw_error why; /* the sum of slips is then too small, as where memory is lost */
   SW_EACH(tool, t, s)
-    if (p->args->poses && t->alive && t->pads) (void)sw_held_search(s, t, &why);
+    if (p->args->poses && t->alive && t->pads && !p->holds) (void)sw_held_search(s, t, &why);
   p->touched = sw_scene_time(s);
   return shift;
 }

@@ -101,8 +101,9 @@ static int ends_unstable(const sw_statics *p, double tau) {
 static const double PATIENCE = 0.5;
 
 /* A wire that obstacles or other wires drag along must follow in the first step of continuation,
- * for friction then forgets what it slid. So the inertia in this step must be small beside
- * friction: below 1/LED^2 of the weight, and 1/LEAST_LED^2 after failures. Else a pose is halved
+ * for friction then forgets what it slid, unless the search keeps that. So the inertia in this step
+ * must be small beside friction: below 1/LED^2 of the weight, and 1/LEAST_LED^2 after failures.
+ * Else a pose is halved
  * [-]. */
 static const double LED = 30.0, LEAST_LED = 7.0;
 
@@ -114,12 +115,18 @@ static double led_time(const sw_statics *p) {
   return sqrt(led_by(p) / fmax(sw_norm(sw_scene_gravity(p->s)), 1.0));
 }
 
+/* Share of all iterations after which a search that keeps what friction slid ends. Most need less
+ * than a tenth [-]. */
+static const double KEEPING = 0.2;
+
 /* unstable: 1 if the step failed because it ended in an unstable place. */
 static sw_status continue_by(sw_statics *p, double tau, int *unstable, sw_error *err) {
   sw_system *s = sw_scene_system(p->s);
   *unstable = 0;
   SW_TRY(sw_rest_solve(p, tau, &CONTINUE, err));
-  if (led_by(p) > 0 || !ends_unstable(p, tau) || sw_rest_is_late(p, PATIENCE)) return SW_OK;
+  if (led_by(p) > 0 || !ends_unstable(p, tau) ||
+      sw_rest_is_late(p, p->keeps ? PATIENCE * KEEPING : PATIENCE))
+    return SW_OK;
   *unstable = 1;
   memcpy(s->tension, p->tension, s->edges * sizeof(double));
   return sw_fail(err, SW_ENOCONV, "a mesh would come to rest in an unstable place");
@@ -141,7 +148,7 @@ sw_status sw_rest_transient(sw_statics *p, sw_error *err) {
   double tau =
       p->slow ? SW_REST_SLOWEST_GROWTH * sw_rest_time_scale(s) : fmax(first, LED * led_time(p));
   p->report->transient = 1;
-  while (!sw_rest_is_late(p, 1)) {
+  while (!sw_rest_is_late(p, p->keeps ? KEEPING : 1.0)) {
     if (p->interrupted && p->interrupted()) return SW_EINTR;
     const size_t before = p->report->iterations;
     int unstable;
@@ -149,17 +156,21 @@ sw_status sw_rest_transient(sw_statics *p, sw_error *err) {
     if (sw_rest_stops(status)) return status;
     if (status != SW_OK) {
       tau *= unstable ? SHORTER_UNSTABLE : SHORTER;
-      if (p->too_far && tau < LEAST_LED * led_time(p)) {
+      if (!p->keeps && p->too_far && tau < LEAST_LED * led_time(p)) {
         *p->too_far = 1;
         return sw_fail(err, SW_ENOCONV, "wires are dragged too far in one step");
       }
       if (tau < 1e-9 * first) return status;
       continue;
     }
-    p->report->residual = sw_rest_take(p, 0);
+    p->report->residual = sw_rest_shift(p);
     /* in a step shorter than the first one an imbalance shifts wires by tau^2 */
     const double reserve = fmax(1.0, first * first / (tau * tau));
-    if (p->report->residual * reserve <= p->args->tolerance) return SW_OK;
+    const int rests = p->report->residual * reserve <= p->args->tolerance;
+    p->holds = p->keeps && !rests;
+    (void)sw_rest_take(p, 0);
+    p->holds = 0;
+    if (rests) return SW_OK;
     hurry(p, &d);
     const double factor = growth(s, p->report->iterations - before, tau < first);
     tau = fmin(tau * factor, longest);
@@ -168,7 +179,7 @@ sw_status sw_rest_transient(sw_statics *p, sw_error *err) {
     longest = fmax(SHORTER_LONGEST * longest, LEAST_GROWTH * first);
     tau = first, steps = 0;
   }
-  if (led && p->too_far) *p->too_far = 1; /* half of the pose may end elsewhere */
+  if (led && p->too_far && !p->keeps) *p->too_far = 1; /* half of the pose may end elsewhere */
   return sw_fail(
       err, SW_ENOCONV,
       "not at rest after %zu iteration%s: the last iteration still moved the wires by %.3g m",

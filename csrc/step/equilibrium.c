@@ -8,6 +8,7 @@
 #include "base/alloc.h"
 #include "body/join.h"
 #include "body/live.h"
+#include "body/touching.h"
 #include "scene/parts.h"
 #include "step/statics.h"
 #include "system/rail.h"
@@ -158,10 +159,38 @@ static int found(const sw_statics *p, sw_status status) {
   return (status == SW_OK && p->report->negative == 0) || sw_rest_stops(status);
 }
 
-/* Continues. If obstacles or wires drag others, the pose cannot be halved any more and no rest is
- * found, other first steps may find one: a long one where obstacles drag (touched: the time up to
- * which contact followed them), a short one else. Wires then slide on what drags them. */
-static sw_status continue_led(sw_statics *p, double touched, sw_error *err) {
+/* Continues with all that friction slid since the pose's start, so that wires follow what drags
+ * them in steps of any length. *again: 1 if no rest was found; the state is then as before.
+ * touched: the time up to which contact followed the obstacles. */
+static sw_status continue_keeping(sw_statics *p, double touched, int *again, sw_error *err) {
+  const double leads = p->leads;
+  const size_t begun = p->report->iterations;
+  sw_tape start = {0};
+  sw_error why = {"out of memory"};
+  sw_status status = sw_live_take(p->s, &start);
+  if (status == SW_OK) {
+    p->keeps = 1;
+    status = sw_rest_continue(p, &why);
+    p->keeps = 0;
+  }
+  *again = status == SW_ENOCONV;
+  if (*again) {
+    sw_contact *contact = sw_scene_contact(p->s);
+    status = sw_live_back(p->s, &start, err);
+    if (status == SW_OK && contact) status = sw_contact_began(contact, touched, err);
+    p->leads = leads, p->touched = touched;
+    p->before += p->report->iterations - begun;
+  } else if (status != SW_OK) {
+    sw_fail(err, status, "%s", why.text);
+  }
+  sw_tape_free(&start);
+  return status;
+}
+
+/* Continues with friction that forgets in each step what it slid. If obstacles or wires drag
+ * others, the pose cannot be halved any more and no rest is found, other first steps may find one:
+ * a long one where obstacles drag, a short one else. Wires then slide on what drags them. */
+static sw_status continue_forgetting(sw_statics *p, double touched, sw_error *err) {
   const double dragged = sw_rest_dragged(p);
   const int may_slide = !p->too_far && (p->leads > 0 || dragged > 0);
   sw_status status = sw_rest_continue(p, err);
@@ -172,6 +201,15 @@ static sw_status continue_led(sw_statics *p, double touched, sw_error *err) {
   status = sw_rest_continue(p, err);
   p->slow = 0;
   return status;
+}
+
+static sw_status continue_on(sw_statics *p, double touched, sw_error *err) {
+  if (p->leads > 0 || sw_rest_dragged(p) > 0) {
+    int again = 0;
+    const sw_status status = continue_keeping(p, touched, &again, err);
+    if (status != SW_OK || !again) return status;
+  }
+  return continue_forgetting(p, touched, err);
 }
 
 sw_status sw_rest_find(sw_statics *p, sw_error *err) {
@@ -203,5 +241,5 @@ sw_status sw_rest_find(sw_statics *p, sw_error *err) {
   p->divides = p->may_divide && status == SW_ENOCONV && !(sw_rest_dragged(p) > 0);
   if (p->divides) return status;
   p->leads = leads;
-  return continue_led(p, touched, err);
+  return continue_on(p, touched, err);
 }

@@ -21,6 +21,8 @@ typedef struct sw_statics {
   int rubs;       /* 1: wires may drag each other along */
   double leads;   /* shift of the holds by which wires may drag each other along; 0 from the first
                      accepted step on [m] */
+  int keeps;      /* 1: continuation keeps what friction slid since the pose's start */
+  int holds;      /* 1: contact keeps it in the coming commit */
   int slow;       /* 1: continuation begins with a step as long as the slowest growth */
   double passing; /* accuracy before the last part of the holds' path: largest shift of a node, over
                      an edge [-] */
@@ -56,6 +58,8 @@ double sw_rest_dragged(const sw_statics *p);
 int sw_rest_is_late(const sw_statics *p, double share);
 /* Finds y from the present state, with a step hbar of implicit Euler or (HUGE_VAL) at rest. */
 sw_status sw_rest_solve(sw_statics *p, double hbar, const sw_newton *newton, sw_error *err);
+/* Returns the largest shift of a node from the state to y [m]. */
+double sw_rest_shift(const sw_statics *p);
 /* Makes y the state; contact commits it unless trial is 1. Returns the largest shift [m]. */
 double sw_rest_take(sw_statics *p, int trial);
 /* Continuation until the wires rest. */

@@ -33,18 +33,11 @@ static const double SURELY_SLIDING = 20.0;
  * it back by more than that stretch each time [-]. */
 enum { REVERSALS = 3 };
 
-static const double MOST_BOOST = 1e5;    /* largest stiffening, of a new touch's stiffness [-] */
-static const double LARGEST_STEP = 10.0; /* largest stiffening at once [-] */
+static const double MOST_BOOST = 1e5; /* largest stiffening, of a new touch's stiffness [-] */
 /* Shares of the allowed depth: */
-static const double DEEPER = 0.1; /* allowed increase of depth in short steps [-] */
-/* A squeezed touch is stiffened above this share of the allowed depth. A slowly growing load leaves
- * 0.36 of the allowed depth for each factor of ten in force; half or twice this value leaves half
- * or twice as much, with as few refused steps (spec/contact/taut_spec). */
-static const double EARLY = 0.4;    /* stiffened from this share on [-] */
-static const double AT_ONCE = 2.0;  /* the same at once, for a load that grows fast [-] */
-static const double NEEDLESS = 0.1; /* below this share, stiffness is higher than needed [-] */
-static const double EASING = 0.8;   /* factor on such stiffness per full step [-] */
-static const double SHORT = 0.25;   /* a step is short below this share of the nominal step [-] */
+static const double DEEPER = 0.1;  /* allowed increase of depth in short steps [-] */
+static const double AT_ONCE = 2.0; /* left at once under a load that grows fast [-] */
+static const double SHORT = 0.25;  /* a step is short below this share of the nominal step [-] */
 
 void sw_press_activate(sw_press *p, const sw_press *last) {
   p->active = p->gap < 0 || (last && last->active && last->normal_force > 0);
@@ -325,76 +318,7 @@ double sw_press_stiffer(const sw_press *p, double usual, double axial, double de
                         double forgiven, double before) {
   const double over = p->gap_after / -deepest;
   if (over <= 1.0 || p->k >= sw_larger(MOST_BOOST * usual, axial)) return p->k;
-  if (before < 0) return p->k * sw_smaller(LARGEST_STEP, 2.0 * over);
+  if (before < 0) return p->k * sw_smaller(SW_STIFFENED_MOST, 2.0 * over);
   /* a strike in a short step quickly becomes deep */
-  return forgiven - p->gap_after < before + DEEPER * deepest ? p->k : p->k * LARGEST_STEP;
-}
-
-static double eased(const sw_press *p, double usual, double k, double deepest, double share) {
-  if (!(k > usual) || !(p->normal_force / p->k < NEEDLESS * deepest)) return k;
-  return sw_larger(usual, pow(EASING, sw_smaller(share, 1.0)) * k);
-}
-
-static const double STIFFER = 2.0; /* of friction that holds, over the edge's stiffness [-] */
-
-double sw_kept_grip(const sw_kept *kept, double edge, double usual) {
-  const int pressed = kept->normal_force > usual;
-  if (!(kept->normal_force > 0)) return 0;
-  if (!kept->sliding) return pressed ? (kept->k < edge ? STIFFER : 1.0) * edge : kept->grip;
-  return pressed && sw_kept_is_stiff(kept) ? kept->grip : 0;
-}
-
-sw_vec sw_press_stretch(const sw_press *p, const sw_kept *kept, int gives_way) {
-  const double was = kept->depth > 0 ? kept->normal_force / kept->depth : p->k;
-  const double share = gives_way && was > 0 ? p->k / was : 1.0;
-  return sw_scale(kept->elastic, share * kept->grip / sw_press_grip(p));
-}
-
-int sw_press_eases(const sw_press *p, double usual, double stiffer, double deepest) {
-  return eased(p, usual, stiffer, deepest, 1.0) < stiffer;
-}
-
-sw_kept sw_press_keep(const sw_press *p, double usual, double stiffer, double deepest,
-                      double share) {
-  sw_kept out = {.normal_force = p->normal_force,
-                 .depth = p->normal_force / p->k,
-                 .k = eased(p, usual, stiffer, deepest, share),
-                 .steady = p->normal_force,
-                 .grip = sw_press_grip(p),
-                 .sliding = p->next_sliding};
-  if (p->normal_force > 0) out.elastic = sw_scale(p->tangential, -1.0 / out.grip);
-  return out;
-}
-
-void sw_kept_harden(sw_kept *kept, double axial, double deepest) {
-  if (kept->depth <= EARLY * deepest || kept->k >= axial) return;
-  const double times = sw_smaller(LARGEST_STEP, axial / kept->k), depth = kept->depth / times;
-  kept->left += kept->depth - depth;
-  kept->k *= times, kept->depth = depth;
-}
-
-void sw_kept_firm(sw_kept *kept, double k) {
-  if (!(kept->k < k)) return;
-  const double less = kept->k / k;
-  kept->k = k;
-  kept->depth *= less;
-}
-
-double sw_kept_hardened(const sw_kept *kept, double k, int mesh) {
-  const double depth = kept->depth, force = kept->normal_force, harder = k * depth - force;
-  if (!(harder > 0)) return 0;
-  return mesh ? 0.5 * depth * harder : force * depth * harder / (k * depth);
-}
-
-void sw_kept_as_felt(sw_kept *k) {
-  if (k->normal_force > 0 && k->depth > 0) k->k = k->normal_force / k->depth;
-}
-
-sw_press sw_press_felt(const sw_kept *kept) {
-  sw_kept k = *kept;
-  sw_kept_as_felt(&k);
-  sw_press p = {.k = k.k, .normal_force = k.normal_force, .gap_after = -k.depth};
-  p.soft = k.grip > 0 ? k.k / k.grip : 0.0;
-  p.tangential = sw_scale(k.elastic, -k.grip);
-  return p;
+  return forgiven - p->gap_after < before + DEEPER * deepest ? p->k : p->k * SW_STIFFENED_MOST;
 }

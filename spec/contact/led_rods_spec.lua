@@ -4,7 +4,8 @@
 -- slow motion of the same scene (10 s instead of 1 s, damped). Heaps branch, and friction depends on the way,
 -- so single cables may differ by millimetres; the means tell whether cables follow those that drag them.
 -- Before this was so, the means were 1.9 mm, and 8.5 mm of 30 mm fed. The third kind of scene, a table that
--- moves below a held cable of a heap, was right, but took 3,930,000 iterations for 30 heaps.
+-- moves below a held cable of a heap, was right, but took 3,930,000 iterations for 30 heaps. Friction keeps
+-- what it slid since the pose's start; while it forgot, heaps 87 and 130 found no rest in poses of 20 ms.
 local sw = require "softworld"
 local t = require "physics.tools"
 
@@ -118,15 +119,21 @@ describe("cables that drag others along, in poses", function()
   it("take them as far as in slow motion: one drawn from a heap", function()
     local mean, count, far = compare(after_draw, FIRST, SCENES)
     t.above(SCENES - 4, count) -- a few heaps find no rest in poses
-    t.below(1e-3, mean) -- 0.56 mm
+    t.below(1e-3, mean) -- 0.40 mm
     t.below(3, far)
   end)
 
   it("take them as far as in slow motion: one that is fed", function()
     local mean, count, far = compare(after_feed, 1, 40)
     t.above(39, count)
-    t.below(1e-3, mean) -- 0.44 mm
+    t.below(3e-4, mean) -- 0.12 mm; 0.35 mm while friction forgot what it slid within a pose
     t.below(3, far)
+  end)
+
+  it("come to rest: heaps in which touches slid by turns", function()
+    for _, seed in ipairs{ 87, 130 } do
+      assert.truthy((after_draw(seed, { duration = 1, dt = 0.02, quasistatic = true })))
+    end
   end)
 
   it("go with a table that moves below one of them, which is held", function()
@@ -134,6 +141,6 @@ describe("cables that drag others along, in poses", function()
     t.above(28, count)
     t.below(1e-3, mean) -- 0.35 mm
     t.below(1, far)
-    t.below(600000, iterations) -- 251,000
+    t.below(200000, iterations) -- 105,000; 251,000 while friction forgot
   end)
 end)
