@@ -82,32 +82,15 @@ static sw_status keep_contact(sw_scene *s) {
   return SW_OK;
 }
 
-/* Finds the present nodes of wire w's nodes in the contact memory, and of its segments, by their
- * first nodes. */
-static void find_again(const sw_scene *s, size_t w, size_t *new_node, size_t *new_edge) {
-  const size_t first = s->kept.first[w], end = s->kept.first[w + 1], now = s->kept.now[w];
-  for (size_t k = first; k < end; k++) new_node[k] = new_edge[k] = SIZE_MAX;
-  if (now == SIZE_MAX || s->kept.changed == w + 1) return;
-  sw_body_class_of(&s->wires[now])
-      ->carry_over(&s->system.bodies[now], s->kept.s + first, end - first, new_node + first,
-                   new_edge + first);
-}
+/* Arc lengths of a span's ends, shifted by the give of its clamps: it twists as evenly as a wire
+ * from one to the other [m]. */
+typedef struct reach {
+  double from, to;
+} reach;
 
-/* Gives the kept memory to the new system's contact. */
-static sw_status inherit_contact(sw_scene *s) {
-  if (!sw_scene_has_contact(s) || !s->kept.memory) return SW_OK;
-  const size_t old_nodes = s->kept.first[s->kept.wires];
-  size_t *new_node SW_LOCAL = sw_alloc(2 * old_nodes, sizeof *new_node);
-  if (!new_node) return SW_ENOMEM;
-  size_t *new_edge = new_node + old_nodes;
-  for (size_t w = 0; w < s->kept.wires; w++) find_again(s, w, new_node, new_edge);
-  if (s->contact)
-    SW_TRY(sw_contact_inherit(s->contact, s->kept.memory, s->kept.bytes, s->kept.fresh, new_node,
-                              new_edge));
-  if (s->pairs)
-    SW_TRY(sw_mutual_inherit(s->pairs, s->kept.pairs, s->kept.pair_bytes, new_node, s->kept.now));
-  if (!s->grains) return SW_OK;
-  return sw_mutual_inherit(s->grains, s->kept.grains, s->kept.grain_bytes, new_node, s->kept.now);
+static reach reach_of(const sw_plan *p, const sw_span *span) {
+  return (reach){p->s[span->first] - p->clamps[span->left].twist,
+                 p->s[span->last + 1] + p->clamps[span->right].twist};
 }
 
 /* Keeps twist by stretches of wire, for the spans of the next system. */
@@ -125,8 +108,8 @@ static sw_status keep_twist(sw_scene *s) {
     if (!list) return SW_ENOMEM;
     for (size_t k = 0; k < count; k++) {
       const sw_span *span = &b->plan->spans[k];
-      list[k] = (sw_twisted){b->plan->s[span->first], b->plan->s[span->last + 1],
-                             s->system.twist[b->first_span + k]};
+      const reach at = reach_of(b->plan, span);
+      list[k] = (sw_twisted){at.from, at.to, s->system.twist[b->first_span + k]};
     }
     sw_free(wire->twisted);
     wire->twisted = list;
@@ -150,6 +133,15 @@ static void store_turn(double *out, sw_quat q) {
   out[0] = q.w, out[1] = q.x, out[2] = q.y, out[3] = q.z;
 }
 
+/* Returns the length of an old stretch that belongs to a span from s1 to s2, which reaches further
+ * by the give of its clamps. Without it an imposed grip on a wire that a frozen one holds had a
+ * torque of a sixth of the wire's (spec/physics/untwisted_release_spec). */
+static double common_of(const sw_twisted *old, double s1, double s2, reach at) {
+  const double from = old->s1 < s1 ? fmax(old->s1, fmin(s1, at.from)) : old->s1;
+  const double to = old->s2 > s2 ? fmin(old->s2, fmax(s2, at.to)) : old->s2;
+  return to - from;
+}
+
 /* Gives a new span the twist of the stretches that it covers. Wire outside all stretches has
  * unwound through a free end to its unloaded twist. */
 static void inherit_twist(sw_scene *s) {
@@ -159,14 +151,15 @@ static void inherit_twist(sw_scene *s) {
     const sw_body *b = &s->system.bodies[w];
     const sw_scene_wire *wire = &s->wires[w];
     for (size_t k = 0; b->has_twist && k < b->plan->span_count; k++) {
-      const double s1 = b->plan->s[b->plan->spans[k].first];
-      const double s2 = b->plan->s[b->plan->spans[k].last + 1];
+      const sw_span *span = &b->plan->spans[k];
+      const double s1 = b->plan->s[span->first], s2 = b->plan->s[span->last + 1];
+      const reach at = reach_of(b->plan, span);
       double *twist = &s->system.twist[b->first_span + k], unwound = s2 - s1;
       SW_ITEMS(const sw_twisted, old, wire->twisted, wire->twisted_count) {
-        const double common = fmin(s2, old->s2) - fmax(s1, old->s1);
-        if (!(common > 0)) continue;
-        *twist += old->twist * common / (old->s2 - old->s1);
-        unwound -= common;
+        const double covered = fmin(s2, old->s2) - fmax(s1, old->s1);
+        if (!(covered > 0)) continue;
+        *twist += old->twist * common_of(old, s1, s2, at) / (old->s2 - old->s1);
+        unwound -= covered;
       }
       *twist += b->plan->beam.rest_twist * unwound;
     }
@@ -350,7 +343,7 @@ static sw_status fill(sw_scene *s, size_t alive) {
   SW_TRY(add_contact(s));
   SW_TRY(sw_scene_new_pairs(s));
   SW_TRY(sw_crowd_new(&s->system, &s->crowd));
-  SW_TRY(inherit_contact(s));
+  SW_TRY(sw_scene_inherit_contact(s));
   s->system.coupling = (sw_coupling){.user = s, .place = place_hold};
   sw_scene_couple(s);
   return SW_OK;

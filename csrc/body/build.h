@@ -17,6 +17,8 @@ sw_status sw_scene_build(sw_scene *scene, sw_error *err);
 /* Marks the wire as drawn, not twisted anywhere. SW_ENOMEM. */
 sw_status sw_scene_draw_untwisted(sw_scene_wire *wire);
 
+/* Gives the kept contact memory to the new system. SW_ENOMEM. */
+sw_status sw_scene_inherit_contact(sw_scene *scene);
 /* Drops the contact memory kept for the next system. */
 void sw_scene_forget_contact(sw_scene *scene);
 

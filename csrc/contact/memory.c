@@ -188,6 +188,10 @@ static int in_order(const void *a, const void *b) {
   return (p->at > q->at) - (p->at < q->at);
 }
 
+void sw_contact_sort_memory(sw_contact *c) {
+  if (c->memory_count) qsort(c->memory, c->memory_count, sizeof *c->memory, in_order);
+}
+
 sw_status sw_contact_add_memory(sw_contact *c, const void *memory, size_t bytes, size_t old_first,
                                 size_t old_end, size_t new_first, const size_t *obstacles,
                                 size_t count) {
@@ -201,7 +205,7 @@ sw_status sw_contact_add_memory(sw_contact *c, const void *memory, size_t bytes,
     c->memory[c->memory_count] = from[i];
     c->memory[c->memory_count++].node += new_first - old_first;
   }
-  if (c->memory_count) qsort(c->memory, c->memory_count, sizeof *c->memory, in_order);
+  sw_contact_sort_memory(c);
   c->fresh = 0;
   return SW_OK;
 }

@@ -150,6 +150,7 @@ int sw_contact_next_range(const sw_contact *c, sw_glance *at);
 /* Matches candidates up to at->next, and of the next segment, with their previous touches. */
 void sw_contact_match(const sw_contact *c, sw_glance *at);
 
+void sw_contact_sort_memory(sw_contact *c); /* in the order of candidates */
 /* Returns the memory of the candidate's touch nearest to this place, or NULL. feature: that of the
  * place; it decides between touches at the same place of the wire. */
 const sw_memory *sw_contact_remembered(const sw_contact *c, const sw_candidate *k, double at,

@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Hands the contact memory of the last built system over to the next one. */
+#include <stdint.h>
+
+#include "base/alloc.h"
+#include "body/body.h"
+#include "body/build.h"
+#include "body/touching.h"
+#include "contact/resample.h"
+#include "scene/lists.h"
+#include "scene/parts.h"
+#include "scene/wire.h"
+
+/* Finds the present nodes of wire w's nodes in the contact memory, and of its segments, by their
+ * first nodes. */
+static void find_again(const sw_scene *s, size_t w, size_t *new_node, size_t *new_edge) {
+  const sw_kept_contact *kept = sw_scene_kept(s);
+  const size_t first = kept->first[w], end = kept->first[w + 1], now = kept->now[w];
+  for (size_t k = first; k < end; k++) new_node[k] = new_edge[k] = SIZE_MAX;
+  if (now == SIZE_MAX || kept->changed == w + 1) return;
+  sw_body_class_of(sw_scene_wire_in(s, now))
+      ->carry_over(&sw_scene_system(s)->bodies[now], kept->s + first, end - first, new_node + first,
+                   new_edge + first);
+}
+
+static sw_status inherit_obstacles(sw_scene *s, const size_t *new_node, const size_t *new_edge) {
+  const sw_kept_contact *k = sw_scene_kept(s);
+  sw_contact *contact = sw_scene_contact(s);
+  SW_TRY(sw_contact_inherit(contact, k->memory, k->bytes, k->fresh, new_node, new_edge));
+  const size_t w = k->changed - 1;
+  if (!k->changed || w >= k->wires || k->now[w] == SIZE_MAX) return SW_OK;
+  const size_t first = k->first[w];
+  return sw_contact_resample(contact, sw_scene_system(s), k->now[w], k->memory, k->bytes, first,
+                             k->s + first, k->first[w + 1] - first);
+}
+
+sw_status sw_scene_inherit_contact(sw_scene *s) {
+  const sw_kept_contact *k = sw_scene_kept(s);
+  sw_mutual *pairs = sw_scene_pairs(s), *grains = sw_scene_grains(s);
+  if (!sw_scene_has_contact(s) || !k->memory) return SW_OK;
+  const size_t old_nodes = k->first[k->wires];
+  size_t *new_node SW_LOCAL = sw_alloc(2 * old_nodes, sizeof *new_node);
+  if (!new_node) return SW_ENOMEM;
+  size_t *new_edge = new_node + old_nodes;
+  for (size_t w = 0; w < k->wires; w++) find_again(s, w, new_node, new_edge);
+  if (sw_scene_contact(s)) SW_TRY(inherit_obstacles(s, new_node, new_edge));
+  if (pairs) SW_TRY(sw_mutual_inherit(pairs, k->pairs, k->pair_bytes, new_node, k->now));
+  if (!grains) return SW_OK;
+  return sw_mutual_inherit(grains, k->grains, k->grain_bytes, new_node, k->now);
+}

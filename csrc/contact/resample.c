@@ -1,0 +1,118 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Memory of pads on a line that has got other edges. A sample's memory is that of the nearest
+ * former sample, at its own place. */
+#include "contact/resample.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/alloc.h"
+#include "contact/pads.h"
+#include "contact/touch.h"
+
+/* A sample of the former edges. */
+typedef struct sample {
+  const sw_memory *memory;
+  double s, length; /* place, length of wire that it stands for [m] */
+} sample;
+
+/* The former samples on one pad, in the order along the wire. */
+typedef struct list {
+  sample *sample;
+  size_t count;
+} list;
+
+/* 1 if the former nodes are those of a line: no two are at the same place. */
+static int is_line(const double *s, size_t nodes) {
+  for (size_t i = 0; i + 1 < nodes; i++)
+    if (!(s[i] < s[i + 1])) return 0;
+  return nodes > 1;
+}
+
+static void find_lengths(list *l) {
+  for (size_t k = 0; k < l->count; k++) {
+    const size_t before = k ? k - 1 : k, after = k + 1 < l->count ? k + 1 : k;
+    const double way = l->sample[after].s - l->sample[before].s;
+    l->sample[k].length = after > before ? way / (double)(after - before) : 0.0;
+  }
+}
+
+/* Lists the memory of one pad. */
+static void find_samples(const sw_memory *memory, size_t count, int id, size_t first,
+                         const double *s, size_t nodes, list *out) {
+  out->count = 0;
+  for (size_t i = 0; i < count; i++) {
+    const sw_memory *m = &memory[i];
+    if (m->obstacle != id || !m->segment || m->node < first || m->node + 1 >= first + nodes)
+      continue;
+    const double *at = s + (m->node - first);
+    out->sample[out->count++] = (sample){m, at[0] + m->at * (at[1] - at[0]), 0};
+  }
+  find_lengths(out);
+}
+
+/* Where something that was at `a` and `b` at the samples before and after is at `share` between. */
+static sw_vec between(sw_vec a, sw_vec b, double share) { return sw_madd(a, sw_sub(b, a), share); }
+
+/* Moves a memory along the wire to s. */
+static void move(const list *l, size_t k, double s, sw_memory *m) {
+  const size_t before = k ? k - 1 : k, after = k + 1 < l->count ? k + 1 : k;
+  const sample *a = &l->sample[s < l->sample[k].s ? before : k];
+  const sample *b = &l->sample[s < l->sample[k].s ? k : after];
+  if (a == b) a = &l->sample[before], b = &l->sample[after]; /* at an end: further along its line */
+  if (!(b->s > a->s)) return;
+  const double share = (s - a->s) / (b->s - a->s);
+  m->seen = between(a->memory->seen, b->memory->seen, share);
+  m->point = between(a->memory->point, b->memory->point, share);
+}
+
+/* Adds the memory of a new sample; none where the wire had not come under the pad. */
+static sw_status add(sw_contact *c, const list *l, size_t node, double at, double s,
+                     double length) {
+  size_t k = 0;
+  while (k + 1 < l->count && fabs(l->sample[k + 1].s - s) < fabs(l->sample[k].s - s)) k++;
+  const sample *near = &l->sample[k];
+  if (!(near->length > 0) || fabs(near->s - s) > 0.5 * (near->length + length)) return SW_OK;
+  SW_TRY(SW_GROW(c->memory, c->memory_capacity, c->memory_count + 1));
+  sw_memory *m = &c->memory[c->memory_count++];
+  const double share = length / near->length;
+  *m = *near->memory;
+  m->node = (uint32_t)node, m->at = at;
+  m->kept.normal_force *= share, m->kept.steady *= share;
+  m->kept.k *= share, m->kept.grip *= share;
+  move(l, k, s, m);
+  return SW_OK;
+}
+
+static sw_status add_pad(sw_contact *c, const sw_body *b, size_t pad, const list *l) {
+  const sw_plan *p = b->plan;
+  for (size_t i = 0; i + 1 < p->nodes; i++) {
+    const int n = sw_pad_samples(c, p, i, pad);
+    const double length = (p->s[i + 1] - p->s[i]) / fmax(1, n);
+    for (int k = 0; k < n; k++) {
+      const double at = ((double)k + 0.5) / n;
+      SW_TRY(add(c, l, b->first_node + i, at, p->s[i] + at * (p->s[i + 1] - p->s[i]), length));
+    }
+  }
+  return SW_OK;
+}
+
+sw_status sw_contact_resample(sw_contact *c, const sw_system *system, size_t body,
+                              const void *memory, size_t bytes, size_t first, const double *s,
+                              size_t nodes) {
+  const sw_body *b = &system->bodies[body];
+  const size_t count = bytes / sizeof(sw_memory);
+  if (b->plan->web || !count || !c->pad_count || !is_line(s, nodes)) return SW_OK;
+  list l = {.sample = sw_alloc(count, sizeof *l.sample)};
+  if (!l.sample) return SW_ENOMEM;
+  sw_status status = SW_OK;
+  sw_pads_look(c, b->plan);
+  for (size_t k = 0; k < c->pad_count && status == SW_OK; k++) {
+    const size_t pad = (size_t)c->pads[k];
+    find_samples(memory, count, c->obstacles[pad].id, first, s, nodes, &l);
+    if (l.count) status = add_pad(c, b, pad, &l);
+  }
+  sw_free(l.sample);
+  sw_contact_sort_memory(c);
+  return status;
+}

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Memory of pads on a line that has got other edges. */
+#ifndef SW_CONTACT_RESAMPLE_H
+#define SW_CONTACT_RESAMPLE_H
+
+#include "contact/contact.h"
+
+/* Gives the samples of a line under pads the memory of the nearest samples that it had with its
+ * former edges, with the force per length. Otherwise its depth in the pads would count as that of
+ * a wire that was drawn into them, and they would push it out with their force. memory, bytes: as
+ * of sw_contact_inherit. s: (nodes) arc lengths of the former nodes, from the number `first` on
+ * [m]. SW_ENOMEM. */
+sw_status sw_contact_resample(sw_contact *contact, const sw_system *system, size_t body,
+                              const void *memory, size_t bytes, size_t first, const double *s,
+                              size_t nodes);
+
+#endif
