@@ -201,9 +201,11 @@ static int push_report(lua_State *L, const sw_freeze_report *r) {
   return 1;
 }
 
-/* tool:freeze(wire), tool:thaw() -> { s1, s2 [m], energy_before, energy_after [J], force [N] and
- * moment [N m] of the tool before the change, before, after = momentum { linear, angular }, on =
- * "rod" if the pads press on a rod after a thaw } */
+static const char *const after_thaw[] = {"holds", "opens", "leaves", NULL}; /* see sw_thaw */
+
+/* tool:freeze(wire), tool:thaw([then]) -> { s1, s2 [m], energy_before, energy_after [J], force [N]
+ * and moment [N m] of the tool before the change, before, after = momentum { linear, angular }, on
+ * = "rod" if the pads press on a rod after a thaw } */
 static int meth_freeze(lua_State *L) {
   sw_freeze_report r;
   const lsw_self t = check(L);
@@ -215,7 +217,8 @@ static int meth_freeze(lua_State *L) {
 static int meth_thaw(lua_State *L) {
   sw_freeze_report r;
   const lsw_self t = check(L);
-  LSW_DO(L, sw_scene_tool_thaw, t.scene, t.id, sw_scene_balance, &r);
+  const sw_thaw then = (sw_thaw)luaL_checkoption(L, 2, "holds", after_thaw);
+  LSW_DO(L, sw_scene_tool_thaw, t.scene, t.id, then, sw_scene_balance, &r);
   return push_report(L, &r);
 }
 

@@ -11,6 +11,9 @@
 void sw_scene_clear_tool(sw_tool *tool);
 /* Returns the force per finger of the last trial, which ended at time t [N]. */
 double sw_tool_squeeze(sw_scene *scene, const sw_tool *tool, double t);
+/* Opens the jaws at once as far as no finger reaches into a wire of the built scene that is a line,
+ * and forgets their force. */
+sw_status sw_jaws_clear(sw_scene *scene, sw_tool *tool, size_t wire, sw_error *err);
 /* Updates the tools' held wires at the accepted state, and adds a row to their logs. */
 sw_status sw_tool_observe(sw_scene *scene, sw_error *err);
 /* Checks whether the tool runs into obstacles. */

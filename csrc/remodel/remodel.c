@@ -215,11 +215,16 @@ static sw_status face(const sw_scene *s, size_t wire, const sw_wire_args *args,
                  w->name, args->normal.x, args->normal.y, args->normal.z, middle);
 }
 
-/* Replaces the wire. A rod that becomes a rod with other edges keeps its bends beside holds. */
+/* Replaces the wire. A rod that becomes a rod with other edges keeps its twist, and its bends
+ * beside holds. The line has the twist of the new edges, but not that in the give of clamps. */
 static sw_status exchange(sw_scene *s, size_t wire, sw_scene_wire *next, sw_error *err) {
-  const sw_scene_wire *w = sw_scene_wire_in(s, wire);
+  sw_scene_wire *w = sw_scene_wire_in(s, wire);
   const int rods = !w->strand.web && !next->strand.web && w->beam.EI > 0;
   sw_wire_bends bends = {0};
+  if (rods) {
+    SW_SWAP(w->twisted, next->twisted);
+    SW_SWAP(w->twisted_count, next->twisted_count);
+  }
   sw_status kept = rods ? sw_scene_read_bends(s, wire, &bends) : SW_OK;
   if (kept == SW_OK && rods) kept = sw_line_carry(s, wire, &next->mesh);
   sw_status status = kept == SW_OK ? sw_scene_replace_wire(s, wire, next, err) : kept;

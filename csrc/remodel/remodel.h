@@ -39,9 +39,16 @@ typedef struct sw_freeze_report {
  * pads do not press on a mesh. */
 sw_status sw_scene_tool_freeze(sw_scene *scene, sw_handle tool, sw_handle wire, sw_balance *balance,
                                sw_freeze_report *out, sw_error *err);
+/* What the jaws do after a thaw. */
+typedef enum sw_thaw {
+  SW_THAW_HOLDS,  /* go on with their force */
+  SW_THAW_OPENS,  /* open */
+  SW_THAW_LEAVES, /* open, and the wire stays a rod */
+} sw_thaw;
 /* Turns it back into a mesh: between the pads as it was, with their friction; elsewhere as the rod
- * lies. If the wire is a mesh between the pads of another tool by now, it stays as it is. */
-sw_status sw_scene_tool_thaw(sw_scene *scene, sw_handle tool, sw_balance *balance,
+ * lies. If the wire is a mesh between the pads of another tool by now, it stays as it is. Jaws that
+ * open on a rod begin where they only touch it. */
+sw_status sw_scene_tool_thaw(sw_scene *scene, sw_handle tool, sw_thaw then, sw_balance *balance,
                              sw_freeze_report *out, sw_error *err);
 
 #endif

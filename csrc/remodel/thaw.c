@@ -244,8 +244,8 @@ static sw_status change_to_mesh(sw_scene *s, const sw_exchange *x, const double 
   return SW_OK;
 }
 
-/* The wire became a mesh elsewhere, between the pads of another gripper, while this one held it. It
- * stays as it is, and the pads press on the rod. */
+/* The wire became a mesh elsewhere, between the pads of another gripper, while this one held it; or
+ * other pads press on it as a rod. It stays as it is, and the pads of this one press on the rod. */
 static sw_status change_to_pads(sw_scene *s, const sw_exchange *x, const double *a, size_t count,
                                 sw_freeze_report *out, sw_error *err) {
   const size_t wire = x->frozen->wire.slot;
@@ -296,7 +296,24 @@ static void close_again(sw_jaw *j) {
   j->force = j->now, j->now = 0, j->stiffness = 0;
 }
 
-sw_status sw_scene_tool_thaw(sw_scene *s, sw_handle tool, sw_balance *balance,
+/* The tool has its pads again. */
+static sw_status take_pads(sw_scene *s, sw_handle tool, int on_rod, sw_thaw then,
+                           const sw_freeze_report *was, sw_error *err) {
+  sw_tool *t = sw_scene_tool_in(s, tool.slot);
+  sw_frozen *f = t->frozen;
+  const sw_handle wire = f->wire;
+  t->jaw = f->jaw;
+  t->jaw.since = sw_scene_time(s), t->jaw.speed = 0;
+  t->frozen = NULL;
+  t->now.lost_time = NAN;
+  sw_frozen_release(f);
+  if (!on_rod) return tell_jump(s, tool, wire, was, err);
+  if (then != SW_THAW_HOLDS) return sw_jaws_clear(s, t, wire.slot, err);
+  close_again(&t->jaw);
+  return tell_jump(s, tool, wire, was, err);
+}
+
+sw_status sw_scene_tool_thaw(sw_scene *s, sw_handle tool, sw_thaw then, sw_balance *balance,
                              sw_freeze_report *out, sw_error *err) {
   sw_line line = {0};
   *out = (sw_freeze_report){0};
@@ -305,24 +322,15 @@ sw_status sw_scene_tool_thaw(sw_scene *s, sw_handle tool, sw_balance *balance,
   sw_frozen *f = t->frozen;
   if (!f) return sw_fail(err, SW_EINVAL, "gripper '%s' does not hold its wire rigidly", t->name);
   f->wire = sw_scene_body_now(s, f->wire); /* others may have left */
-  const int is_mesh = sw_scene_wire_in(s, f->wire.slot)->strand.web != NULL;
+  const int on_rod =
+      then == SW_THAW_LEAVES || sw_scene_wire_in(s, f->wire.slot)->strand.web != NULL;
   SW_TRY(sw_scene_build(s, err));
   const sw_exchange exchange = {
-      tool, f->wire.slot, f, &line, NULL, balance, is_mesh ? change_to_pads : change_to_mesh};
+      tool, f->wire.slot, f, &line, NULL, balance, on_rod ? change_to_pads : change_to_mesh};
   sw_status status = sw_scene_tool_force(s, tool, NULL, &out->force, &out->moment, err);
   if (status == SW_OK) status = sw_frozen_exchange(s, &exchange, out, err);
   sw_line_free(&line);
-  if (status == SW_OK) {
-    const sw_handle wire = f->wire;
-    out->on_rod = is_mesh;
-    sw_tool *thawed = sw_scene_tool_in(s, tool.slot);
-    thawed->jaw = f->jaw;
-    thawed->jaw.since = sw_scene_time(s), thawed->jaw.speed = 0;
-    if (is_mesh) close_again(&thawed->jaw);
-    thawed->frozen = NULL;
-    thawed->now.lost_time = NAN;
-    sw_frozen_release(f);
-    status = tell_jump(s, tool, wire, out, err);
-  }
+  out->on_rod = status == SW_OK && on_rod;
+  if (status == SW_OK) status = take_pads(s, tool, on_rod, then, out, err);
   return status == SW_ENOMEM ? sw_fail(err, status, "gripper: out of memory") : status;
 }

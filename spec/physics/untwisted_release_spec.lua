@@ -22,7 +22,8 @@ end
 
 local function told_of(run) return t.events(run, "untwisted") end
 
--- The first hand twists the cable, the second one takes hold, and the first one (or the clamp) lets go.
+-- The first hand twists the cable, the second one takes hold, and the first one (or the clamp) lets go, or
+-- thaws.
 -- Returns the run, its events `untwisted`, the second hand, and the moment before, about the axis [N m].
 local function handed(o)
   local scene, wire, clamp, one, two, along = held(o)
@@ -33,7 +34,8 @@ local function handed(o)
     moment = one:moment().x
     two:grasp(wire, { s = SECOND, approach = not o.mixed and "plates" or nil,
       force = not o.mixed and (o.force or 20) or nil })
-    if o.clamp then clamp:release() else one:release() end
+    local hold = o.clamp and clamp or one
+    if o.thaw then one:thaw() else hold:release() end
     p:wait(0.2)
   end)
   local run = t.fine(scene:run{ dt = o.dt or 0.01 })
@@ -101,9 +103,49 @@ describe("torsion of a rod whose hold lets go", function()
   end)
 
   it("is lost where a frozen grip is thawed, if others would keep it", function()
-    local _, told = handed{ mixed = true }
+    local _, told = handed{ mixed = true, thaw = true }
     assert.equal(1, #told)
     assert.matches("^the thaw of 'one' takes the torsion of", told[1].text)
+  end)
+
+  -- Twisted by an angle over the free length l between clamp and grip, it has the torque GJ angle / l. Both
+  -- holds that stay are rigid, so all of it stays.
+  it("stays between others where a frozen grip lets go", function()
+    for _, o in ipairs{ {}, { dt = 0.02, turned = 2 }, { cable = "H07V-K 4" }, { cable = "FLRY-B 0.5" } } do
+      o.mixed = true
+      local _, told, two, moment, wire = handed(o)
+      assert.equal(0, #told)
+      t.share(moment, two:moment().x, 0.01, "moment of the other hand")
+      t.share(math.abs(moment / math.cos(o.turned or 0)), math.abs(wire:twist_moment(0.1)), 0.01, "torsion")
+    end
+  end)
+
+  -- A hold that only takes the twisted wire changes nothing: the same torque on both sides, and none on it.
+  it("does not jump over another hold that takes a frozen grip's wire", function()
+    for _, o in ipairs{ {}, { cable = "FLRY-B 0.5" }, { cable = "H07V-K 4", clamp = true },
+      { segments = 45 } } do
+      o.mixed = true
+      local scene, wire, _, one, two = held(o)
+      local before, on_two, on_one
+      scene:process(function(p)
+        one:grasp(wire, { s = FIRST, approach = "mixed", force = 20 })
+        one:rotate{ axis = { 1, 0, 0 }, angle = 1, duration = 0.5 }
+        before = one:moment().x
+        if o.clamp then two = scene:clamp(wire, { s = SECOND }) else two:grasp(wire, { s = SECOND }) end
+        p:wait(0.1)
+        if o.segments then -- other edges change nothing either
+          wire:remodel{ model = "rod", segments = o.segments }
+          p:wait(0.1)
+        end
+        on_two, on_one = two:moment().x, one:moment().x
+      end)
+      t.fine(scene:run{ dt = 0.01 })
+      t.near(0, on_two, 1e-3 * before, "moment of the new hold")
+      t.share(before, on_one, 1e-3, "moment of the frozen grip")
+    end
+  end)
+
+  it("is no news if nothing else would keep it", function()
     local scene, wire, _, one, _ = held{ mixed = true }
     scene:process(function()
       one:grasp(wire, { s = FIRST, approach = "mixed", force = 20 })

@@ -311,9 +311,10 @@ function grasp.release(self, args)
     return self
   end
   if self.frozen then
-    mixed.let_go(self)
-    -- A loose mesh may search for rest for minutes; other pads would press on a line beside the mesh.
-    if build.data(self.scene).slow or is_pressed(self) then mixed.finish(self) end
+    -- A loose mesh may search for rest for minutes; other pads would press on a line beside the mesh, and
+    -- this line would lose the torsion between other holds.
+    local as_rod = build.data(self.scene).slow or is_pressed(self) or untwisted.others_keep(self)
+    if as_rod then mixed.leave(self) else mixed.let_go(self) end
   end
   self.held = false
   self:open_jaws{ speed = args.speed, distance = args.distance }

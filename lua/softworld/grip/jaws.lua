@@ -174,7 +174,7 @@ function Methods:open_jaws(args)
     error(("gripper '%s' has no pads yet: grasp with approach = 'plates' or 'mixed'"):format(self.name),
       2)
   end
-  if self.frozen then mixed.thaw(self) end
+  if self.frozen then mixed.open(self) end
   self.held = false
   jaws.move(self, jaws.order(self, { distance = args.distance or self.opening, speed = args.speed },
     "gripper:open_jaws"))

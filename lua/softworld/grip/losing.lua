@@ -8,7 +8,7 @@ local losing = {}
 
 --- Prepares to remove the gripper: its wires become what they would be after a release.
 function losing.begin(self)
-  if self.frozen then mixed.let_go(self) end
+  if self.frozen then mixed.leave(self) end
   if self.tool and self.way == "mixed" and self.wire then mixed.finish(self) end
 end
 

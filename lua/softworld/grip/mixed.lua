@@ -104,24 +104,38 @@ function mixed.freeze(self)
   return self
 end
 
--- Returns to the pads and the mesh between them. leaves: the gripper is about to let go.
-local function thaw(self, leaves)
+-- Returns to the pads and the mesh between them. next: what the jaws do then, "holds", "opens" or "leaves".
+-- lets_go: the gripper is about to let go.
+local function thaw(self, next, lets_go)
   if not self.frozen then return self end
   local torsion = untwisted.torsion(self.wire)
-  local report = build.call(3, self.tool.thaw, self.tool)
+  local report = build.call(3, self.tool.thaw, self.tool, next)
   self.frozen = nil
   note(self, "thawed", report)
-  untwisted.thawed(self, torsion, leaves)
+  untwisted.thawed(self, torsion, lets_go)
   self.events[#self.events].on = report.on
-  if report.on then self.way = "plates" end -- the mesh is between another gripper's pads
+  if report.on then self.way = "plates" end -- the mesh is between another gripper's pads, or there is none
   return self
 end
 
 --- Returns to the pads and the mesh between them.
-function mixed.thaw(self) return thaw(self, false) end
+function mixed.thaw(self) return thaw(self, "holds", false) end
+
+--- The same, of jaws that open.
+function mixed.open(self) return thaw(self, "opens", false) end
 
 --- The same, of a gripper that is about to let go.
-function mixed.let_go(self) return thaw(self, true) end
+function mixed.let_go(self) return thaw(self, "opens", true) end
+
+--- The same, but the wire stays a rod, as it was before the grasp. A wire that was a mesh becomes one again.
+function mixed.leave(self)
+  local was_line = self.rod_model == "rod" or self.rod_model == "string"
+  thaw(self, was_line and "leaves" or "opens", true)
+  if was_line and self.wire.model == "rod" then -- with the edges of the mesh
+    build.call(4, self.wire.remodel, self.wire, { model = self.rod_model, segments = self.segments })
+  end
+  return self
+end
 
 --- Thaws a frozen grip whose load exceeds what the pads could bear.
 function mixed.lose(self, state)

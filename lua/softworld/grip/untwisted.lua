@@ -217,18 +217,33 @@ local function between_others(self)
   return first, last
 end
 
+-- Returns the angle of torsion that is lost between two places, and its largest moment [rad], [N m].
+local function lost_between(self, before, now, step, first, last)
+  local angle, most = 0, 0
+  for k, moment in ipairs(before) do
+    local s = (k - 0.5) * step
+    local lost = s > first and s < last and math.max(0, moment - (now and now[k] or 0)) or 0
+    angle, most = angle + lost * step / self.wire.beam.GJ, math.max(most, lost)
+  end
+  return angle, most
+end
+
+local LEAST = 1e-3 -- smaller torsion may be lost [rad]
+
+--- True if other holds keep torsion of the wire that a mesh would lose.
+function untwisted.others_keep(self)
+  if self.wire.beam.GJ <= 0 then return false end
+  local torsion, step = untwisted.torsion(self.wire)
+  return (lost_between(self, torsion, nil, step, between_others(self))) > LEAST
+end
+
 --- Tells of torsion that a wire has lost as a frozen grip was thawed. before: its moments until then [N m].
 -- leaves: the grip lets go, and only torsion between others would remain.
 function untwisted.thawed(self, before, leaves)
   local now, step = untwisted.torsion(self.wire)
   local first, last = 0, self.wire.length
   if leaves then first, last = between_others(self) end
-  local angle, most = 0, 0
-  for k, moment in ipairs(before) do
-    local s = (k - 0.5) * step
-    local lost = s > first and s < last and math.max(0, moment - now[k]) or 0
-    angle, most = angle + lost * step / self.wire.beam.GJ, math.max(most, lost)
-  end
+  local angle, most = lost_between(self, before, now, step, first, last)
   if angle <= TOLD then return end
   self.scene:tell{ kind = "untwisted", object = self.name, s = self.s, value = most, text = ("the thaw of "
     .. "'%s' takes the torsion of %s (%s) from wire '%s': the wire beside a mesh bears none. Make all of it "
