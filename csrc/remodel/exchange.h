@@ -13,6 +13,27 @@
 sw_status sw_frozen_balance(sw_scene *scene, size_t wire, const double *rings, size_t count,
                             sw_balance *balance);
 
+/* A rigid grip that must bear the force of the pads along the wire. */
+typedef struct sw_match {
+  sw_handle hold;
+  size_t wire;
+  sw_vec along; /* direction of the wire between the pads, in the tool's axes [-] */
+  sw_quat q;    /* orientation of the tool [-] */
+  sw_vec about; /* centre of the tool [m] */
+  const sw_freeze_report *was;
+  const double *rings; /* see sw_frozen_balance */
+  size_t count;
+  sw_balance *balance;
+} sw_match;
+/* Balances the wire as sw_frozen_balance does, with the grip shifted along it so that it bears the
+ * pads' force, and tells if it does not. A wire that is free to move along itself is only
+ * balanced. */
+sw_status sw_frozen_match(sw_scene *scene, const sw_match *match);
+/* Tells of a force and moment about the tool's centre that differ from those before. to: what bears
+ * the wire now, for the text. */
+void sw_frozen_tell_jump(sw_scene *scene, size_t wire, const sw_freeze_report *was, sw_vec force,
+                         sw_vec moment, const char *to);
+
 /* One end of the grip on a rod that replaces pads on a mesh; in the world's axes. */
 typedef struct sw_grip_end {
   double s;        /* arc length [m] */

@@ -152,7 +152,17 @@ static sw_status change_to_rod(sw_scene *s, const sw_exchange *x, const double *
   f->hold = out->hold;
   SW_TRY(sw_scene_tool_pads_on(s, x->tool, 0, err));
   SW_TRY(sw_scene_build(s, err));
-  SW_TRY(sw_frozen_balance(s, f->wire.slot, a, count, x->balance));
+  const sw_vec along = sw_sub(x->ends[1].at, x->ends[0].at);
+  const sw_match match = {.hold = out->hold,
+                          .wire = f->wire.slot,
+                          .along = sw_unit_or(sw_unrotate(f->pose.q, along), sw_v(1, 0, 0)),
+                          .q = f->pose.q,
+                          .about = f->pose.p,
+                          .was = out,
+                          .rings = a,
+                          .count = count,
+                          .balance = x->balance};
+  SW_TRY(sw_frozen_match(s, &match));
   SW_TRY(sw_momentum_match(s, f->wire.slot, about, out->before));
   sw_momentum_about(s, f->wire.slot, about, out->after);
   out->energy_after = sw_scene_total_energy(s, err);

@@ -261,31 +261,12 @@ static sw_status change_to_pads(sw_scene *s, const sw_exchange *x, const double 
   return SW_OK;
 }
 
-/* Changes of the tool's force and moment by a thaw above which they are told: of the force before,
- * or of the wire's weight (without gravity of EI/L^2, which bends it); of the moment before, or of
- * that force at a radius [-]. Rod and mesh differ by less than that (mixed.md). */
-static const double FORCE_STAYS = 0.02, MOMENT_STAYS = 0.05;
-
 /* Reports if the pads do not bear the rigid grip's load. */
 static sw_status tell_jump(sw_scene *s, sw_handle tool, const sw_handle wire,
                            const sw_freeze_report *was, sw_error *err) {
-  const sw_plan *p = sw_scene_system(s)->bodies[wire.slot].plan;
-  const sw_beam *beam = &p->beam;
   sw_vec force, moment;
   SW_TRY(sw_scene_tool_force(s, tool, NULL, &force, &moment, err));
-  const double g = sw_norm(sw_scene_gravity(s));
-  const double load = g > 0 ? g * beam->mass * p->length : beam->EI / (p->length * p->length);
-  const double borne = fmax(sw_norm(was->force), load);
-  const double turning = fmax(sw_norm(was->moment), borne * beam->radius);
-  const double off = sw_dist(force, was->force), turned = sw_dist(moment, was->moment);
-  if (off <= FORCE_STAYS * borne && turned <= MOMENT_STAYS * turning) return SW_OK;
-  sw_course_jump(sw_scene_course(s));
-  const char *name = sw_scene_wire_in(s, wire.slot)->name;
-  sw_scene_tell(
-      s, "unbalanced", name, NAN, off,
-      "the change to pads on wire '%s' alters the force of its gripper by %.3g N (of %.3g "
-      "N) and the moment by %.3g N m (of %.3g N m): forces just after it may be wrong",
-      name, off, sw_norm(was->force), turned, sw_norm(was->moment));
+  sw_frozen_tell_jump(s, wire.slot, was, force, moment, "pads");
   return SW_OK;
 }
 
