@@ -11,6 +11,7 @@
 #include <math.h>
 
 #include "base/each.h"
+#include "contact/recall.h"
 #include "contact/surface.h"
 #include "system/part.h"
 #include "touch/same.h"
@@ -99,7 +100,8 @@ static sw_vec friction_before(const sw_contact *c, const sw_system *s, const sw_
   const sw_press *p = &t->press;
   *slid = 0;
   if (s->bodies[t->body].plan->web) return p->tangential;
-  const sw_memory *m = sw_contact_remembered(c, &c->candidates[t->candidate], t->at, t->feature);
+  const sw_closest here = sw_contact_spotted(c, t);
+  const sw_memory *m = sw_contact_remembered(c, &c->candidates[t->candidate], &here);
   if (!m || !m->kept.sliding || !(m->kept.normal_force > 0)) return p->tangential;
   sw_vec f = sw_rotate(c->now[t->obstacle].pose.q, sw_neg(m->kept.elastic));
   f = sw_unit_or(sw_madd(f, p->normal, -sw_dot(f, p->normal)), sw_v(0, 0, 0));

@@ -24,7 +24,7 @@ static int was_put_in(const sw_contact *c, const sw_system *s, const sw_candidat
 static int keep_side(sw_contact *c, const sw_system *s, const sw_candidate *k, sw_vec local,
                      sw_closest *near) {
   if (near->gap >= 0 || c->flat[k->obstacle]) return 1; /* a half space has one side */
-  const sw_memory *m = sw_contact_remembered(c, k, near->at, near->feature);
+  const sw_memory *m = sw_contact_remembered(c, k, near);
   if (!m) {
     sw_contact_note_inside(c, s, k, near);
     return c->fresh == SW_CONTACT_FRESH || was_put_in(c, s, k);

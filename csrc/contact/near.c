@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Finds the places of a candidate near its obstacle: of its node, samples, chord, or smooth
  * curve. */
+#include <math.h>
+
 #include "contact/pads.h"
 #include "contact/round.h"
 
@@ -24,6 +26,50 @@ static void near_point(const sw_contact *c, const sw_candidate *k, sw_vec wire, 
   take(list, wire);
 }
 
+/* In a shallow hollow a point passes from face to face by moving sideways by about its gap times
+ * the angle between them. Each face then bears its share, from all to none, so that no force jumps
+ * as a foot leaves its face. Both faces of a hollow bear in full from twice this angle on [rad]. */
+static const double SHALLOW = 0.06;
+
+/* Returns the share of a place beside another one: the distance of its foot from where both faces
+ * meet, over that at which the other face takes over. */
+static double share_beside(const sw_closest *own, const sw_closest *other) {
+  const double cosine = fmin(sw_dot(own->normal, other->normal), 1.0);
+  const double half = sqrt((1.0 - cosine) / fmax(1.0 + cosine, 1e-12)); /* tan(angle/2) */
+  const double sine = sqrt(fmax(1.0 - cosine * cosine, 1e-24));
+  const double foot = (other->gap - own->gap * cosine) / sine;
+  return foot / (2.0 * own->gap * fmin(half, 0.5 * SHALLOW));
+}
+
+/* Adds the further near places of a line's node in a hollow of the obstacle, as on the other flank
+ * of a groove. */
+static void near_beside(const sw_contact *c, const sw_system *s, const sw_candidate *k, sw_vec wire,
+                        double reach, sw_places *list) {
+  sw_closest more[SW_CLOSEST_MAX];
+  if (!list->count || s->bodies[k->body].plan->web) return;
+  const sw_shape *shape = c->obstacles[k->obstacle].shape;
+  const int n = sw_shape_beside(shape, wire, reach, &list->place[0].near, more);
+  for (int i = 0; i < n; i++) {
+    list->place[list->count].near = more[i];
+    take(list, wire);
+  }
+  for (size_t i = 0; n > 0 && i < list->count; i++)
+    for (size_t j = 0; j < list->count; j++) {
+      const double share = j == i ? 1.0 : share_beside(&list->place[i].near, &list->place[j].near);
+      list->place[i].faint = fmax(list->place[i].faint, 1.0 - share);
+    }
+}
+
+/* Leaves the places on edges across the wire to its segments. */
+static void leave_to_segments(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                              const sw_contact_at *at, const double *x, sw_places *list) {
+  size_t kept = 0;
+  for (size_t i = 0; i < list->count; i++)
+    if (!sw_contact_is_segments(c, s, k, at, x, &list->place[i].near))
+      list->place[kept++] = list->place[i];
+  list->count = kept;
+}
+
 void sw_contact_near(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                      const sw_contact_at *at, const double *x, double reach, sw_places *list) {
   const sw_shape *shape = c->obstacles[k->obstacle].shape;
@@ -37,8 +83,8 @@ void sw_contact_near(const sw_contact *c, const sw_system *s, const sw_candidate
   const sw_vec a = sw_pose_local(*pose, sw_contact_where(c, x, k->node, k->node, 0));
   if (!k->segment) {
     near_point(c, k, a, 0, reach, list);
-    if (list->count && k->smooth && sw_contact_is_segments(c, s, k, at, x, &list->place[0].near))
-      list->count = 0;
+    near_beside(c, s, k, a, reach, list);
+    if (k->smooth) leave_to_segments(c, s, k, at, x, list);
     return;
   }
   const sw_vec b = sw_pose_local(*pose, sw_contact_where(c, x, k->other, k->other, 0));

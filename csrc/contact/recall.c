@@ -4,13 +4,14 @@
 
 #include <math.h>
 
-const sw_memory *sw_contact_remembered(const sw_contact *c, const sw_candidate *k, double at,
-                                       int feature) {
+const sw_memory *sw_contact_remembered(const sw_contact *c, const sw_candidate *k,
+                                       const sw_closest *place) {
   const sw_memory *best = NULL;
   double nearest = sw_contact_within(k, HUGE_VAL);
   for (size_t i = k->memory; c->memory && i < k->memory_end; i++) {
     const sw_memory *m = &c->memory[i];
-    const double d = fabs(m->at - at) + (m->feature == feature ? 0.0 : SW_ALMOST_THERE);
+    const double d = fabs(m->at - place->at) + sw_contact_apart(m->feature == place->feature,
+                                                                sw_dot(m->normal, place->normal));
     if (d < nearest) best = m, nearest = d;
   }
   return best;
@@ -57,8 +58,9 @@ static int goes_on_beside(const sw_contact *c, const sw_candidate *k, const sw_m
 
 /* Returns the memory of a pressing touch, on this or a neighbouring part of the wire, or NULL. */
 const sw_memory *sw_contact_recalled(const sw_contact *c, const sw_system *s, const sw_candidate *k,
-                                     double at, int feature, const double *y) {
-  const sw_memory *own = sw_contact_remembered(c, k, at, feature);
+                                     const sw_closest *place, const double *y) {
+  const double at = place->at;
+  const sw_memory *own = sw_contact_remembered(c, k, place);
   const int pressed = own && own->kept.normal_force > 0;
   if (pressed && !(k->smooth && k->segment)) return own;
   if (s->bodies[k->body].plan->web || k->samples) return NULL;

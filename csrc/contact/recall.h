@@ -8,7 +8,14 @@
 /* Returns the memory with which a touch of the candidate goes on, its own or that of a neighbour
  * from which it slid here, at positions y; or NULL. */
 const sw_memory *sw_contact_recalled(const sw_contact *c, const sw_system *s, const sw_candidate *k,
-                                     double at, int feature, const double *y);
+                                     const sw_closest *place, const double *y);
+/* Returns the place of a touch, as far as its memory is found by it. */
+static inline sw_closest sw_contact_spotted(const sw_contact *c, const sw_touch *t) {
+  const sw_quat turn = c->now[t->obstacle].pose.q;
+  return (sw_closest){
+      .at = t->at, .normal = sw_unrotate(turn, t->press.normal), .feature = t->feature};
+}
+
 /* Largest distance along the segment between places of one touch: the given share, or half the
  * distance of samples [-]. */
 static inline double sw_contact_within(const sw_candidate *k, double share) {
@@ -18,5 +25,11 @@ static inline double sw_contact_within(const sw_candidate *k, double share) {
  * meant: an edge and the corner at its end may touch at the same place of the wire, and only one of
  * them presses [-]. */
 #define SW_ALMOST_THERE 1e-3
+/* Returns what is added to the distance of two touches. A node in a groove touches both flanks: of
+ * several touches with other features the one on the same side is meant. cosine: of the angle
+ * between both normals [-]. */
+static inline double sw_contact_apart(int same_feature, double cosine) {
+  return same_feature ? 0.0 : SW_ALMOST_THERE * (1.5 - 0.5 * cosine);
+}
 
 #endif

@@ -68,7 +68,10 @@ static double depth_before(const sw_contact *c, const sw_system *s, const sw_can
   const sw_vec b = sw_contact_where(c, s->x, k->other, k->other, 0);
   const sw_vec p = sw_pose_local(c->start[k->obstacle].pose, sw_lerp(a, b, at));
   before.sharp = SW_SHARP_NOT;
-  if (!sw_shape_point(c->obstacles[k->obstacle].shape, p, k->skin, &before.near)) return deepest;
+  const sw_vec way = sw_unrotate(c->start[k->obstacle].pose.q,
+                                 sw_rotate(c->now[k->obstacle].pose.q, place->near.normal));
+  if (!sw_shape_point_like(c->obstacles[k->obstacle].shape, p, k->skin, way, &before.near))
+    return deepest;
   before.near.at = at;
   return fmax(deepest, depth_of(c, s, k, c->start, s->x, &before));
 }

@@ -35,6 +35,13 @@ static int find_on_curve(const sw_contact *c, const sw_system *s, const sw_touch
   return nearest < SW_SAME_TOUCH;
 }
 
+/* Cosine below which a place is on another flank of a groove [-]. */
+static const double SAME_SIDE = 0.7;
+
+static double other_flank(const sw_closest *near, sw_vec way) {
+  return sw_dot(near->normal, way) < SAME_SIDE ? SW_SAME_TOUCH : 0.0;
+}
+
 /* Finds the nearest place on the wire now; 0: none. */
 static int find(const sw_contact *c, const sw_system *s, const sw_touch *t, const double *y,
                 sw_place *place) {
@@ -48,14 +55,15 @@ static int find(const sw_contact *c, const sw_system *s, const sw_touch *t, cons
   const double reach = 2.0 * k->radius;
   sw_closest near[SW_CLOSEST_MAX];
   const int n = t->segment && !k->samples ? sw_shape_segment(shape, a, b, reach, near) : 0;
+  const sw_vec way = sw_unrotate(pose->q, t->press.normal);
   double nearest = SW_SAME_TOUCH;
   for (int i = 0; i < n; i++) {
-    const double away = fabs(near[i].at - t->at);
+    const double away = fabs(near[i].at - t->at) + other_flank(&near[i], way);
     if (away < nearest) *out = near[i], nearest = away;
   }
   if (nearest < SW_SAME_TOUCH) return 1;
   out->at = t->at; /* a sample, a node, or a place that was kept because it pushes */
-  return sw_shape_point(shape, t->segment ? sw_lerp(a, b, t->at) : a, reach, out);
+  return sw_shape_point_like(shape, t->segment ? sw_lerp(a, b, t->at) : a, reach, way, out);
 }
 
 int sw_contact_stays(const sw_contact *c, const sw_system *s, const sw_touch *t, const double *y,

@@ -56,13 +56,14 @@ static const sw_touch *nearer(const sw_touch *last, const sw_candidate *k, doubl
 
 /* Returns the touch of the previous iterate; on a smooth curve also from the neighbouring segment.
  * In a stage solved in parts the list also has touches of the previous stage. */
-static const sw_touch *last_for(const sw_contact *c, const sw_candidate *k, double at,
-                                int feature) {
+static const sw_touch *last_for(const sw_contact *c, const sw_candidate *k, double at, int feature,
+                                sw_vec normal) {
   const sw_touch *best = NULL;
   double nearest = sw_contact_within(k, SW_SAME_TOUCH);
   for (size_t i = k->last; i < k->last_end; i++) {
     const sw_touch *t = &c->last[i];
-    const double d = fabs(t->at - at) + (t->feature == feature ? 0.0 : SW_ALMOST_THERE);
+    const double d =
+        fabs(t->at - at) + sw_contact_apart(t->feature == feature, sw_dot(t->press.normal, normal));
     if (d < nearest) best = t, nearest = d;
   }
   if (!k->smooth || !k->segment) return best;
@@ -107,8 +108,8 @@ static sw_vec relative_shift(const sw_contact *c, const sw_system *s, const sw_t
 static sw_vec shift_since(const sw_contact *c, const sw_system *s, const sw_touch *t,
                           const double *y) {
   const sw_candidate *k = &c->candidates[t->candidate];
-  const sw_memory *m =
-      c->regime == SW_CONTACT_EXPLICIT ? sw_contact_remembered(c, k, t->at, t->feature) : NULL;
+  const sw_closest here = sw_contact_spotted(c, t);
+  const sw_memory *m = c->regime == SW_CONTACT_EXPLICIT ? sw_contact_remembered(c, k, &here) : NULL;
   if (!m) return relative_shift(c, s, t, y);
   const sw_mean spot = spot_of(s, k, t, m->at);
   const sw_vec now = sw_mean_place(c, y, &spot);
@@ -295,9 +296,10 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
                                const double *y, const sw_place *place) {
   const sw_closest *near = &place->near;
   const double at = k->segment ? near->at : 0.0;
-  const sw_memory *m = sw_contact_recalled(c, s, k, at, near->feature, y);
-  const sw_touch *last = last_for(c, k, at, near->feature);
   const sw_vec out = sw_rotate(c->now[k->obstacle].pose.q, near->normal);
+  const sw_closest here = {.at = at, .normal = near->normal, .feature = near->feature};
+  const sw_memory *m = sw_contact_recalled(c, s, k, &here, y);
+  const sw_touch *last = last_for(c, k, at, near->feature, out);
   const sw_plan *plan = s->bodies[k->body].plan;
   sw_touch *const t = new_touch(c);
   if (!t) return SW_ENOMEM;

@@ -151,10 +151,10 @@ int sw_contact_next_range(const sw_contact *c, sw_glance *at);
 void sw_contact_match(const sw_contact *c, sw_glance *at);
 
 void sw_contact_sort_memory(sw_contact *c); /* in the order of candidates */
-/* Returns the memory of the candidate's touch nearest to this place, or NULL. feature: that of the
- * place; it decides between touches at the same place of the wire. */
-const sw_memory *sw_contact_remembered(const sw_contact *c, const sw_candidate *k, double at,
-                                       int feature);
+/* Returns the memory of the candidate's touch nearest to this place, or NULL. The place's feature,
+ * else its normal, decides between touches at the same place of the wire. */
+const sw_memory *sw_contact_remembered(const sw_contact *c, const sw_candidate *k,
+                                       const sw_closest *place);
 /* Returns the obstacle with this owner's number, or count. */
 size_t sw_contact_index(const sw_contact *c, int id);
 /* Returns a place along a candidate as a mean of nodes. */

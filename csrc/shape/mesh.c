@@ -70,6 +70,7 @@ const sw_shape_class sw_shape_class_mesh = {
     .create = create,
     .destroy = destroy,
     .distance = sw_meshed_distance,
+    .beside = sw_meshed_beside,
     .segment = segment,
     .sweep = sweep,
     .triangles = sw_meshed_triangles,

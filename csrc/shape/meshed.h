@@ -16,6 +16,8 @@ static inline const sw_trimesh *sw_trimesh_of(const sw_shape *shape) {
 }
 
 int sw_meshed_distance(const sw_shape *shape, sw_vec p, double reach, sw_closest *out);
+int sw_meshed_beside(const sw_shape *shape, sw_vec p, double reach, const sw_closest *nearest,
+                     sw_closest *out);
 /* Copies the triangles for drawing; visits corners and edges as bones. */
 sw_status sw_meshed_triangles(const sw_shape *shape, int around, sw_triangles *out);
 void sw_meshed_bones(const sw_shape *shape, sw_bone_visit visit, void *user);

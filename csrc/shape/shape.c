@@ -189,6 +189,21 @@ int sw_shape_point(const sw_shape *shape, sw_vec p, double reach, sw_closest *ou
   return shape->class->distance(shape, p, reach, out);
 }
 
+int sw_shape_beside(const sw_shape *shape, sw_vec p, double reach, const sw_closest *nearest,
+                    sw_closest out[SW_CLOSEST_MAX]) {
+  return shape->class->beside ? shape->class->beside(shape, p, reach, nearest, out) : 0;
+}
+
+int sw_shape_point_like(const sw_shape *shape, sw_vec p, double reach, sw_vec way,
+                        sw_closest *out) {
+  sw_closest others[SW_CLOSEST_MAX];
+  if (!sw_shape_point(shape, p, reach, out)) return 0;
+  const int n = sw_shape_beside(shape, p, reach, out, others);
+  for (int i = 0; i < n; i++)
+    if (sw_dot(others[i].normal, way) > sw_dot(out->normal, way)) *out = others[i];
+  return 1;
+}
+
 int sw_shape_segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach,
                      sw_closest out[SW_CLOSEST_MAX]) {
   if (!(size_of(a) + size_of(b) < SW_SHAPE_FAR) || !(reach > -SW_SHAPE_FAR)) return 0;

@@ -98,6 +98,15 @@ sw_status sw_shape_new(const sw_shape_class *class, const sw_shape_args *args,
  * not beyond the border, and outside the mesh's bounds only within reach. */
 int sw_shape_point(const sw_shape *shape, sw_vec p, double reach, sw_closest *out);
 
+/* Lists the further near places of a point outside a hollow shape, nearest first: those of the
+ * other flanks of a groove, for example. nearest: the result of sw_shape_point. Fills up to
+ * SW_CLOSEST_MAX places less than reach away [m], and returns their number. */
+int sw_shape_beside(const sw_shape *shape, sw_vec p, double reach, const sw_closest *nearest,
+                    sw_closest out[SW_CLOSEST_MAX]);
+/* Like sw_shape_point, but of several near places takes the one whose normal is most like `way`
+ * [-]. */
+int sw_shape_point_like(const sw_shape *shape, sw_vec p, double reach, sw_vec way, sw_closest *out);
+
 /* Finds contacts strictly between the ends of the segment a-b, which queries at its ends would
  * miss: local minima of the distance along the segment. A contact is dropped if its gap is not
  * below the linear interpolation of the two end gaps, so a segment lying flat on a face has none. A
@@ -105,7 +114,7 @@ int sw_shape_point(const sw_shape *shape, sw_vec p, double reach, sw_closest *ou
  * of them fades away as the segment tilts. normal is perpendicular to the segment, except at the
  * second edge of such a bridge. For a segment cut by an edge, gap is minus the way out along
  * normal. On the facets of a round surface a mesh or hull also gives places on edges beside the
- * nearest one, nearly as near (up to 1 % of reach, and 0.1 mm), so that a segment rocks from edge
+ * nearest one, nearly as near (up to 3 % of reach, and 0.1 mm), so that a segment rocks from edge
  * to edge without a jump. A mesh finds places with |gap| below reach, other shapes with gap below
  * reach. Fills up to SW_CLOSEST_MAX contacts, nearest first, and returns their number. */
 int sw_shape_segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach,

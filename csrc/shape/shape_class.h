@@ -37,6 +37,9 @@ struct sw_shape_class {
 
   /* Like sw_shape_point; exact, and reach may be INFINITY. */
   int (*distance)(const sw_shape *shape, sw_vec p, double reach, sw_closest *out);
+  /* Like sw_shape_beside; NULL = a point has one near place. */
+  int (*beside)(const sw_shape *shape, sw_vec p, double reach, const sw_closest *nearest,
+                sw_closest *out);
   /* Returns the furthest place along the unit vector n; NULL unless convex and bounded. */
   sw_vec (*support)(const sw_shape *shape, sw_vec n);
   /* Like sw_shape_segment. */

@@ -58,7 +58,8 @@ static int runs_up(const sw_trimesh *mesh, const half_edge *h) {
 /* Makes one edge from the `count` sides on it. Returns 1 if two triangles run along it in the same
  * direction. */
 static int make_edge(sw_trimesh *mesh, const half_edge *h, int count) {
-  const double bent = 1e-6; /* sine of the angle below which faces are flat [-] */
+  const double bent = 1e-6;   /* sine of the angle below which faces are flat [-] */
+  const double folded = 1e-3; /* the same for a hollow edge, above rounding in files [-] */
   const int number = (int)mesh->edge_count++;
   sw_trimesh_edge *edge = &mesh->edges[number];
   *edge = (sw_trimesh_edge){.v = {h->low, h->high}, .tri = {h[0].tri, -1}};
@@ -78,7 +79,9 @@ static int make_edge(sw_trimesh *mesh, const half_edge *h, int count) {
   edge->tri[1] = h[1].tri;
   edge->sine = fmin(1, sw_norm(sw_cross(first, second)));
   if (sw_dot(first, second) < 0) edge->sine = 1;
-  edge->flags = count > 2 || sw_dot(edge->into[1], first) < -bent ? SW_CONVEX : 0;
+  const double rise = sw_dot(edge->into[1], first);
+  edge->flags = count > 2 || rise < -bent ? SW_CONVEX : 0;
+  mesh->hollow |= rise > folded;
   return count == 2 && runs_up(mesh, &h[0]) == runs_up(mesh, &h[1]);
 }
 
@@ -165,6 +168,8 @@ static sw_status fill(sw_trimesh *mesh, const half_edge *halves, size_t *twisted
   add_corner_normals(mesh);
   list_corner_edges(mesh);
   for (size_t v = 0; v < mesh->vertex_count; v++) finish_corner(mesh, (int)v);
+  /* by Euler's formula for one closed surface without holes */
+  mesh->hollow |= mesh->vertex_count + mesh->triangle_count != mesh->edge_count + 2;
   return SW_OK;
 }
 

@@ -47,6 +47,7 @@ typedef struct sw_trimesh {
   sw_bounds bounds;
   double size; /* largest extent [m] */
   int open;    /* 1: it has a border */
+  int hollow;  /* 1: it is not convex, so a point may be near several faces */
 } sw_trimesh;
 
 /* Builds a mesh from cleaned copies of the triangles: coinciding vertices are joined, triangles

@@ -9,7 +9,7 @@ typedef struct query {
   sw_vec a, b, d; /* [m] */
   double length, reach;
   int have_ends;
-  double gap_a, gap_b; /* [m] */
+  sw_closest end_a, end_b; /* nearest places of the ends; gap HUGE_VAL: none */
   int count;
   sw_closest *out;
   int beside[SW_CLOSEST_MAX]; /* 1: the place is on the edge beside the nearest one */
@@ -22,15 +22,19 @@ static const double hand_over = 0.05;
  * those of a round surface's facets [-]. */
 static const double flat = 1e-3, blunt = 0.42;
 /* A segment on such a surface lies on one facet and rocks on its edges. It also touches further
- * edges if the nearest one is nearer by less than this share of reach: five times the depth to
- * which a wire sinks in. Otherwise a taut cable would pass from edge to edge by jumps: where the
- * tilt of hand_over is less than this depth, one edge bears much of the push, and none as soon as
- * the cable tilts a little more, so there is no balance between the two. Of 150 drawn cables none
- * fails with this share, and 3 of 12 with 0.003 (spec/contact/faceted_capstan_spec) [-]. */
-static const double as_near = 0.01;
+ * edges if the nearest one is nearer by less than this share of reach. A wire's reach is twice its
+ * radius, and a soft touch at rest may be 0.05 of it deep, so this must be above 0.025. Otherwise a
+ * taut cable would pass from edge to edge by jumps: where the tilt of hand_over is less than this
+ * depth, one edge bears much of the push, and none as soon as the cable tilts a little more, so
+ * there is no balance between the two. With 0.01 17 of 18 cables drawn through a groove in poses
+ * fail, with 0.03 4 (spec/contact/hollow_mesh_spec), and of 150 over cylinders none does
+ * (spec/contact/faceted_capstan_spec) [-]. */
+static const double as_near = 0.03;
 static const double most_nearer = 1e-4; /* upper limit of it, for queries with any reach [m] */
 /* The same tilt for corners, as a cosine [-]. */
 static const double corner_slack = 1e-6;
+/* Cosine above which an end's nearest place is on the flank of a place between the ends [-]. */
+static const double same_flank = 0.995;
 /* Places nearer to the segment's ends are left to the ends' own queries [-]. */
 static const double inside = 1e-9;
 
@@ -64,11 +68,18 @@ void sw_trimesh_near(const sw_trimesh *mesh, sw_vec a, sw_vec b, double reach,
 
 /* Finds the gaps at the segment's ends, once, when first needed. */
 static void look_at_ends(query *q) {
-  sw_closest end;
   if (q->have_ends) return;
   q->have_ends = 1;
-  q->gap_a = sw_trimesh_distance(q->mesh, q->a, HUGE_VAL, &end) ? end.gap : HUGE_VAL;
-  q->gap_b = sw_trimesh_distance(q->mesh, q->b, HUGE_VAL, &end) ? end.gap : HUGE_VAL;
+  if (!sw_trimesh_distance(q->mesh, q->a, HUGE_VAL, &q->end_a)) q->end_a.gap = HUGE_VAL;
+  if (!sw_trimesh_distance(q->mesh, q->b, HUGE_VAL, &q->end_b)) q->end_b.gap = HUGE_VAL;
+}
+
+/* 1 if the segment's ends are as near to the face that the place is on. In a groove the nearest
+ * place of an end may be on the other flank, and says nothing about this one. */
+static int no_better_than_ends(const query *q, const sw_closest *c) {
+  if (sw_dot(q->end_a.normal, c->normal) < same_flank) return 0;
+  if (sw_dot(q->end_b.normal, c->normal) < same_flank) return 0;
+  return sw_no_better(c->gap, q->end_a.gap, q->end_b.gap, c->at, q->length);
 }
 
 static int known(const query *q, const sw_closest *c) {
@@ -103,7 +114,7 @@ static void insert(query *q, const sw_closest *c, int beside) {
 static void offer(query *q, const sw_closest *c, int beside) {
   if (!(fabs(c->gap) < q->reach)) return;
   look_at_ends(q);
-  if (sw_no_better(c->gap, q->gap_a, q->gap_b, c->at, q->length) || known(q, c)) return;
+  if (no_better_than_ends(q, c) || known(q, c)) return;
   insert(q, c, beside);
 }
 
