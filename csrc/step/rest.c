@@ -13,6 +13,7 @@
 #include "mutual/mutual.h"
 #include "scene/course.h"
 #include "scene/drive.h"
+#include "scene/gripper.h"
 #include "scene/obstacle.h"
 #include "scene/parts.h"
 #include "step/statics.h"
@@ -133,12 +134,22 @@ static double fed(const sw_statics *p) {
   return most;
 }
 
+/* 1 if a hold, feed or jaw may move a wire in this pose. */
+static int is_driven(const sw_statics *p) {
+  SW_EACH(hold, h, p->s)
+    if (h->alive && sw_hold_passes(h)) return 1;
+  SW_EACH(tool, t, p->s)
+    if (t->alive && t->pads) return 1;
+  return drive_shift(p) > 0;
+}
+
 static sw_status follow_in(sw_statics *p, size_t parts, sw_error *err) {
   sw_status status = SW_OK;
   const size_t most = MOST_DIVIDED * parts;
   p->rubs = rubs(sw_scene_pairs(p->s)) || rubs(sw_scene_grains(p->s));
   const double way = p->rubs ? drive_shift(p) : 0, fed_way = p->rubs ? fed(p) : 0;
   p->report->rubbed = 0, p->divides = 0;
+  p->left_alone = !is_driven(p);
   for (size_t i = 1; status == SW_OK && i <= parts; i++) {
     sw_scene_go_part(p->s, i < parts ? p->from_poses : NULL, (double)i / (double)parts);
     p->passing = i < parts || p->args->passing ? PASSING : 0.0;
