@@ -12,13 +12,17 @@
 #include "contact/surface.h"
 #include "touch/same.h"
 
+/* Cosine between normals below which two touches of a place are on different flanks of a groove.
+ * Each must be struck: otherwise the integrator treats the second blow, and bounces [-]. */
+static const double SAME_FLANK = 0.7;
+
 static int was_struck(const sw_contact *c, const sw_pressed *t, size_t node, size_t *looks) {
   for (uint32_t i = c->impact_at[node]; i; i = c->impacts[i - 1].before) {
     const sw_impact *m = &c->impacts[i - 1];
     const double ahead = node < t->node ? -1.0 : node > t->node ? 1.0 : 0.0;
     ++*looks;
     if (m->obstacle == t->obstacle && m->segment == t->segment &&
-        fabs(ahead + m->at - t->at) < SW_SAME_TOUCH)
+        fabs(ahead + m->at - t->at) < SW_SAME_TOUCH && sw_dot(m->normal, t->normal) > SAME_FLANK)
       return 1;
   }
   return 0;
@@ -41,6 +45,7 @@ static void note_impact(sw_contact *c, const sw_system *s, const sw_pressed *t, 
                                               .first = s->bodies[t->body].first_node,
                                               .at = t->at,
                                               .kick = kick,
+                                              .normal = t->normal,
                                               .before = c->impact_at[t->node]};
   c->impact_at[t->node] = (uint32_t)c->impact_count;
 }

@@ -143,6 +143,7 @@ typedef struct sw_impact {
   double at;
   sw_vec kick;     /* impulse on the obstacle [N s] */
   uint32_t before; /* the previous impact at its node: number + 1, or 0 */
+  sw_vec normal;   /* of the touch, in world axes [-] */
 } sw_impact;
 
 /* When a touch would strike. */
