@@ -24,8 +24,6 @@
 #include "force/clip_watch.h"
 #include "force/force.h"
 
-static const double SLIP = 1.0 / 200.0; /* stretch at which a friction spring slips, over W [-] */
-
 static const sw_param rows[] = {
     SW_CLIP_ROWS,
     {"friction", SW_PARAM_NUMBER, "-", 0, 0, HUGE_VAL, 0, NULL, offsetof(sw_clip_args, friction),
@@ -60,8 +58,7 @@ static sw_status check(const void *args, const sw_beam *beam, sw_error *err) {
 
 /* --- history ------------------------------------------------------------------ */
 
-/* Returns the clip as the wire meets it in this step. */
-static sw_clip clip_of(const void *args, const sw_field *f, const double *history) {
+sw_clip sw_clip_met(const void *args, const sw_field *f, const double *history) {
   sw_clip c = sw_clip_of(args, &f->plan->beam);
   c.law.caught = history && history[SW_CLIP_STATE] != SW_CLIP_EMPTY;
   return c;
@@ -88,7 +85,7 @@ static double friction_energy(double stretch, double most, double slip) {
 }
 
 static void add_friction(const sw_clip *c, sw_field *f) {
-  const double slip = SLIP * c->width;
+  const double slip = SW_CLIP_SLIP * c->width;
   for (size_t i = 0; f->history && f->history[SW_CLIP_RUBS] > 0 && i < sw_axis_points(f->plan);
        i++) {
     const double *h = f->history + SW_CLIP_HEAD + SW_CLIP_EACH * i;
@@ -103,7 +100,7 @@ static void add_friction(const sw_clip *c, sw_field *f) {
 
 static sw_status eval(const void *args, sw_field *f, sw_error *err SW_UNUSED) {
   if (sw_clip_is_broken(f->history)) return SW_OK;
-  const sw_clip c = clip_of(args, f, f->history);
+  const sw_clip c = sw_clip_met(args, f, f->history);
   const int what = f->want & SW_WANT_STIFFNESS ? SW_CLIP_WANT_STIFFNESS : 0;
   for (long e = sw_clip_find(&c, f, 0); e >= 0; e = sw_clip_find(&c, f, e + 1)) {
     sw_clip_walk walk;
@@ -121,7 +118,7 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err SW_UNUSED) {
  * next step. A sticking node keeps its friction force as long as the new limit allows it. */
 static void commit_friction(const sw_clip *c, const sw_field *f, const sw_clip_pushes *known,
                             double *history) {
-  const double slip = SLIP * c->width;
+  const double slip = SW_CLIP_SLIP * c->width;
   const size_t points = sw_axis_points(f->plan);
   const int begun = history[SW_CLIP_BEGUN] > 0;
   double *each = history + SW_CLIP_HEAD;
@@ -175,7 +172,7 @@ static double friction_of(const sw_clip *c, const sw_field *f, const double *his
   for (size_t i = 0; i < sw_axis_points(f->plan); i++) {
     const double *h = history + SW_CLIP_HEAD + SW_CLIP_EACH * i;
     if (!(h[SW_CLIP_MOST] > 0)) continue;
-    const double e = stretch_of(c, f, h, i) / (SLIP * c->width);
+    const double e = stretch_of(c, f, h, i) / (SW_CLIP_SLIP * c->width);
     sum -= h[SW_CLIP_MOST] * fmax(-1.0, fmin(1.0, e));
     *most += h[SW_CLIP_MOST];
   }
@@ -184,7 +181,7 @@ static double friction_of(const sw_clip *c, const sw_field *f, const double *his
 
 /* Gives friction the limits of the present push. A guess did not act in continuation. */
 static double catch_up(const void *args, const sw_field *f, int guesses, double *history) {
-  const sw_clip c = clip_of(args, f, history);
+  const sw_clip c = sw_clip_met(args, f, history);
   const int guessed = history[SW_CLIP_RUBS] == SW_CLIP_GUESS;
   double most, now;
   if (sw_clip_is_broken(history) || !(c.friction > 0) || (guesses && !guessed)) return 0;
@@ -225,7 +222,7 @@ static double way_over(double one, double two, double high) {
 static double oversteps(const void *args, const sw_field *f, const double *history,
                         const double *x) {
   if (!history || idle(history) || f->statics) return 0;
-  const sw_clip c = clip_of(args, f, history);
+  const sw_clip c = sw_clip_met(args, f, history);
   const double high = c.law.out + c.law.in, beside = c.law.clearance + 2.0 * c.law.reach;
   sw_field after = *f;
   double most = 0;
@@ -248,7 +245,7 @@ static double oversteps(const void *args, const sw_field *f, const double *histo
 /* Ends the action of a broken clip. The energy stored in the clip and its friction springs is
  * lost. */
 static void give_up(const sw_clip *c, const sw_field *f, double *history) {
-  const double slip = SLIP * c->width;
+  const double slip = SW_CLIP_SLIP * c->width;
   sw_clip_sum sum;
   history[SW_CLIP_RUBS] = history[SW_CLIP_NEAR] = 0;
   for (long e = sw_clip_find(c, f, 0); e >= 0; e = sw_clip_find(c, f, e + 1))
@@ -262,7 +259,7 @@ static void give_up(const sw_clip *c, const sw_field *f, double *history) {
 }
 
 static void commit(const void *args, const sw_field *f, double *history) {
-  const sw_clip c = clip_of(args, f, history);
+  const sw_clip c = sw_clip_met(args, f, history);
   history[SW_CLIP_NEWS] = SW_CLIP_NO_NEWS;
   if (sw_clip_is_broken(history)) return;
   const int was_near = history[SW_CLIP_NEAR] > 0 || !(history[SW_CLIP_BEGUN] > 0);
@@ -313,7 +310,7 @@ static const char *const outputs[] = {
     "strength", "run_peak", "peak_slope", NULL};
 
 static void read(const void *args, const sw_field *f, const double *history, double *out) {
-  const sw_clip c = clip_of(args, f, history);
+  const sw_clip c = sw_clip_met(args, f, history);
   sw_clip_middle m = sw_clip_middle_of(&c, f, NULL);
   if (sw_clip_is_broken(history)) m.force = sw_v(0, 0, 0), m.share = 0;
   double most;
@@ -349,7 +346,7 @@ static void read(const void *args, const sw_field *f, const double *history, dou
  * 2 / omega. */
 static double stable_dt(const void *args, const sw_plan *plan) {
   const sw_clip c = sw_clip_of(args, &plan->beam);
-  const double k = sw_clip_stiffness(&c, SLIP * c.width);
+  const double k = sw_clip_stiffness(&c, SW_CLIP_SLIP * c.width);
   double rate2 = 0;
   const size_t points = sw_axis_points(plan);
   for (size_t i = 0; i < points; i++) {
@@ -378,6 +375,7 @@ const sw_force_class sw_force_clip = {
     .begin_run = sw_clip_begin_run,
     .news = sw_clip_news,
     .oversteps = oversteps,
+    .mistake = sw_clip_mistake,
     .largest_share = sw_clip_largest_share,
     .outputs = outputs,
     .read = read,

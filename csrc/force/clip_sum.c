@@ -155,14 +155,20 @@ long sw_clip_find(const sw_clip *c, const sw_field *f, long from) {
 }
 
 int sw_clip_begin(const sw_clip *c, const sw_field *f, size_t e, sw_clip_walk *w) {
+  const sw_vec end[2] = {sw_axis_at(f, e), sw_axis_at(f, e + 1)};
+  return sw_clip_begin_at(c, f->plan, e, end, w);
+}
+
+int sw_clip_begin_at(const sw_clip *c, const sw_plan *plan, size_t e, const sw_vec end[2],
+                     sw_clip_walk *w) {
   const double most = 1e6;
   double seen[3];
   long first;
-  local_of(c, sw_axis_at(f, e), w->a);
-  local_of(c, sw_axis_at(f, e + 1), w->b);
+  local_of(c, end[0], w->a);
+  local_of(c, end[1], w->b);
   w->half = 0.5 * c->width;
-  w->s = sw_axis_s(f->plan, e);
-  w->length = sw_axis_s(f->plan, e + 1) - w->s;
+  w->s = sw_axis_s(plan, e);
+  w->length = sw_axis_s(plan, e + 1) - w->s;
   w->count = (long)fmin(most, ceil(FINENESS * w->length / c->width));
   if (!range(w->a[2], w->b[2], w->half, w->count, &first, &w->last)) return 0;
   w->k = first;

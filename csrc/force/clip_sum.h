@@ -92,6 +92,9 @@ long sw_clip_find(const sw_clip *clip, const sw_field *field, long from);
 /* Starts a walk along the edge from place e to the next; 0: the edge is outside the clip's
  * width. */
 int sw_clip_begin(const sw_clip *clip, const sw_field *field, size_t e, sw_clip_walk *walk);
+/* The same for an edge with these ends [m]. */
+int sw_clip_begin_at(const sw_clip *clip, const sw_plan *plan, size_t e, const sw_vec end[2],
+                     sw_clip_walk *walk);
 /* Sets the window's phase at the first place. */
 void sw_clip_begin_window(sw_clip_walk *walk);
 /* Returns the next place: u, v, a [m] and its share of the way along the edge [-]; the window chi

@@ -63,6 +63,12 @@ enum {
   SW_CLIP_LONG_EDGES
 };
 
+/* Stretch at which a friction spring slips, over the clip's width [-]. */
+static const double SW_CLIP_SLIP = 1.0 / 200.0;
+
+/* Returns the clip as the wire meets it in this step. */
+sw_clip sw_clip_met(const void *args, const sw_field *field, const double *history);
+
 static inline int sw_clip_is_broken(const double *history) {
   return history && history[SW_CLIP_BROKEN] > 0;
 }
@@ -114,6 +120,8 @@ void sw_clip_watch_edges(const sw_clip *clip, const sw_clip_middle *middle, doub
 
 /* See sw_force_class. */
 double sw_clip_largest_share(const void *args, const sw_field *field, const double *delta);
+double sw_clip_mistake(const void *args, const sw_field *field, const double *history,
+                       const double *x, const double *delta);
 void sw_clip_begin_run(double *history);
 int sw_clip_news(const void *args, const double *history, sw_force_news *out);
 

@@ -119,6 +119,13 @@ typedef struct sw_force_class {
    * accuracy for kinks. NULL = it may always act. */
   int (*idle)(const double *history);
 
+  /* Returns how far the force on a line's nodes at x (nodes x 3) is from the one that an iteration
+   * expected, which moved them there by delta: from the force and the stiffness before [N]. NULL =
+   * not known. Then a force with a history is iterated until the nodes move no more, because its
+   * stiffness may jump. */
+  double (*mistake)(const void *args, const sw_field *field, const double *history, const double *x,
+                    const double *delta);
+
   /* Returns the pull on a part that can break and fills its strength: 0 = broken, HUGE_VAL = no
    * limit [N]. Only positions of the field are up to date. NULL = cannot break. */
   double (*pull)(const void *args, const sw_field *field, const double *history, double *bears);
