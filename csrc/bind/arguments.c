@@ -10,6 +10,8 @@ static int unknown_key(lua_State *L, const char *object, const lsw_section *sect
   for (int k = 0; k < count; k++) {
     const sw_params *params = sections[k].params;
     if (!params->count) continue; /* there may be no rows to point at */
+    const char *how = lsw_turned_by(object, params, key);
+    if (how) return luaL_error(L, "%s: there is no parameter '%s'; %s", object, key, how);
     const char *near =
         sw_nearest_name(key, &params->rows[0].name, sizeof params->rows[0], params->count);
     if (near)

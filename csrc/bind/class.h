@@ -91,6 +91,10 @@ typedef struct lsw_section {
 void lsw_sections(lua_State *L, int index, const char *object, const lsw_section *sections,
                   int count);
 
+/* Returns in words how an object with rotation is turned, if a key that it lacks asks for that;
+ * else NULL. */
+const char *lsw_turned_by(const char *object, const sw_params *params, const char *key);
+
 /* Returns the index among names of the word on top of the stack. If it is not there, raises an
  * error with `what` ("wire: there is no model"), the word, and the nearest name; if none is near,
  * with `also` and all names. */

@@ -166,3 +166,16 @@ void lsw_push_quaternion(lua_State *L, sw_quat q) {
   lua_pushnumber(L, q.y), lua_rawseti(L, -2, 3);
   lua_pushnumber(L, q.z), lua_rawseti(L, -2, 4);
 }
+
+const char *lsw_turned_by(const char *object, const sw_params *params, const char *key) {
+  static const char *const round[] = {"cylinder", "capsule", "torus"};
+  int rotates = 0, is_round = 0;
+  if (strcmp(key, "axis") != 0 && strcmp(key, "direction") != 0) return NULL;
+  for (size_t i = 0; i < params->count; i++)
+    rotates += strcmp(params->rows[i].name, "rotation") == 0 ? 1 : 0;
+  for (size_t i = 0; i < sizeof round / sizeof *round; i++)
+    is_round |= strstr(object, round[i]) != NULL;
+  if (!rotates || strstr(object, "plane")) return NULL; /* a plane has a normal */
+  return is_round ? "its axis is z; turn it with rotation = { axis = { x, y, z }, angle = [rad] }"
+                  : "turn it with rotation = { axis = { x, y, z }, angle = [rad] }";
+}

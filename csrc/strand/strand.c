@@ -128,7 +128,10 @@ static sw_status calibrate(const sw_strand_plan *p, const sw_strand_need *need, 
   }
   if (status == SW_OK) return SW_OK;
   const char *text = strncmp(why.text, "calibrate: ", 11) == 0 ? why.text + 11 : why.text;
-  return sw_fail(err, status, "wire '%s' as %s: %.400s", p->name, p->mesh, text);
+  const char *also = isnan(p->spacing) && strstr(text, "spacing = ")
+                         ? "; spacing is the wire's length over segments"
+                         : "";
+  return sw_fail(err, status, "wire '%s' as %s: %.400s%s", p->name, p->mesh, text, also);
 }
 
 sw_status sw_strand_slices(const sw_strand_plan *p, const sw_beam *beam, double length, size_t *out,
