@@ -8,6 +8,7 @@ local flat = require "softworld.model.flat"
 local mesh = require "softworld.model.mesh"
 local number = require "softworld.output.number"
 local pressed = require "softworld.model.pressed"
+local vec = require "softworld.vec"
 
 local CRUSHED = 0.2 -- flattening above which no line is valid, whatever the tolerance [-]
 local SQUEEZED = 0.1 -- flattening from both sides that may be left out, over the tolerance [-]
@@ -63,7 +64,29 @@ local function meshed(context)
   return list
 end
 
-function section.begin(context) context.pressed = {} end
+-- Returns a sentence if a wire begins inside an obstacle, deeper than its radius, or nil. A force throws it
+-- out that no handling has; a mesh of all of it would take minutes, and tell nothing.
+local function begins_inside(context)
+  for _, o in ipairs(context.obstacles_at) do
+    for i, points in ipairs(context.start) do
+      local w = context.data.wires[i]
+      for _, p in ipairs(points) do
+        local gap = o.shape:distance(vec.rotate(o.back, { p[1] - o.at[1], p[2] - o.at[2], p[3] - o.at[3] }))
+        if gap < -w.object.radius then
+          return ("'%s' begins inside '%s', which throws it out: put it outside"):format(w.name, o.name)
+        end
+      end
+    end
+  end
+end
+
+function section.begin(context)
+  context.pressed, context.obstacles_at = {}, {}
+  for i, o in ipairs(context.data.obstacles) do
+    local at, q = o.object:pose()
+    context.obstacles_at[i] = { name = o.name, shape = o.object.shape, at = at, back = vec.conjugate(q) }
+  end
+end
 
 --- True if the wire will be a mesh.
 function section.takes(context, rung, wire)
@@ -180,8 +203,10 @@ function section.broken(f, share, rung)
   end
 end
 
---- Skips the next rung if the stiffness of the pressed wire is not known.
-function section.skip(_, rung, f, share)
+--- Skips the next rung if the stiffness of the pressed wire is not known, or if it begins inside something.
+function section.skip(context, rung, f, share)
+  if rung == 1 and context.inside == nil then context.inside = begins_inside(context) or false end
+  if rung == 1 and context.inside then return context.inside end
   if rung > 1 or not f.unknown or f.share > share then return nil end
   return ("the stiffness of the section of '%s' is not known: give E"):format(f.unknown)
 end
@@ -197,9 +222,10 @@ function section.mends(_, rung, result, tightest)
   return ("'%s' is squeezed from both sides, which a line cannot compute"):format(f.squeezed)
 end
 
-function section.short(_, f, share, state)
+function section.short(context, f, share, state)
   if state.rung == 1 and state.by ~= "compared" then
     if f.unknown or f.share <= share then return nil end
+    if context.inside then return context.inside end
     local advice = state.by == "failed" and "no mesh of it can be computed"
       or "take a mesh, help 'models'"
     if (f.squeeze or 0) > share then
