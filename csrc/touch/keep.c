@@ -52,9 +52,10 @@ sw_kept sw_press_keep(const sw_press *p, double usual, double stiffer, double de
 }
 
 void sw_kept_hold_slide(sw_kept *kept, const sw_press *p, int known) {
+  if (!known) return;
   if (p->normal_force > 0) {
     kept->elastic = sw_add(kept->elastic, p->slip);
-  } else if (known) {
+  } else {
     kept->normal_force = NO_FORCE, kept->sliding = 1;
     kept->elastic = sw_add(p->trial, sw_madd(p->shift, p->normal, -sw_dot(p->shift, p->normal)));
   }

@@ -30,7 +30,8 @@ sw_kept sw_press_keep(const struct sw_press *press, double usual, double stiffer
                       double share);
 /* Adds to friction's spring what the anchor slid in this step, for searches that come to rest in
  * several steps: only the last one may forget the slide, so that friction opposes the whole way.
- * known: 1 if the touch pressed before this step; it may open and close again in the search. */
+ * known: 1 if the touch pressed before this step; it may open and close again in the search. A new
+ * touch has moved freely, and that is no slide. */
 void sw_kept_hold_slide(sw_kept *kept, const struct sw_press *press, int known);
 /* 1 if friction's spring was stiffer than its touch, by more than rounding. */
 static inline int sw_kept_is_stiff(const sw_kept *kept) {

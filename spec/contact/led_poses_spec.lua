@@ -57,4 +57,30 @@ describe("a wire across a drawn wire, in poses", function()
       t.near(lower, upper, EXACT)
     end)
   end
+
+  -- Both wires are clamped at both ends, and the upper one is lowered across the middle of the lower one. By
+  -- symmetry friction is 0. A touch that begins in the search has moved freely: had friction kept this as a
+  -- slide, the forces across would be up to 1.2 mN.
+  it("has no force across if it is pressed on the middle of the other one", function()
+    for _, case in ipairs{ { 6, 0.25 }, { 8, 0.25 }, { 10, 0.1 }, { 24, 0.1 } } do
+      local scene = sw.scene{ name = "crossed" }
+      local function placed(name, from, to)
+        return scene:wire{ name = name, E = 5e6, density = 1500, radius = 0.0025, from = from, to = to,
+          segments = case[1] }
+      end
+      local a = placed("a", { -0.2, 0, 0 }, { 0.2, 0, 0 })
+      local b = placed("b", { 0, -0.2, 0.02 }, { 0, 0.2, 0.02 })
+      scene:wire_contact{ friction = 0.3 }
+      local hands = {}
+      for i, s in ipairs{ 0, 0.4 } do
+        scene:clamp(a, { s = s })
+        hands[i] = scene:clamp(b, { s = s })
+        hands[i]:follow{ relative = true, duration = 1, points = { { 0, 0, 0 }, { 0, 0, -0.08 } } }
+      end
+      scene:settle()
+      t.fine(scene:run{ duration = 1, dt = case[2], quasistatic = true, progress = false })
+      for i = 1, 2 do t.near(0, hands[i]:force()[1], 1e-5, case[1] .. " edges") end
+      t.below(-1.2, hands[1]:force()[2]) -- it is stretched by the lower one
+    end
+  end)
 end)
