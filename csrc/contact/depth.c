@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "base/halving.h"
 #include "contact/contact.h"
 #include "touch/drawn.h"
 
@@ -21,10 +22,25 @@ static int is_taut(const sw_system *s, const sw_candidate *k, const sw_touch *t)
   return t->press.normal_force >= k->squeezing && tension * edge * edge < LIMP * b->plan->beam.EI;
 }
 
+/* Pads fix the places that they press. Open ones that come near do not: a cable under another one
+ * would count as taut, and its touches would change between the usual and a small depth without end
+ * (spec/physics/poses_fall_spec). */
+static void take_pads(const sw_contact *c, const sw_body *b, sw_drawn *drawn) {
+  const size_t end = b->first_node + b->plan->nodes;
+  size_t m;
+  SW_FIRST_NOT(c->memory[m].node < b->first_node, m, 0, c->memory_count);
+  for (; m < c->memory_count && c->memory[m].node < end; m++) {
+    const size_t o = sw_contact_index(c, c->memory[m].obstacle);
+    if (c->memory[m].kept.normal_force > 0 && o < c->count && c->obstacles[o].grips > 0)
+      sw_drawn_take(drawn, c->memory[m].node);
+  }
+}
+
 void sw_contact_find_drawn(sw_contact *c, const sw_system *s, size_t body, size_t first) {
   if (c->regime == SW_CONTACT_EXPLICIT || s->bodies[body].plan->web) return;
   sw_drawn drawn = sw_drawn_of(s, body);
-  for (size_t k = first; k < c->candidate_count; k++)
+  if (c->regime == SW_CONTACT_STATIC) take_pads(c, &s->bodies[body], &drawn);
+  for (size_t k = first; k < c->candidate_count && c->regime == SW_CONTACT_IMPLICIT; k++)
     if (c->obstacles[c->candidates[k].obstacle].grips > 0)
       sw_drawn_take(&drawn, c->candidates[k].node);
   for (size_t k = first; k < c->candidate_count; k++)
