@@ -24,7 +24,7 @@ static int is_taut(const sw_system *s, const sw_candidate *k, const sw_touch *t)
 
 /* Pads fix the places that they press. Open ones that come near do not: a cable under another one
  * would count as taut, and its touches would change between the usual and a small depth without end
- * (spec/physics/poses_fall_spec). */
+ * (spec/physics/poses_pads_near_spec). */
 static void take_pads(const sw_contact *c, const sw_body *b, sw_drawn *drawn) {
   const size_t end = b->first_node + b->plan->nodes;
   size_t m;
