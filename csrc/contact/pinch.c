@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Finds whether a wire is pinched between two obstacles. There only the touches give way: stiffer
- * touches press more, and the wire stays as deep as before. */
+/* Finds whether a wire is pinched between two obstacles, or two flanks of one obstacle's hollow.
+ * There only the touches give way: stiffer touches press more, and the wire stays as deep as
+ * before. */
 #include <math.h>
 
 #include "contact/touch.h"
@@ -12,8 +13,7 @@ static int is_near(const sw_touch *t, const sw_touch *other) {
 }
 
 static int faces(const sw_touch *t, const sw_touch *other) {
-  return other->obstacle != t->obstacle && other->press.normal_force > 0 &&
-         sw_dot(other->press.normal, t->press.normal) < SW_FACING;
+  return other->press.normal_force > 0 && sw_dot(other->press.normal, t->press.normal) < SW_FACING;
 }
 
 /* Facing touches up to this far apart are at one place [edges]. */
