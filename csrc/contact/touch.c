@@ -108,8 +108,9 @@ static sw_vec relative_shift(const sw_contact *c, const sw_system *s, const sw_t
 static sw_vec shift_since(const sw_contact *c, const sw_system *s, const sw_touch *t,
                           const double *y) {
   const sw_candidate *k = &c->candidates[t->candidate];
+  if (c->regime != SW_CONTACT_EXPLICIT) return relative_shift(c, s, t, y);
   const sw_closest here = sw_contact_spotted(c, t);
-  const sw_memory *m = c->regime == SW_CONTACT_EXPLICIT ? sw_contact_remembered(c, k, &here) : NULL;
+  const sw_memory *m = sw_contact_remembered(c, k, &here);
   if (!m) return relative_shift(c, s, t, y);
   const sw_mean spot = spot_of(s, k, t, m->at);
   const sw_vec now = sw_mean_place(c, y, &spot);

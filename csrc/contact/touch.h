@@ -195,7 +195,7 @@ double sw_contact_softer(const sw_contact *c, const sw_system *s, const sw_candi
 void sw_contact_find_carried(const sw_contact *c, sw_system *s);
 sw_vec sw_contact_carried(const sw_contact *c, const sw_system *s, const sw_touch *t, sw_vec from);
 
-/* 1 if the wire is pinched between the touch's obstacle and another one. */
+/* 1 if the wire is pinched between the touch's obstacle and another one, or two of its flanks. */
 int sw_contact_is_pinched(const sw_contact *c, const sw_touch *t);
 
 /* 1 if the candidate's node, or both ends of its segment, are held. */
