@@ -26,7 +26,7 @@ const double *sw_scene_energy_log(const sw_scene *s, size_t *rows) {
 /* --- on tape ------------------------------------------------------------------------ */
 
 void sw_tape_ledger(sw_tape *t, sw_books *b) {
-  SW_TAPE_STRUCT(t, sw_books, 1200);
+  SW_TAPE_STRUCT(t, sw_books, 1208);
   SW_TAPE_STRUCT(t, sw_ledger, 464);
   sw_tape_raw(t, &b->sums, sizeof b->sums);
   sw_tape_raw(t, &b->now, sizeof b->now);

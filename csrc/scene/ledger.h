@@ -27,6 +27,7 @@ typedef struct sw_step_energy {
   double damping, friction, impact; /* lost [J] */
   double gain;    /* gain beyond the upper bound of outer work; below 0: a loss [J] */
   double work;    /* sum of the sizes of all work [J] */
+  double dead;    /* part of it by forces with a potential: exact [J] */
   double let_out; /* most energy given by letting wires out of obstacles in which they began [J] */
   int steady;     /* 1: no touch began or ended */
   int touching;   /* 1: something touches */

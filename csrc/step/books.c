@@ -25,7 +25,9 @@ static const double REMARK = 0.02, FAILURE = 0.05;
 /* Energy that appeared outside steps, over the energy in play: above this an event [-]. */
 static const double UNKNOWN = 0.05;
 
-/* Work below this share of an excess of losses cannot explain it [-]. */
+/* Work below this share of an excess of losses cannot explain it; nor can work that is known
+ * exactly
+ * [-]. */
 static const double LITTLE_WORK = 0.01;
 
 /* A held point further than this from its hold was moved by the script; less is rounding [m]. */
@@ -155,7 +157,7 @@ static double booked_too_high(const sw_books *b, sw_step_energy *step, double ex
   const double before = b->powers.damping, after = step->powers.damping;
   const double mean = sw_ledger_over_step(before, after, 1.0);
   const double least = mean > 0 ? step->damping * fmin(1.0, fmin(before, after) / mean) : 0.0;
-  const double rest = step->work > LITTLE_WORK * excess ? 0.0 : 1.0;
+  const double rest = step->work - step->dead > LITTLE_WORK * excess ? 0.0 : 1.0;
   double left = fmax(0.0, excess);
   const double touching = step->touching ? 1.0 : 0.0;
   struct {

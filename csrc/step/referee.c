@@ -64,6 +64,7 @@ static void judge_outer_forces(sw_books *b, double h, double *most) {
   sw_step_energy *step = &b->step;
   const double before = b->powers.given;
   const double dead = b->now.loads - step->to.loads;
+  step->dead = fabs(dead);
   step->forces = dead + sw_ledger_over_step(before, step->powers.given, h);
   *most += dead + h * fmax(before, step->powers.given);
   step->damping = sw_ledger_over_step(b->powers.damping, step->powers.damping, h);
