@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A cable laid across another one, above a table, comes to rest on the crossing and one of its ends. Its yaw
--- about the crossing is nearly neutral: pseudo-transient steps a million times the first one carried it to and
--- fro by micrometres, and 6 of 108 such settles ended "not at rest" after 4000 iterations, 12 more took 400 or
--- more. Rest is checked by motion: nothing may move in 0.4 s.
+-- A cable laid across another one, above a table, comes to rest on the crossing and one of its ends. Its
+-- yaw about the crossing is nearly neutral: pseudo-transient steps a million times the first one carried it
+-- to and fro by micrometres. 6 of 108 such settles ended "not at rest" after 4000 iterations, 12 more took
+-- 400 or more. Rest is checked by motion: nothing may move in 0.4 s.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
