@@ -5,7 +5,9 @@ local program = require "host.program"
 -- Shells start background jobs with SIGINT ignored; env undoes that.
 local NORMAL = "env --default-signal=INT"
 local ONCE = { before = NORMAL, signals = { 0.4 } }
-local TWICE = { before = NORMAL, signals = { 0.4, 1.2 } } -- two within 1 s would end the program
+local SLOW = os.getenv "SOFTWORLD_PRELOAD" and 6 or 1 -- sanitizers are slow [-]
+-- two within 1 s would end the program
+local TWICE = { before = NORMAL, signals = { 0.4 * SLOW, 1.2 * SLOW } }
 
 local SCENE = [[
 local sw = require "softworld"

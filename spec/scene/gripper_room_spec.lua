@@ -3,6 +3,7 @@
 -- them, closed with up to 4800 times its weight, and the run was fine without an event; a mixed grasp there
 -- took minutes, or found no solution.
 package.path = "./?.lua;" .. package.path
+local core = require "softworld.core"
 local sw = require "softworld"
 local t = require "spec.physics.tools"
 local vec = require "softworld.vec"
@@ -65,6 +66,26 @@ describe("a grasp with pads that are turned", function()
       local expected = radius + A - (A + o.opening / 2) / (1 + math.tan(angle))
       t.near(1e3 * expected, tonumber(why:match("is (%S+) mm deep")), 1e3 * radius / 4, "depth")
     end
+  end)
+
+  -- Fingers of a refused grasp stayed in the scene, inside the wire, and pads that were there had moved.
+  it("leaves the scene as it was where it is refused", function()
+    local scene = sw.scene{}
+    local wire = scene:wire{ E = 2e7, density = 1400, radius = 0.003, from = { 0, 0, 0.1 },
+      to = { 0.3, 0, 0.1 }, segments = 15 }
+    local hand = scene:gripper{ name = "hand", rotation = { axis = { x = 0, y = 0, z = 1 }, angle = 0.5 } }
+    local before = core.items(scene)
+    for _ = 1, 2 do
+      assert.has_error(function() hand:grasp(wire, { s = 0.1, approach = "plates", distance = 0.1 }) end)
+      assert.same(before, core.items(scene))
+    end
+
+    local other = scene:gripper{ name = "other", at = { 0.1, 0.2, 0.3 }, pads = { opening = 0.012 },
+      rotation = { axis = { 0, 0, 1 }, angle = 0.5 } }
+    other:open_jaws()
+    local at, q = scene:find("other.finger1"):pose()
+    assert.has_error(function() other:grasp(wire, { s = 0.1, approach = "plates", distance = 0.1 }) end)
+    assert.same({ at, q }, { scene:find("other.finger1"):pose() })
   end)
 
   it("is refused for other pads that stand in the wire", function()

@@ -12,7 +12,6 @@ local counted = require "softworld.output.number".count
 local process = require "softworld.run.process"
 local reactions = require "softworld.grip.reactions"
 local remarks = require "softworld.remarks"
-local room = require "softworld.grip.room"
 local rows = require "softworld.rows"
 local stand = require "softworld.grip.stand"
 local untwisted = require "softworld.grip.untwisted"
@@ -134,10 +133,9 @@ local function grasp_by_pads(self, wires, args)
   local nearest = s or stand.nearest_place(wire, self.tool and self.tool:pose() or self:position())
   local is_mesh = wire.model ~= "rod" and wire.model ~= "string" -- its section is not quite round
   if is_mesh then wire:width(nearest, { 0, 1, 0 }) end -- raises if it is a line there: before pads are made
-  stand.place_tool(self, wire, s, 4)
+  stand.place_tool(self, wire, s, wires, 4)
   self.wire, self.grips, self.s = wire, {}, nearest
   for i, one in ipairs(wires) do self.grips[i] = { wire = one } end
-  room.check(self)
   self.free_height = nil
   if self.way == "mixed" then
     mixed.prepare(self, args)

@@ -51,6 +51,7 @@ end
 
 pads.kinds = makers
 
+local USUAL_RADIUS = 0.005 -- of wires, for fingers that are made without one [m]
 local MOST = 1e3 -- longest size; the core makes no longer obstacles [m]
 
 --- Parameters of pads.
@@ -108,18 +109,15 @@ function pads.check(args, what)
   return p
 end
 
--- Adds a capsule that goes up from the fingers.
-local function add_arm(scene, tool, name, arm, at, q, base)
+-- Returns a capsule that goes up from the fingers: an obstacle's description.
+local function arm_part(name, arm, at, q, base)
   local middle = { 0, 0, base + arm.radius + arm.length / 2 }
-  local obstacle = scene:obstacle{ name = checks.part_name(name, ".arm"), shape = "capsule",
-    radius = arm.radius, length = arm.length, at = vec.add(at, vec.rotate(q, middle)), rotation = q,
-    friction = 0.3 }
-  tool:pad(obstacle, 0, { 0, 0, 0 })
-  return obstacle
+  return { name = checks.part_name(name, ".arm"), shape = "capsule", radius = arm.radius,
+    length = arm.length, at = vec.add(at, vec.rotate(q, middle)), rotation = q, friction = 0.3 }
 end
 
--- Adds the parts of a finger to the obstacles of the tool.
-local function add_finger(scene, tool, name, p, given, finger, at, q, opening, obstacles)
+-- Adds the parts of a finger to a list: obstacles' descriptions, how far each moves per opening, its finger.
+local function add_finger(list, name, p, given, finger, at, q, opening)
   local around = turn(X, 2 * math.pi * (finger - 1) / p.fingers)
   local opens = vec.rotate(around, { 0, 0.5, 0 })
   local mirrored = p.fingers == 2 and finger == 2 and p.shape ~= "mesh"
@@ -134,35 +132,91 @@ local function add_finger(scene, tool, name, p, given, finger, at, q, opening, o
     part.friction, part.kinetic_friction = of_finger(p.friction), of_finger(p.kinetic_friction)
     part.restitution = p.restitution
     part.name = checks.part_name(name, (".finger%d%s"):format(finger, number > 1 and "." .. number or ""))
-    local obstacle = scene:obstacle(part)
-    tool:pad(obstacle, finger, opens)
-    obstacles[#obstacles + 1] = obstacle
+    list[#list + 1] = { part = part, finger = finger, opens = opens }
   end
+end
+
+local function check_width(gripper)
+  local p = gripper.pads
+  if (p.shape == "flat" or p.shape == "v") and p.width <= 0 then
+    error(("gripper '%s': pads.width = %g m is that of an imposed grip; fingers need a width above 0 m")
+      :format(gripper.name, p.width), 0)
+  end
+end
+
+-- Returns the distance of the faces while open [m].
+local function opening_of(gripper, radius) return gripper.pads.opening or 4 * (radius or USUAL_RADIUS) end
+
+-- Returns what open pads at a pose are made of: a list of { part, finger, opens }, the opening, and from
+-- where to where along the tool's z the fingers reach (nil: they are a mesh) [m].
+local function draft(gripper, at, q, radius)
+  local name, p = gripper.name, gripper.pads
+  local opening = opening_of(gripper, radius)
+  radius = radius or USUAL_RADIUS
+  local height = p.height or (p.shape == "v" and 2 * radius or 0.02)
+  local given = { width = p.width, height = height, thickness = p.thickness, radius = p.radius,
+    angle = p.angle, file = p.file, scale = p.scale,
+    below = p.below or math.min(height / 2, 0.9 * radius) }
+  local list = {}
+  for finger = 1, p.fingers do add_finger(list, name, p, given, finger, at, q, opening) end
+  if gripper.arm then
+    list[#list + 1] = { part = arm_part(name, gripper.arm, at, q, height - given.below), finger = 0,
+      opens = { 0, 0, 0 } }
+  end
+  return list, opening, p.shape ~= "mesh" and { -given.below, height - given.below } or nil
+end
+
+-- Returns the components of a list, which may have names instead of numbers.
+local function components(list, names)
+  local out = {}
+  for i, name in ipairs(names) do out[i] = list[i] or list[name] end
+  return out
+end
+
+-- Returns a rotation as a unit quaternion.
+local function quaternion(rotation)
+  if not rotation then return { 1, 0, 0, 0 } end
+  if rotation.axis then
+    return turn(vec.unit(components(rotation.axis, { "x", "y", "z" })), rotation.angle)
+  end
+  local q, square = components(rotation, { "w", "x", "y", "z" }), 0
+  for i = 1, 4 do square = square + q[i] ^ 2 end
+  for i = 1, 4 do q[i] = q[i] / square ^ 0.5 end
+  return q
+end
+
+local not_of_shape = { at = true, rotation = true, friction = true, kinetic_friction = true,
+  restitution = true, name = true }
+
+--- Returns the solids of open pads at a pose, without making them: a list of { name, shape, at, q }, the
+-- opening [m], and the rotation as a quaternion.
+function pads.solids(gripper, at, rotation, radius)
+  check_width(gripper)
+  local q, solids = quaternion(rotation), {}
+  local list, opening = draft(gripper, at, q, radius)
+  for i, entry in ipairs(list) do
+    local sizes = {}
+    for key, value in pairs(entry.part) do
+      if not not_of_shape[key] then sizes[key] = value end
+    end
+    solids[i] = { name = entry.part.name, shape = core.shape(sizes), at = entry.part.at,
+      q = entry.part.rotation }
+  end
+  return solids, opening, q
 end
 
 --- Makes a gripper's tool and fingers in the scene, open, at a pose. Returns the tool, its obstacles, the
 -- opening, and from where to where along the tool's z its fingers reach (nil: they are a mesh) [m].
 function pads.make(scene, gripper, at, rotation, radius)
-  local name, p = gripper.name, gripper.pads
-  if (p.shape == "flat" or p.shape == "v") and p.width <= 0 then
-    error(("gripper '%s': pads.width = %g m is that of an imposed grip; fingers need a width above 0 m")
-      :format(name, p.width), 0)
-  end
-  radius = radius or 0.005
-  local opening = p.opening or 4 * radius
-  local height = p.height or (p.shape == "v" and 2 * radius or 0.02)
-  local given = { width = p.width, height = height, thickness = p.thickness, radius = p.radius,
-    angle = p.angle, file = p.file, scale = p.scale,
-    below = p.below or math.min(height / 2, 0.9 * radius) }
-  local tool = scene:tool{ name = name, at = at, rotation = rotation, opening = opening }
+  check_width(gripper)
+  local tool = scene:tool{ name = gripper.name, at = at, rotation = rotation,
+    opening = opening_of(gripper, radius) }
   local obstacles, _, q = {}, tool:pose()
-  for finger = 1, p.fingers do
-    add_finger(scene, tool, name, p, given, finger, at, q, opening, obstacles)
+  local list, opening, span = draft(gripper, at, q, radius)
+  for i, entry in ipairs(list) do
+    obstacles[i] = scene:obstacle(entry.part)
+    tool:pad(obstacles[i], entry.finger, entry.opens)
   end
-  if gripper.arm then
-    obstacles[#obstacles + 1] = add_arm(scene, tool, name, gripper.arm, at, q, height - given.below)
-  end
-  local span = p.shape ~= "mesh" and { -given.below, height - given.below } or nil
   return tool, obstacles, opening, span
 end
 

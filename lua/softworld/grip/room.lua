@@ -9,11 +9,11 @@ local room = {}
 local MOST, SHARE = 1e-4, 0.1 -- a wire may be this deep in a pad that it leans on: [m], of its radius [-]
 local APART = 0.5 -- distance of places that are looked at, over the wire's radius [-]
 
--- Returns the deepest place of a wire in an obstacle: depth [m], arc length [m]; 0 if it is nowhere inside.
-local function deepest(wire, obstacle)
-  local at, q = obstacle:pose()
-  local back = vec.conjugate(q)
-  local low, high = obstacle.shape:bounds()
+-- Returns the deepest place of a wire in a solid { shape, at, q }: depth [m], arc length [m]; 0 if it is
+-- nowhere inside.
+local function deepest(wire, solid)
+  local at, back = solid.at, vec.conjugate(solid.q)
+  local low, high = solid.shape:bounds()
   local reach = vec.norm(vec.sub(high, low)) + wire.radius
   local x, s = wire:positions()
   local depth, place = 0, nil
@@ -25,7 +25,7 @@ local function deepest(wire, obstacle)
       local count = math.ceil(long / (APART * wire.radius))
       for k = 0, count do
         local share = count > 0 and k / count or 0
-        local gap = obstacle.shape:distance(vec.add(a, vec.sub(b, a), share))
+        local gap = solid.shape:distance(vec.add(a, vec.sub(b, a), share))
         if wire.radius - gap > depth then
           depth, place = wire.radius - gap, s[i] + share * (s[i + 1] - s[i])
         end
@@ -35,19 +35,28 @@ local function deepest(wire, obstacle)
   return depth, place
 end
 
---- Raises an error without a place if one of the gripper's wires is inside one of its open fingers.
-function room.check(self)
-  local _, q = self.tool:pose()
-  for _, grip in ipairs(self.grips) do
-    local wire = grip.wire
-    for _, finger in ipairs(self.obstacles) do
+--- Returns obstacles as solids: a list of { name, shape, at, q }.
+function room.solids(obstacles)
+  local list = {}
+  for i, obstacle in ipairs(obstacles) do
+    local at, q = obstacle:pose()
+    list[i] = { name = obstacle.name, shape = obstacle.shape, at = at, q = q }
+  end
+  return list
+end
+
+--- Raises an error without a place if one of the wires is inside one of the open fingers, given as solids.
+-- q: rotation of the tool.
+function room.check(self, wires, solids, opening, q)
+  for _, wire in ipairs(wires) do
+    for _, finger in ipairs(solids) do
       local depth, s = deepest(wire, finger)
       if depth > math.max(MOST, SHARE * wire.radius) then
         local along = math.abs(vec.dot(vec.unit(wire:tangent(s)), vec.rotate(q, { 1, 0, 0 })))
         error(("gripper '%s': its jaws are %.3g mm open, and wire '%s' is %.3g mm deep inside '%s' at s = "
           .. "%.4g m; there the wire runs at %.3g degrees to the pads' x axis. Turn the pads (rotation), "
           .. "give s instead of a place (at), open them (pads.opening) or take narrower ones (pads.width)")
-          :format(self.name, 1e3 * self.tool:state().opening, wire.name, 1e3 * depth, finger.name, s,
+          :format(self.name, 1e3 * opening, wire.name, 1e3 * depth, finger.name, s,
           math.deg(math.acos(math.min(1, along)))), 0)
       end
     end

@@ -5,6 +5,7 @@ local build = require "softworld.scene.build"
 local number = require "softworld.output.number"
 local pads = require "softworld.grip.pads"
 local remarks = require "softworld.remarks"
+local room = require "softworld.grip.room"
 local told = require "softworld.run.told"
 local vec = require "softworld.vec"
 
@@ -51,10 +52,15 @@ local function facing(scene, wire, s)
   return vec.facing(vec.unit(wire:tangent(s)), up)
 end
 
+-- Returns where pads are made: at the gripper's place, or around the wire at s.
+local function place_of(self, wire, s)
+  return s and wire:position(s) or self.at or { 0, 0, 0 },
+    self.rotation or (s and facing(self.scene, wire, s)) or nil
+end
+
 --- Makes the gripper's pads at its place (at, rotation) or around the wire at s.
 function stand.make_tool(self, level, wire, s)
-  local at = s and wire:position(s) or self.at or { 0, 0, 0 }
-  local rotation = self.rotation or (s and facing(self.scene, wire, s)) or nil
+  local at, rotation = place_of(self, wire, s)
   build.call(level, function()
     self.tool, self.obstacles, self.opening, self.span = remarks.without(pads.make, self.scene, self, at,
       rotation, wire and wire.radius)
@@ -102,8 +108,30 @@ function stand.make_carrier(self)
   return self.carrier
 end
 
---- Puts the open pads at the wire's arc length s. Pads that move stay on their way.
-function stand.place_tool(self, wire, s, level)
+-- Makes the pads, unless they would stand in one of the wires.
+local function make_beside(self, wire, s, wires, level)
+  local at, rotation = place_of(self, wire, s)
+  build.call(level, function()
+    room.check(self, wires, pads.solids(self, at, rotation, wire.radius))
+  end)
+  stand.make_tool(self, level + 1, wire, s)
+end
+
+-- Puts the pads at the wire's arc length s, unless they would stand in one of the wires there.
+local function put_beside(self, wire, s, wires)
+  local at, q = self.tool:pose()
+  if s then self.tool:pose(wire:position(s), self.rotation or facing(self.scene, wire, s)) end
+  local _, now = self.tool:pose()
+  local fine, why = pcall(room.check, self, wires, room.solids(self.obstacles), self.tool:state().opening,
+    now)
+  if fine then return end
+  if s then self.tool:pose(at, q) end
+  error(why, 0)
+end
+
+--- Puts the open pads at the wire's arc length s. Pads that move stay on their way. Raises an error, and
+-- leaves the pads as they were, if they would stand in one of the wires.
+function stand.place_tool(self, wire, s, wires, level)
   if not self.tool and self.carrier then
     if stand.is_moving(self) then
       error(("gripper '%s' is moving until t = %g s without pads; grasp by pads after that"):format(self.name,
@@ -114,12 +142,10 @@ function stand.place_tool(self, wire, s, level)
   if s and not stand.is_moving(self) then
     stand.tell_far(self, wire, s, self.tool and self.tool:pose() or self.at, stand.JUMPS)
   end
-  if not self.tool then return stand.make_tool(self, level + 1, wire, s) end
-  if s and stand.is_moving(self) then
-    stand.tell_distance(self, wire, s, 0.5 * self.width)
-  elseif s then
-    self.tool:pose(wire:position(s), self.rotation or facing(self.scene, wire, s))
-  end
+  if not self.tool then return make_beside(self, wire, s, wires, level + 1) end
+  local moves = s and stand.is_moving(self)
+  if moves then stand.tell_distance(self, wire, s, 0.5 * self.width) end
+  put_beside(self, wire, not moves and s or nil, wires)
 end
 
 return stand
