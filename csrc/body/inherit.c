@@ -7,6 +7,7 @@
 #include "body/build.h"
 #include "body/touching.h"
 #include "contact/resample.h"
+#include "link/hold.h"
 #include "scene/lists.h"
 #include "scene/parts.h"
 #include "scene/wire.h"
@@ -34,6 +35,37 @@ static sw_status inherit_obstacles(sw_scene *s, const size_t *new_node, const si
                              k->s + first, k->first[w + 1] - first);
 }
 
+/* 1 if wire w of the contact memory is a line that has got other nodes. Feeding makes nodes in its
+ * hold, and none of those that touch something are others. */
+static int is_changed(const sw_scene *s, size_t w, const size_t *new_node) {
+  const sw_kept_contact *k = sw_scene_kept(s);
+  if (k->now[w] == SIZE_MAX) return 0;
+  const sw_body *b = &sw_scene_system(s)->bodies[k->now[w]];
+  if (b->plan->web) return 0;
+  SW_EACH(hold, h, s)
+    if (h->alive && h->wire == k->now[w] && sw_hold_passes(h)) return 0;
+  int changed = b->plan->nodes != k->first[w + 1] - k->first[w];
+  for (size_t i = k->first[w]; i < k->first[w + 1] && !changed; i++)
+    changed = new_node[i] == SIZE_MAX;
+  return changed;
+}
+
+/* Lines that have got other edges: their touches with obstacles go on as they were. */
+static sw_status keep_touches(sw_scene *s, const size_t *new_node) {
+  const sw_kept_contact *k = sw_scene_kept(s);
+  const sw_system *system = sw_scene_system(s);
+  sw_contact *c = sw_scene_contact(s);
+  for (size_t w = 0; w < k->wires; w++) {
+    if (!is_changed(s, w, new_node)) continue;
+    const size_t now = k->now[w], first = k->first[w];
+    const sw_body *b = &system->bodies[now];
+    SW_TRY(sw_contact_resample_rows(c, system, now, k->memory, k->bytes, first, k->s + first,
+                                    k->first[w + 1] - first));
+    sw_contact_keep_depth(c, b->first_node, b->first_node + b->plan->nodes);
+  }
+  return SW_OK;
+}
+
 sw_status sw_scene_inherit_contact(sw_scene *s) {
   const sw_kept_contact *k = sw_scene_kept(s);
   sw_mutual *pairs = sw_scene_pairs(s), *grains = sw_scene_grains(s);
@@ -43,7 +75,10 @@ sw_status sw_scene_inherit_contact(sw_scene *s) {
   if (!new_node) return SW_ENOMEM;
   size_t *new_edge = new_node + old_nodes;
   for (size_t w = 0; w < k->wires; w++) find_again(s, w, new_node, new_edge);
-  if (sw_scene_contact(s)) SW_TRY(inherit_obstacles(s, new_node, new_edge));
+  if (sw_scene_contact(s)) {
+    SW_TRY(inherit_obstacles(s, new_node, new_edge));
+    SW_TRY(keep_touches(s, new_node));
+  }
   if (pairs) SW_TRY(sw_mutual_inherit(pairs, k->pairs, k->pair_bytes, new_node, k->now));
   if (!grains) return SW_OK;
   return sw_mutual_inherit(grains, k->grains, k->grain_bytes, new_node, k->now);

@@ -126,7 +126,9 @@ static double imposed(const sw_contact *c, const sw_system *s, const sw_candidat
 
 void sw_contact_forgive(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                         const sw_kept *last, const double *y, sw_touch *t) {
-  if (c->regime == SW_CONTACT_EXPLICIT || t->press.gap >= 0) return; /* force follows depth */
+  const int pressed = last && (last->left < 0 || last->left == HUGE_VAL); /* though outside */
+  if (c->regime == SW_CONTACT_EXPLICIT) return;                           /* force follows depth */
+  if (t->press.gap >= 0 && !pressed) return;
   const double always = imposed(c, s, k, t, y);
   const double depth = sw_contact_depth_before(c, s, t) - always;
   t->forgiven = always;
@@ -150,5 +152,8 @@ int sw_contact_is_squeezed(const sw_contact *c, const sw_system *s, const sw_can
   if (!last || !(k->squeezing > 0)) return 0;
   const int moves = c->regime == SW_CONTACT_IMPLICIT && !c->fresh;
   const double from = moves ? IN_MOTION * k->squeezing : k->squeezing;
-  return last->normal_force >= from || last->left > 0 || last->depth > sw_contact_deepest(c, s, t);
+  const int edited = last->left == HUGE_VAL && c->regime == SW_CONTACT_IMPLICIT;
+  const int kept = last->left != 0 && last->left < HUGE_VAL;
+  if (last->normal_force >= from || kept || edited) return 1;
+  return last->depth > sw_contact_deepest(c, s, t);
 }

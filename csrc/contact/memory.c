@@ -53,6 +53,7 @@ static sw_status remember(sw_contact *c, const sw_system *s, const sw_touch *t, 
       .point = t->local,
       .seen = t->seen};
   m->kept.steady = steady_force(c, s, t), m->kept.left = t->left;
+  m->kept.edited = t->edited;
   if (t->squeezed && c->regime == SW_CONTACT_IMPLICIT && !sw_contact_is_pinched(c, t))
     sw_kept_harden(&m->kept, sw_contact_edge_stiffness(s, t->body, t->node), deepest);
   if (holds) sw_kept_hold_slide(&m->kept, &t->press, t->known);
@@ -190,6 +191,14 @@ static int in_order(const void *a, const void *b) {
 
 void sw_contact_sort_memory(sw_contact *c) {
   if (c->memory_count) qsort(c->memory, c->memory_count, sizeof *c->memory, in_order);
+}
+
+void sw_contact_keep_depth(sw_contact *c, size_t first, size_t end) {
+  for (size_t i = 0; i < c->memory_count; i++) {
+    sw_memory *m = &c->memory[i];
+    if (m->node >= first && m->node < end && m->kept.normal_force > 0)
+      m->kept.left = HUGE_VAL, m->kept.edited = 1;
+  }
 }
 
 sw_status sw_contact_add_memory(sw_contact *c, const void *memory, size_t bytes, size_t old_first,

@@ -13,5 +13,11 @@
 sw_status sw_contact_resample(sw_contact *contact, const sw_system *system, size_t body,
                               const void *memory, size_t bytes, size_t first, const double *s,
                               size_t nodes);
+/* The same for other obstacles: nodes and segments that have no memory get that of the touches that
+ * were there, with the force per length, as if the wire were still on them. A touch that is alone
+ * keeps its force. Other arguments as above. SW_ENOMEM. */
+sw_status sw_contact_resample_rows(sw_contact *contact, const sw_system *system, size_t body,
+                                   const void *memory, size_t bytes, size_t first, const double *s,
+                                   size_t nodes);
 
 #endif
