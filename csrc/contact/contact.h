@@ -246,8 +246,5 @@ sw_status sw_contact_add_memory(sw_contact *contact, const void *memory, size_t 
  * SIZE_MAX if it is gone; new_edge: the same for segments, by their first node. SW_ENOMEM. */
 sw_status sw_contact_inherit(sw_contact *contact, const void *memory, size_t bytes, int fresh,
                              const size_t *new_node, const size_t *new_edge);
-/* The line from node `first` to `end` has got other edges. Its pressing touches keep the depth at
- * which they are now, at their force: it is due to the edges, and to let it out would be work. */
-void sw_contact_keep_depth(sw_contact *contact, size_t first, size_t end);
 
 #endif

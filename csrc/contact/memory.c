@@ -193,14 +193,6 @@ void sw_contact_sort_memory(sw_contact *c) {
   if (c->memory_count) qsort(c->memory, c->memory_count, sizeof *c->memory, in_order);
 }
 
-void sw_contact_keep_depth(sw_contact *c, size_t first, size_t end) {
-  for (size_t i = 0; i < c->memory_count; i++) {
-    sw_memory *m = &c->memory[i];
-    if (m->node >= first && m->node < end && m->kept.normal_force > 0)
-      m->kept.left = HUGE_VAL, m->kept.edited = 1;
-  }
-}
-
 sw_status sw_contact_add_memory(sw_contact *c, const void *memory, size_t bytes, size_t old_first,
                                 size_t old_end, size_t new_first, const size_t *obstacles,
                                 size_t count) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Memory of pads on a line that has got other edges. A sample's memory is that of the nearest
+/* Memory of touches on a line that has got other edges. A sample's memory is that of the nearest
  * former sample, at its own place. */
 #include "contact/resample.h"
 
@@ -226,4 +226,12 @@ sw_status sw_contact_resample(sw_contact *c, const sw_system *system, size_t bod
   sw_free(l.sample);
   sw_contact_sort_memory(c);
   return status;
+}
+
+void sw_contact_keep_depth(sw_contact *c, size_t first, size_t end) {
+  for (size_t i = 0; i < c->memory_count; i++) {
+    sw_memory *m = &c->memory[i];
+    if (m->node >= first && m->node < end && m->kept.normal_force > 0)
+      m->kept.left = HUGE_VAL, m->kept.edited = 1;
+  }
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Memory of pads on a line that has got other edges. */
+/* Memory of touches on a line that has got other edges. */
 #ifndef SW_CONTACT_RESAMPLE_H
 #define SW_CONTACT_RESAMPLE_H
 
@@ -19,5 +19,8 @@ sw_status sw_contact_resample(sw_contact *contact, const sw_system *system, size
 sw_status sw_contact_resample_rows(sw_contact *contact, const sw_system *system, size_t body,
                                    const void *memory, size_t bytes, size_t first, const double *s,
                                    size_t nodes);
+/* The line from node `first` to `end` has got other edges. Its pressing touches keep the depth at
+ * which they are now, at their force: it is due to the edges, and to let it out would be work. */
+void sw_contact_keep_depth(sw_contact *contact, size_t first, size_t end);
 
 #endif

@@ -1,9 +1,9 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A cable hangs over a peg, clamped at one end and pulled at the other, and gets other edges: by a clamp or a
--- pin made on it between nodes, or by a remodel. Nothing moves then, so the peg bears what it bore, and the new
--- hold nothing. The new chords are up to 0.08 mm deeper in the peg, or 0.01 mm outside; that is due to the edges.
--- With the fault it was pushed out: the peg bore 14 to 18 N instead of 6, 16 instead of 8, and the steps made
--- energy from nowhere.
+-- A cable hangs over a peg, clamped at one end and pulled at the other, and gets other edges: by a clamp or
+-- a pin made on it between nodes, or by a remodel. Nothing moves then, so the peg bears what it bore, and the
+-- new hold nothing. The new chords are up to 0.08 mm deeper in the peg, or 0.01 mm outside; that is due to
+-- the edges. With the fault they were pushed out: the peg bore 14 to 18 N instead of 6, 16 instead of 8, and
+-- the steps made energy from nowhere.
 local sw = require "softworld"
 local t = require "spec.physics.tools"
 
