@@ -83,3 +83,18 @@ sw_status sw_scene_inherit_contact(sw_scene *s) {
   if (!grains) return SW_OK;
   return sw_mutual_inherit(grains, k->grains, k->grain_bytes, new_node, k->now);
 }
+
+int sw_scene_was_pressed(const sw_scene *s, size_t obstacle) {
+  const sw_kept_contact *k = sw_scene_kept(s);
+  const sw_contact *c = sw_scene_contact(s);
+  if (c) {
+    size_t bytes;
+    const void *memory = sw_contact_memory(c, &bytes);
+    return sw_contact_memory_presses(memory, bytes, (int)obstacle, 0, SIZE_MAX);
+  }
+  for (size_t w = 0; k->memory && w < k->wires; w++)
+    if (k->now[w] != SIZE_MAX &&
+        sw_contact_memory_presses(k->memory, k->bytes, (int)obstacle, k->first[w], k->first[w + 1]))
+      return 1;
+  return 0;
+}

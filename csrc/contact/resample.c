@@ -235,3 +235,11 @@ void sw_contact_keep_depth(sw_contact *c, size_t first, size_t end) {
       m->kept.left = HUGE_VAL, m->kept.edited = 1;
   }
 }
+
+int sw_contact_memory_presses(const void *memory, size_t bytes, int id, size_t first, size_t end) {
+  const sw_memory *m = memory;
+  for (size_t i = 0; i < bytes / sizeof *m; i++)
+    if (m[i].obstacle == id && m[i].node >= first && m[i].node < end && m[i].kept.normal_force > 0)
+      return 1;
+  return 0;
+}

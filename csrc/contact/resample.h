@@ -22,5 +22,7 @@ sw_status sw_contact_resample_rows(sw_contact *contact, const sw_system *system,
 /* The line from node `first` to `end` has got other edges. Its pressing touches keep the depth at
  * which they are now, at their force: it is due to the edges, and to let it out would be work. */
 void sw_contact_keep_depth(sw_contact *contact, size_t first, size_t end);
+/* 1 if the memory has a force of nodes from `first` to `end` (exclusive) on an obstacle. */
+int sw_contact_memory_presses(const void *memory, size_t bytes, int id, size_t first, size_t end);
 
 #endif

@@ -139,41 +139,43 @@ sw_status sw_scene_tool_watch(sw_scene *s, sw_handle tool, double tolerance, int
 
 /* --- held wires ------------------------------------------------------------------- */
 
-/* The force that pad k feels, and its moment about a point. Since the scene was changed nothing has
- * been stepped, and there are no touches yet: then that at the end of the last step. */
-static void on_pad(const sw_scene *s, const sw_tool *t, size_t k, sw_vec about, sw_vec *force,
-                   sw_vec *moment) {
-  const sw_contact *contact = sw_scene_contact(s);
-  const sw_scene_obstacle *o = sw_scene_obstacle_in(s, t->pad[k].obstacle);
-  sw_motion_state at;
-  sw_error ignored; /* no error: the last step has evaluated this drive */
-  *force = *moment = sw_v(0, 0, 0);
-  if (contact && sw_contact_touches(contact) > 0) {
-    sw_contact_force(contact, (int)t->pad[k].obstacle, about, force, moment);
-    return;
-  }
-  if (o->off || sw_drive_eval((sw_scene *)s, &o->drive, sw_scene_time(s), &at, &ignored) != SW_OK)
-    return;
-  *force = o->past.end.force;
-  *moment = sw_add(o->past.end.moment, sw_cross(sw_sub(at.pivot, about), *force));
-}
-
 double sw_tool_squeeze(sw_scene *s, const sw_tool *t, double time) {
+  sw_contact *contact = sw_scene_contact(s);
   double sum = 0;
   sw_motion_state at;
   sw_error ignored; /* no error: the trial has evaluated this drive */
-  if (!sw_scene_contact(s) || !t->fingers ||
-      sw_drive_eval(s, &t->drive, time, &at, &ignored) != SW_OK)
+  if (!contact || !t->fingers || sw_drive_eval(s, &t->drive, time, &at, &ignored) != SW_OK)
     return 0;
   for (size_t k = 0; k < t->pads; k++) {
     const sw_drive *d = &sw_scene_obstacle_in(s, t->pad[k].obstacle)->drive;
     sw_vec force, moment;
-    on_pad(s, t, k, sw_v(0, 0, 0), &force, &moment);
+    sw_contact_force(contact, (int)t->pad[k].obstacle, sw_v(0, 0, 0), &force, &moment);
     sum += t->pad[k].finger < 0
                ? 0.0
                : sw_dot(sw_unrotate(at.pose.q, force), sw_unit_or(d->opens, sw_v(0, 0, 0)));
   }
   return sum / t->fingers;
+}
+
+/* The force that pad k feels, and its moment about a point. Where the scene was changed and nothing
+ * has been stepped since, there are no touches: then that at the end of the last step. */
+static void on_pad(const sw_scene *s, const sw_tool *t, size_t k, sw_vec about, sw_vec *force,
+                   sw_vec *moment) {
+  const sw_contact *contact = sw_scene_contact(s);
+  const size_t slot = t->pad[k].obstacle;
+  const sw_scene_obstacle *o = sw_scene_obstacle_in(s, slot);
+  sw_motion_state at;
+  sw_error ignored; /* no error: the last step has evaluated this drive */
+  *force = *moment = sw_v(0, 0, 0);
+  if (contact && sw_contact_touches(contact) > 0) {
+    sw_contact_force(contact, (int)slot, about, force, moment);
+    return;
+  }
+  if (o->off || !sw_scene_was_pressed(s, slot) ||
+      sw_drive_eval((sw_scene *)s, &o->drive, sw_scene_time(s), &at, &ignored) != SW_OK)
+    return;
+  *force = o->past.end.force;
+  *moment = sw_add(o->past.end.moment, sw_cross(sw_sub(at.pivot, about), *force));
 }
 
 /* Adds the force of the pads (of one finger, or -1: of all) on wires, and its moment about a
