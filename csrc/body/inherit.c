@@ -24,17 +24,6 @@ static void find_again(const sw_scene *s, size_t w, size_t *new_node, size_t *ne
                    new_edge + first);
 }
 
-static sw_status inherit_obstacles(sw_scene *s, const size_t *new_node, const size_t *new_edge) {
-  const sw_kept_contact *k = sw_scene_kept(s);
-  sw_contact *contact = sw_scene_contact(s);
-  SW_TRY(sw_contact_inherit(contact, k->memory, k->bytes, k->fresh, new_node, new_edge));
-  const size_t w = k->changed - 1;
-  if (!k->changed || w >= k->wires || k->now[w] == SIZE_MAX) return SW_OK;
-  const size_t first = k->first[w];
-  return sw_contact_resample(contact, sw_scene_system(s), k->now[w], k->memory, k->bytes, first,
-                             k->s + first, k->first[w + 1] - first);
-}
-
 /* 1 if wire w of the contact memory is a line that has got other nodes. Feeding makes nodes in its
  * hold, and none of those that touch something are others. */
 static int is_changed(const sw_scene *s, size_t w, const size_t *new_node) {
@@ -42,6 +31,7 @@ static int is_changed(const sw_scene *s, size_t w, const size_t *new_node) {
   if (k->now[w] == SIZE_MAX) return 0;
   const sw_body *b = &sw_scene_system(s)->bodies[k->now[w]];
   if (b->plan->web) return 0;
+  if (k->changed == w + 1) return 1;
   SW_EACH(hold, h, s)
     if (h->alive && h->wire == k->now[w] && sw_hold_passes(h)) return 0;
   int changed = b->plan->nodes != k->first[w + 1] - k->first[w];
@@ -57,10 +47,15 @@ static sw_status keep_touches(sw_scene *s, const size_t *new_node) {
   sw_contact *c = sw_scene_contact(s);
   for (size_t w = 0; w < k->wires; w++) {
     if (!is_changed(s, w, new_node)) continue;
-    const size_t now = k->now[w], first = k->first[w];
-    const sw_body *b = &system->bodies[now];
-    SW_TRY(sw_contact_resample_rows(c, system, now, k->memory, k->bytes, first, k->s + first,
-                                    k->first[w + 1] - first));
+    const sw_body *b = &system->bodies[k->now[w]];
+    const size_t first = k->first[w];
+    const sw_former former = {.memory = k->memory,
+                              .bytes = k->bytes,
+                              .first = first,
+                              .nodes = k->first[w + 1] - first,
+                              .s = k->s + first,
+                              .new_node = new_node};
+    SW_TRY(sw_contact_resample(c, system, k->now[w], &former));
     sw_contact_keep_depth(c, b->first_node, b->first_node + b->plan->nodes);
   }
   return SW_OK;
@@ -76,7 +71,8 @@ sw_status sw_scene_inherit_contact(sw_scene *s) {
   size_t *new_edge = new_node + old_nodes;
   for (size_t w = 0; w < k->wires; w++) find_again(s, w, new_node, new_edge);
   if (sw_scene_contact(s)) {
-    SW_TRY(inherit_obstacles(s, new_node, new_edge));
+    SW_TRY(
+        sw_contact_inherit(sw_scene_contact(s), k->memory, k->bytes, k->fresh, new_node, new_edge));
     SW_TRY(keep_touches(s, new_node));
   }
   if (pairs) SW_TRY(sw_mutual_inherit(pairs, k->pairs, k->pair_bytes, new_node, k->now));

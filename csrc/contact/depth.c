@@ -126,8 +126,9 @@ static double imposed(const sw_contact *c, const sw_system *s, const sw_candidat
 
 void sw_contact_forgive(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                         const sw_kept *last, const double *y, sw_touch *t) {
-  const int pressed = last && (last->left < 0 || last->left == HUGE_VAL); /* though outside */
-  if (c->regime == SW_CONTACT_EXPLICIT) return;                           /* force follows depth */
+  const int pressed = last && c->regime == SW_CONTACT_IMPLICIT &&
+                      (last->left < 0 || last->left == HUGE_VAL); /* though outside */
+  if (c->regime == SW_CONTACT_EXPLICIT) return;                   /* force follows depth */
   if (t->press.gap >= 0 && !pressed) return;
   const double always = imposed(c, s, k, t, y);
   const double depth = sw_contact_depth_before(c, s, t) - always;

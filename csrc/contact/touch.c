@@ -334,7 +334,7 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
   press->gap += sw_contact_aslant(c, k->node, k->other, at, press->normal);
   press->soft = sw_contact_softness(c, s, m, t);
   const sw_kept known = kept_by(c, k, m, &here), *const kept = m || known.edited ? &known : NULL;
-  t->edited = known.edited;
+  t->edited = known.edited && c->regime == SW_CONTACT_IMPLICIT;
   t->squeezed = sw_contact_is_squeezed(c, s, k, kept, t);
   sw_contact_forgive(c, s, k, kept, y, t);
   if (m && !t->squeezed)
