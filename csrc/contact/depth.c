@@ -148,13 +148,21 @@ void sw_contact_forgive(const sw_contact *c, const sw_system *s, const sw_candid
  * (spec/scene/feed_energy_spec); with five and ten clamps are the same [-]. */
 static const double IN_MOTION = 0.03;
 
+/* New edges that are off the depth of their force by more than this share of the allowed depth stay
+ * so. Otherwise a wire that only lies on something, and has got other edges, comes to lie as if it
+ * had always had them [-]. */
+static const double OF_EDGES = 0.1;
+
 int sw_contact_is_squeezed(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                            const sw_kept *last, const sw_touch *t) {
   if (!last || !(k->squeezing > 0)) return 0;
   const int moves = c->regime == SW_CONTACT_IMPLICIT && !c->fresh;
   const double from = moves ? IN_MOTION * k->squeezing : k->squeezing;
-  const int edited = last->left == HUGE_VAL && c->regime == SW_CONTACT_IMPLICIT;
   const int kept = last->left != 0 && last->left < HUGE_VAL;
-  if (last->normal_force >= from || kept || edited) return 1;
-  return last->depth > sw_contact_deepest(c, s, t);
+  if (last->normal_force >= from || kept) return 1;
+  const double deepest = sw_contact_deepest(c, s, t);
+  if (c->regime == SW_CONTACT_IMPLICIT && last->left == HUGE_VAL &&
+      fabs(sw_contact_depth_before(c, s, t) - last->depth) > OF_EDGES * deepest)
+    return 1;
+  return last->depth > deepest;
 }
