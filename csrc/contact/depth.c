@@ -148,10 +148,19 @@ void sw_contact_forgive(const sw_contact *c, const sw_system *s, const sw_candid
  * (spec/scene/feed_energy_spec); with five and ten clamps are the same [-]. */
 static const double IN_MOTION = 0.03;
 
-/* New edges that are off the depth of their force by more than this share of the allowed depth stay
- * so. Otherwise a wire that only lies on something, and has got other edges, comes to lie as if it
- * had always had them [-]. */
+/* New edges that are off the depth of their force stay so from this share of the allowed depth on,
+ * up to the usual one. Below, a wire that only lies on something comes to lie as if it had always
+ * had them; above, it comes out, though that makes energy: it must not stay so far inside [-]. */
 static const double OF_EDGES = 0.1;
+
+/* 1 if the line has got other edges, and they stay at the depth where they are. */
+static int stays(const sw_contact *c, const sw_system *s, const sw_kept *last, const sw_touch *t,
+                 double deepest) {
+  const double usual = sw_depth_for(SW_DEEPEST, c->candidates[t->candidate].radius);
+  if (c->regime != SW_CONTACT_IMPLICIT || last->left != HUGE_VAL) return 0;
+  const double off = fabs(sw_contact_depth_before(c, s, t) - last->depth);
+  return off > OF_EDGES * deepest && off <= usual;
+}
 
 int sw_contact_is_squeezed(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                            const sw_kept *last, const sw_touch *t) {
@@ -161,8 +170,5 @@ int sw_contact_is_squeezed(const sw_contact *c, const sw_system *s, const sw_can
   const int kept = last->left != 0 && last->left < HUGE_VAL;
   if (last->normal_force >= from || kept) return 1;
   const double deepest = sw_contact_deepest(c, s, t);
-  if (c->regime == SW_CONTACT_IMPLICIT && last->left == HUGE_VAL &&
-      fabs(sw_contact_depth_before(c, s, t) - last->depth) > OF_EDGES * deepest)
-    return 1;
-  return last->depth > deepest;
+  return stays(c, s, last, t, deepest) || last->depth > deepest;
 }
