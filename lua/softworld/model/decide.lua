@@ -122,8 +122,8 @@ local function bar_rung(context, failed)
 end
 
 -- Returns a text if no level would make a bar short enough, so that a costly mesh is in vain; else nil. Two
--- levels of the present rung show it. They are asked for any mesh: they cost little beside one, and the expected
--- time of a mesh is often too short where the scene begins at rest.
+-- levels of the present rung show it. They are asked for any mesh: they cost little beside one, and the
+-- expected time of a mesh is often too short where the scene begins at rest.
 local function in_vain(context, rungs, up)
   local time, job = probe.expected(context, up, 2), context.job -- two levels make a bar
   if not time then return nil end
