@@ -19,6 +19,8 @@ sw_status sw_scene_draw_untwisted(sw_scene_wire *wire);
 
 /* Gives the kept contact memory to the new system. SW_ENOMEM. */
 sw_status sw_scene_inherit_contact(sw_scene *scene);
+/* 1 if a wire that is still there pressed on the obstacle at the last step's end. */
+int sw_scene_was_pressed(const sw_scene *scene, size_t obstacle);
 /* Drops the contact memory kept for the next system. */
 void sw_scene_forget_contact(sw_scene *scene);
 

@@ -7,6 +7,7 @@
 #include "body/build.h"
 #include "body/touching.h"
 #include "contact/resample.h"
+#include "link/hold.h"
 #include "scene/lists.h"
 #include "scene/parts.h"
 #include "scene/wire.h"
@@ -23,15 +24,41 @@ static void find_again(const sw_scene *s, size_t w, size_t *new_node, size_t *ne
                    new_edge + first);
 }
 
-static sw_status inherit_obstacles(sw_scene *s, const size_t *new_node, const size_t *new_edge) {
+/* 1 if wire w of the contact memory is a line that has got other nodes. Feeding makes nodes in its
+ * hold, and none of those that touch something are others. */
+static int is_changed(const sw_scene *s, size_t w, const size_t *new_node) {
   const sw_kept_contact *k = sw_scene_kept(s);
-  sw_contact *contact = sw_scene_contact(s);
-  SW_TRY(sw_contact_inherit(contact, k->memory, k->bytes, k->fresh, new_node, new_edge));
-  const size_t w = k->changed - 1;
-  if (!k->changed || w >= k->wires || k->now[w] == SIZE_MAX) return SW_OK;
-  const size_t first = k->first[w];
-  return sw_contact_resample(contact, sw_scene_system(s), k->now[w], k->memory, k->bytes, first,
-                             k->s + first, k->first[w + 1] - first);
+  if (k->now[w] == SIZE_MAX) return 0;
+  const sw_body *b = &sw_scene_system(s)->bodies[k->now[w]];
+  if (b->plan->web) return 0;
+  if (k->changed == w + 1) return 1;
+  SW_EACH(hold, h, s)
+    if (h->alive && h->wire == k->now[w] && sw_hold_passes(h)) return 0;
+  int changed = b->plan->nodes != k->first[w + 1] - k->first[w];
+  for (size_t i = k->first[w]; i < k->first[w + 1] && !changed; i++)
+    changed = new_node[i] == SIZE_MAX;
+  return changed;
+}
+
+/* Lines that have got other edges: their touches with obstacles go on as they were. */
+static sw_status keep_touches(sw_scene *s, const size_t *new_node) {
+  const sw_kept_contact *k = sw_scene_kept(s);
+  const sw_system *system = sw_scene_system(s);
+  sw_contact *c = sw_scene_contact(s);
+  for (size_t w = 0; w < k->wires; w++) {
+    if (!is_changed(s, w, new_node)) continue;
+    const sw_body *b = &system->bodies[k->now[w]];
+    const size_t first = k->first[w];
+    const sw_former former = {.memory = k->memory,
+                              .bytes = k->bytes,
+                              .first = first,
+                              .nodes = k->first[w + 1] - first,
+                              .s = k->s + first,
+                              .new_node = new_node};
+    SW_TRY(sw_contact_resample(c, system, k->now[w], &former));
+    sw_contact_keep_depth(c, b->first_node, b->first_node + b->plan->nodes);
+  }
+  return SW_OK;
 }
 
 sw_status sw_scene_inherit_contact(sw_scene *s) {
@@ -43,8 +70,27 @@ sw_status sw_scene_inherit_contact(sw_scene *s) {
   if (!new_node) return SW_ENOMEM;
   size_t *new_edge = new_node + old_nodes;
   for (size_t w = 0; w < k->wires; w++) find_again(s, w, new_node, new_edge);
-  if (sw_scene_contact(s)) SW_TRY(inherit_obstacles(s, new_node, new_edge));
+  if (sw_scene_contact(s)) {
+    SW_TRY(
+        sw_contact_inherit(sw_scene_contact(s), k->memory, k->bytes, k->fresh, new_node, new_edge));
+    SW_TRY(keep_touches(s, new_node));
+  }
   if (pairs) SW_TRY(sw_mutual_inherit(pairs, k->pairs, k->pair_bytes, new_node, k->now));
   if (!grains) return SW_OK;
   return sw_mutual_inherit(grains, k->grains, k->grain_bytes, new_node, k->now);
+}
+
+int sw_scene_was_pressed(const sw_scene *s, size_t obstacle) {
+  const sw_kept_contact *k = sw_scene_kept(s);
+  const sw_contact *c = sw_scene_contact(s);
+  if (c) {
+    size_t bytes;
+    const void *memory = sw_contact_memory(c, &bytes);
+    return sw_contact_memory_presses(memory, bytes, (int)obstacle, 0, SIZE_MAX);
+  }
+  for (size_t w = 0; k->memory && w < k->wires; w++)
+    if (k->now[w] != SIZE_MAX &&
+        sw_contact_memory_presses(k->memory, k->bytes, (int)obstacle, k->first[w], k->first[w + 1]))
+      return 1;
+  return 0;
 }

@@ -139,6 +139,7 @@ double sw_contact_arc_rise(const sw_contact *c, const sw_system *s, const sw_can
 double sw_contact_arc_mean(const sw_system *s, const sw_candidate *k, const sw_memory *m,
                            double rise) {
   if (!m || m->node != k->node || m->segment != k->segment) return rise;
+  if (m->kept.left == HUGE_VAL) return rise; /* it has got other edges */
   const sw_body *b = &s->bodies[k->body];
   if (rise > m->rise && is_at_clamp(b->plan, k->node - b->first_node)) return rise;
   return m->rise + (rise - m->rise) / MEAN_STEPS;

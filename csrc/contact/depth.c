@@ -126,7 +126,10 @@ static double imposed(const sw_contact *c, const sw_system *s, const sw_candidat
 
 void sw_contact_forgive(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                         const sw_kept *last, const double *y, sw_touch *t) {
-  if (c->regime == SW_CONTACT_EXPLICIT || t->press.gap >= 0) return; /* force follows depth */
+  const int pressed = last && c->regime == SW_CONTACT_IMPLICIT &&
+                      (last->left < 0 || last->left == HUGE_VAL); /* though outside */
+  if (c->regime == SW_CONTACT_EXPLICIT) return;                   /* force follows depth */
+  if (t->press.gap >= 0 && !pressed) return;
   const double always = imposed(c, s, k, t, y);
   const double depth = sw_contact_depth_before(c, s, t) - always;
   t->forgiven = always;
@@ -145,10 +148,27 @@ void sw_contact_forgive(const sw_contact *c, const sw_system *s, const sw_candid
  * (spec/scene/feed_energy_spec); with five and ten clamps are the same [-]. */
 static const double IN_MOTION = 0.03;
 
+/* New edges that are off the depth of their force stay so from this share of the allowed depth on,
+ * up to the usual one. Below, a wire that only lies on something comes to lie as if it had always
+ * had them; above, it comes out, though that makes energy: it must not stay so far inside [-]. */
+static const double OF_EDGES = 0.1;
+
+/* 1 if the line has got other edges, and they stay at the depth where they are. */
+static int stays(const sw_contact *c, const sw_system *s, const sw_kept *last, const sw_touch *t,
+                 double deepest) {
+  const double usual = sw_depth_for(SW_DEEPEST, c->candidates[t->candidate].radius);
+  if (c->regime != SW_CONTACT_IMPLICIT || last->left != HUGE_VAL) return 0;
+  const double off = fabs(sw_contact_depth_before(c, s, t) - last->depth);
+  return off > OF_EDGES * deepest && off <= usual;
+}
+
 int sw_contact_is_squeezed(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                            const sw_kept *last, const sw_touch *t) {
   if (!last || !(k->squeezing > 0)) return 0;
   const int moves = c->regime == SW_CONTACT_IMPLICIT && !c->fresh;
   const double from = moves ? IN_MOTION * k->squeezing : k->squeezing;
-  return last->normal_force >= from || last->left > 0 || last->depth > sw_contact_deepest(c, s, t);
+  const int kept = last->left != 0 && last->left < HUGE_VAL;
+  if (last->normal_force >= from || kept) return 1;
+  const double deepest = sw_contact_deepest(c, s, t);
+  return stays(c, s, last, t, deepest) || last->depth > deepest;
 }

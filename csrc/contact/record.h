@@ -54,6 +54,7 @@ typedef struct sw_touch {
   uint8_t sharp;      /* on a smooth curve: what it touches (sw_sharp) */
   bool known : 1;     /* 1: it pressed at the step's start */
   bool held : 1;      /* 1: both ends are held, so there is no force */
+  bool edited : 1;    /* 1: its line got other edges, sw_kept.edited */
   bool squeezed : 1;  /* 1: stiffened from step to step, not within a step */
   double friction;    /* coefficient in this step: kinetic if it slid before [-] */
   sw_press press;     /* its normal is the obstacle's outward normal in world coordinates */

@@ -289,8 +289,23 @@ static void rise(sw_contact *c, const sw_system *s, const sw_candidate *k, const
   t->rise = sw_contact_arc_rise(c, s, k, place, y, t->press.normal);
   if (c->regime == SW_CONTACT_IMPLICIT && !t->sharp)
     t->rise = sw_contact_arc_mean(s, k, m, t->rise);
-  if (m) t->fallen = sw_larger(0.0, m->rise - t->rise);
+  if (m && m->kept.left < HUGE_VAL) t->fallen = sw_larger(0.0, m->rise - t->rise);
   c->falls |= t->fallen > 0;
+}
+
+/* The memory as it holds for the candidate. What other edges have left outside (sw_kept.left) goes
+ * on only at its own place: the nodes beside a chord on a peg are outside in any case. m: NULL if
+ * nothing pressed there. */
+static sw_kept kept_by(const sw_contact *c, const sw_candidate *k, const sw_memory *m,
+                       const sw_closest *here) {
+  const sw_memory *own = m ? NULL : sw_contact_remembered(c, k, here);
+  if (own && own->kept.edited) return (sw_kept){.left = own->kept.left, .edited = 1};
+  if (!m) return (sw_kept){0};
+  sw_kept kept = m->kept;
+  if (m->node == k->node && m->segment == k->segment) return kept;
+  if (kept.left == HUGE_VAL) kept.left = DBL_MAX;
+  kept.left = sw_larger(0.0, kept.left);
+  return kept;
 }
 
 sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candidate *k,
@@ -318,7 +333,8 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
   press->by_place = goes_by_place(c, s, k);
   press->gap += sw_contact_aslant(c, k->node, k->other, at, press->normal);
   press->soft = sw_contact_softness(c, s, m, t);
-  const sw_kept *const kept = m ? &m->kept : NULL;
+  const sw_kept known = kept_by(c, k, m, &here), *const kept = m || known.edited ? &known : NULL;
+  t->edited = known.edited && c->regime == SW_CONTACT_IMPLICIT;
   t->squeezed = sw_contact_is_squeezed(c, s, k, kept, t);
   sw_contact_forgive(c, s, k, kept, y, t);
   if (m && !t->squeezed)

@@ -157,15 +157,35 @@ double sw_tool_squeeze(sw_scene *s, const sw_tool *t, double time) {
   return sum / t->fingers;
 }
 
+/* The force that pad k feels, and its moment about a point. Where the scene was changed and nothing
+ * has been stepped since, there are no touches: then that at the end of the last step. */
+static void on_pad(const sw_scene *s, const sw_tool *t, size_t k, sw_vec about, sw_vec *force,
+                   sw_vec *moment) {
+  const sw_contact *contact = sw_scene_contact(s);
+  const size_t slot = t->pad[k].obstacle;
+  const sw_scene_obstacle *o = sw_scene_obstacle_in(s, slot);
+  sw_motion_state at;
+  sw_error ignored; /* no error: the last step has evaluated this drive */
+  *force = *moment = sw_v(0, 0, 0);
+  if (contact && sw_contact_touches(contact) > 0) {
+    sw_contact_force(contact, (int)slot, about, force, moment);
+    return;
+  }
+  if (o->off || !sw_scene_was_pressed(s, slot) ||
+      sw_drive_eval((sw_scene *)s, &o->drive, sw_scene_time(s), &at, &ignored) != SW_OK)
+    return;
+  *force = o->past.end.force;
+  *moment = sw_add(o->past.end.moment, sw_cross(sw_sub(at.pivot, about), *force));
+}
+
 /* Adds the force of the pads (of one finger, or -1: of all) on wires, and its moment about a
  * point. */
 static void pads_force(const sw_scene *s, const sw_tool *t, int finger, sw_vec about, sw_vec *force,
                        sw_vec *moment) {
-  sw_contact *contact = sw_scene_contact(s);
-  for (size_t k = 0; contact && k < t->pads; k++) {
+  for (size_t k = 0; k < t->pads; k++) {
     sw_vec f, m;
     if (finger >= 0 && t->pad[k].finger != finger) continue;
-    sw_contact_force(contact, (int)t->pad[k].obstacle, about, &f, &m);
+    on_pad(s, t, k, about, &f, &m);
     *force = sw_sub(*force, f);
     *moment = sw_sub(*moment, m);
   }

@@ -14,9 +14,12 @@ typedef struct sw_kept {
   double k;            /* stiffness at the next step's start [N/m] */
   double steady;  /* mean normal force of the last steps; when just kept, that at the end [N] */
   double grip;    /* stiffness of friction's spring [N/m] */
-  double left;    /* rest of the depth when it was stiffened because it was squeezed [m] */
+  double left;    /* rest of the depth when it was stiffened because it was squeezed; HUGE_VAL: the
+                     line has got other edges, and all that the force does not explain is due to
+                     them, below 0 where it is outside now [m] */
   sw_vec elastic; /* displacement of friction's spring, with that stiffness [m] */
   int sliding;
+  int edited; /* 1: `left` is due to other edges, and stays though the touch opens */
 } sw_kept;
 
 #define SW_STIFFENED_MOST 10.0 /* largest stiffening of a touch at once [-] */

@@ -300,7 +300,10 @@ int sw_press_was_put(double depth, int first) { return depth > (first ? PLACED :
 
 sw_left sw_press_leave(double depth, const sw_kept *kept, double way) {
   const double explained = kept ? kept->depth : 0.0;
-  const double left = kept ? sw_smaller(kept->left, sw_larger(0.0, depth - explained)) : 0.0;
+  const double unexplained = depth - explained, kept_left = kept ? kept->left : 0.0;
+  /* after an edit, HUGE_VAL: all of it, of either sign */
+  const double most = kept_left == HUGE_VAL ? unexplained : sw_larger(0.0, unexplained);
+  const double left = sw_smaller(kept_left, most);
   const double forgiven = left + sw_larger(0.0, depth - explained - left - way - PLACED);
   const double out = depth - explained - forgiven;
   return (sw_left){forgiven, out > PLACED ? out : 0.0, left};

@@ -22,8 +22,9 @@ local function changed(cable, segments, dt)
     hand:move{ by = { 0, 0, 0.02 }, duration = 0.2 }
     p:wait(0.3)
     local opening = hand:state().opening
-    out.before = hand:force().z
+    out.before, out.turned = hand:force().z, hand:moment().y
     wire:remodel{ model = "rod", segments = segments }
+    out.now, out.turns = hand:force().z, hand:moment().y
     for k = 1, 30 do
       p:wait(SOON)
       local state = hand:state()
@@ -45,6 +46,8 @@ describe("pads on a rod that gets other edges", function()
         -- a depth that does not count would let the pads close by 10 um more.
         t.below(3e-6, got.way, "way of the jaws [m]")
         t.above(0.99 * FORCE, got.least, "least force of a finger [N]")
+        t.share(got.before, got.now, 1e-9, "the same before a step") -- nothing has changed; it was 0
+        t.share(got.turned, got.turns, 1e-6, "its moment before a step")
         t.share(got.before, got.after, 0.03, "force that the pads bear")
         t.below(1e-3, run:ledger().gained / run:ledger().play, "energy from nowhere")
         assert.equal(0, #t.events(run, "energy"))

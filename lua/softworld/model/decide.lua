@@ -13,7 +13,6 @@ local estimate = require "softworld.run.estimate"
 local decide = {}
 
 local MODEL = change.MODEL
-local LONG = 1     -- expected time of a mesh on the second level above which in_vain is asked [s]
 local HARDLY = 1e-6 -- change over the allowed one that is not worth a number [-]
 local NONE = 0 / 0 -- value of a check's row that a computation lacks
 
@@ -123,10 +122,11 @@ local function bar_rung(context, failed)
 end
 
 -- Returns a text if no level would make a bar short enough, so that a costly mesh is in vain; else nil. Two
--- levels of the present rung show it.
+-- levels of the present rung show it. They are asked for any mesh: they cost little beside one, and the
+-- expected time of a mesh is often too short where the scene begins at rest.
 local function in_vain(context, rungs, up)
   local time, job = probe.expected(context, up, 2), context.job -- two levels make a bar
-  if not time or time < LONG then return nil end
+  if not time then return nil end
   local one, two = probe.of(context, rungs, 1), probe.of(context, rungs, 2)
   for _, q in ipairs(one.ok and two.ok and job.quantities or {}) do
     local now = two.values[q.name] or NONE
