@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A cable drawn over a saddle, through the hole of a torus. As a mesh its facets meet in shallow hollows along
--- the cable, and the cable rocks on edges across it. Where two such edges meet in a hollow, the second one
--- began to bear with its whole force at once: beside that place neither one nor both edges were in balance.
+-- A cable drawn over a saddle, through the hole of a torus. As a mesh its facets meet in shallow hollows
+-- along the cable, and the cable rocks on edges across it. Where two such edges meet in a hollow, the second
+-- one began to bear with its whole force at once: beside that place neither one nor both were in balance.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -16,7 +16,8 @@ local function torus(scene, n, m, shift)
     for j = 0, m - 1 do
       local a, b = 2 * math.pi * (i + shift) / n, 2 * math.pi * j / m
       local far = FAR + TUBE * math.cos(b)
-      text[#text + 1] = ("v %.12g %.12g %.12g"):format(far * math.cos(a), far * math.sin(a), TUBE * math.sin(b))
+      local x, y, z = far * math.cos(a), far * math.sin(a), TUBE * math.sin(b)
+      text[#text + 1] = ("v %.12g %.12g %.12g"):format(x, y, z)
     end
   end
   local function at(i, j) return (i % n) * m + j % m + 1 end
