@@ -60,6 +60,39 @@ static void near_beside(const sw_contact *c, const sw_system *s, const sw_candid
     }
 }
 
+/* Edges with normals that differ by less are one edge to a wire across them: 1 minus the cosine of
+ * 0.08 degrees [-]. */
+static const double ONE_WAY = 1e-6;
+/* Two edges meet if their lines pass each other within this share of the wire's radius [-]. */
+static const double MEET = 1e-4;
+
+/* 1 if two places across the wire are on edges that meet in one point. */
+static int meet(const sw_shape *shape, const sw_closest *one, const sw_closest *two, double near) {
+  sw_vec a, b;
+  if (sw_shape_sharp(shape, one->feature, &a) != SW_SHARP_EDGE) return 0;
+  if (sw_shape_sharp(shape, two->feature, &b) != SW_SHARP_EDGE) return 0;
+  const sw_vec across = sw_cross(a, b);
+  const double off = sw_dot(across, sw_sub(two->point, one->point));
+  return fabs(off) <= near * sw_norm(across);
+}
+
+/* Lets two edges that meet in a shallow hollow across the wire share the wire between them, as the
+ * faces of a hollow share a node: seen along the wire they are lines. Else the force of an edge
+ * jumped from none to all where the wire comes over its end, and a wire drawn along the hollow had
+ * no equilibrium there (spec/contact/hollow_edges_spec). */
+static void share_hollows(const sw_shape *shape, double radius, sw_places *list) {
+  for (size_t i = 0; i < list->count; i++)
+    for (size_t j = 0; j < list->count; j++) {
+      const sw_closest *own = &list->place[i].near, *other = &list->place[j].near;
+      if (i == j || !(own->gap > 0 && other->gap > 0)) continue;
+      const double cosine = sw_dot(own->normal, other->normal);
+      if (!(cosine > 0 && cosine < 1.0 - ONE_WAY) || !meet(shape, own, other, MEET * radius))
+        continue;
+      const double share = share_beside(own, other);
+      if (share >= 0) list->place[i].faint = fmax(list->place[i].faint, 1.0 - share);
+    }
+}
+
 /* Leaves the places on edges across the wire to its segments. */
 static void leave_to_segments(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                               const sw_contact_at *at, const double *x, sw_places *list) {
@@ -96,4 +129,5 @@ void sw_contact_near(const sw_contact *c, const sw_system *s, const sw_candidate
     list->place[list->count].near = near[i];
     take(list, sw_lerp(a, b, near[i].at));
   }
+  if (n > 1) share_hollows(shape, k->radius, list);
 }

@@ -51,6 +51,26 @@ static sw_vec into_triangle(const sw_trimesh *mesh, int tri, int side) {
   return sw_unit_or(sw_cross(t.n, along), sw_perpendicular(t.n));
 }
 
+/* Sine of the angle below which faces are flat; the same for a hollow edge, above rounding in files
+ * [-]. */
+static const double BENT = 1e-6, FOLDED = 1e-3;
+/* Files with floats round coordinates to 6e-8 of their size, and an edge may stick out of a flat
+ * surface by three times this share of the largest extent. Wires on a turned plate with facets of
+ * 2 mm rocked on such edges without end (spec/shape/rounded_mesh_spec) [-]. */
+static const double ROUNDED = 2e-7;
+
+/* Returns the slope that rounding may give to a face or edge of this length [-]. */
+static double level(const sw_trimesh *mesh, double length) {
+  return fmin(FOLDED, fmax(BENT, ROUNDED * mesh->size / fmax(length, 1e-300)));
+}
+
+/* Height of the triangle over this side of it [m]. */
+static double height_over(const sw_trimesh *mesh, const half_edge *h) {
+  const sw_triangle t = sw_trimesh_triangle(mesh, h->tri);
+  const sw_vec into = into_triangle(mesh, h->tri, h->side);
+  return sw_dot(into, sw_sub(t.v[(h->side + 2) % 3], t.v[h->side]));
+}
+
 static int runs_up(const sw_trimesh *mesh, const half_edge *h) {
   return mesh->indices[3 * (size_t)h->tri + (size_t)h->side] == h->low;
 }
@@ -58,8 +78,6 @@ static int runs_up(const sw_trimesh *mesh, const half_edge *h) {
 /* Makes one edge from the `count` sides on it. Returns 1 if two triangles run along it in the same
  * direction. */
 static int make_edge(sw_trimesh *mesh, const half_edge *h, int count) {
-  const double bent = 1e-6;   /* sine of the angle below which faces are flat [-] */
-  const double folded = 1e-3; /* the same for a hollow edge, above rounding in files [-] */
   const int number = (int)mesh->edge_count++;
   sw_trimesh_edge *edge = &mesh->edges[number];
   *edge = (sw_trimesh_edge){.v = {h->low, h->high}, .tri = {h[0].tri, -1}};
@@ -80,8 +98,9 @@ static int make_edge(sw_trimesh *mesh, const half_edge *h, int count) {
   edge->sine = fmin(1, sw_norm(sw_cross(first, second)));
   if (sw_dot(first, second) < 0) edge->sine = 1;
   const double rise = sw_dot(edge->into[1], first);
-  edge->flags = count > 2 || rise < -bent ? SW_CONVEX : 0;
-  mesh->hollow |= rise > folded;
+  const double flat = level(mesh, fmin(height_over(mesh, &h[0]), height_over(mesh, &h[1])));
+  edge->flags = count > 2 || rise < -flat ? SW_CONVEX : 0;
+  mesh->hollow |= rise > FOLDED;
   return count == 2 && runs_up(mesh, &h[0]) == runs_up(mesh, &h[1]);
 }
 
@@ -141,7 +160,6 @@ static void list_corner_edges(sw_trimesh *mesh) {
 /* Normalises a corner and sets its flags. It sticks out if all its edges fall away from its
  * normal. */
 static void finish_corner(sw_trimesh *mesh, int v) {
-  const double bent = 1e-6; /* sine of the slope below which an edge is flat [-] */
   sw_trimesh_corner *corner = &mesh->corners[v];
   const sw_vec fallback =
       corner->owner < 0 ? sw_v(0, 0, 1) : sw_load(mesh->normals + 3 * (size_t)corner->owner);
@@ -154,7 +172,8 @@ static void finish_corner(sw_trimesh *mesh, int v) {
     const sw_vec along = sw_sub(sw_trimesh_vertex(mesh, other), sw_trimesh_vertex(mesh, v));
     if (edge->flags & SW_RIM) corner->flags |= SW_RIM;
     const sw_vec out = corner->flags & SW_RIM ? sw_neg(corner->into) : corner->normal;
-    if (sw_dot(along, out) > -bent * sw_norm(along)) corner->flags &= ~SW_CONVEX;
+    const double length = sw_norm(along);
+    if (sw_dot(along, out) > -level(mesh, length) * length) corner->flags &= ~SW_CONVEX;
   }
 }
 
