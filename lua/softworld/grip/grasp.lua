@@ -134,7 +134,7 @@ local function grasp_by_pads(self, wires, args)
   local nearest = s or stand.nearest_place(wire, self.tool and self.tool:pose() or self:position())
   local is_mesh = wire.model ~= "rod" and wire.model ~= "string" -- its section is not quite round
   if is_mesh then wire:width(nearest, { 0, 1, 0 }) end -- raises if it is a line there: before pads are made
-  stand.place_tool(self, wire, s, 4)
+  stand.place_tool(self, wire, s, wires, 4)
   self.wire, self.grips, self.s = wire, {}, nearest
   for i, one in ipairs(wires) do self.grips[i] = { wire = one } end
   room.check(self)

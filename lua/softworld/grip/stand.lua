@@ -51,10 +51,34 @@ local function facing(scene, wire, s)
   return vec.facing(vec.unit(wire:tangent(s)), up)
 end
 
---- Makes the gripper's pads at its place (at, rotation) or around the wire at s.
-function stand.make_tool(self, level, wire, s)
-  local at = s and wire:position(s) or self.at or { 0, 0, 0 }
-  local rotation = self.rotation or (s and facing(self.scene, wire, s)) or nil
+-- Returns the sides of several wires along y, from the place `at` of one of them: of those that fit between
+-- the open pads together with it. height: of the pads along z [m].
+local function sides(wire, wires, at, y, z, opening, height)
+  local low, high = -wire.radius, wire.radius
+  for _, one in ipairs(wires) do
+    local way = vec.sub(one:position((stand.nearest_place(one, at))), at)
+    local off = vec.dot(way, y)
+    local l, h = math.min(low, off - one.radius), math.max(high, off + one.radius)
+    if h - l <= opening and math.abs(vec.dot(way, z)) <= height then low, high = l, h end
+  end
+  return low, high
+end
+
+-- Returns place and orientation of pads around a wire at s. Two fingers close along the tool's y axis by the
+-- same way: of several wires they stand in the middle, or one finger would come first and bend them.
+local function around(self, wire, s, wires)
+  local at, q = wire:position(s), self.rotation or facing(self.scene, wire, s)
+  if not wires or #wires < 2 or self.pads.fingers ~= 2 then return at, q end
+  local y, z = vec.rotate(q, { 0, 1, 0 }), vec.rotate(q, { 0, 0, 1 })
+  local opening = self.tool and self.tool:state().opening or self.pads.opening or 4 * wire.radius
+  local low, high = sides(wire, wires, at, y, z, opening, self.pads.height or 0.02)
+  return vec.add(at, y, 0.5 * (low + high)), q
+end
+
+--- Makes the gripper's pads at its place (at, rotation) or around the wire, of several wires, at s.
+function stand.make_tool(self, level, wire, s, wires)
+  local at, rotation = self.at or { 0, 0, 0 }, self.rotation
+  if s then at, rotation = around(self, wire, s, wires) end
   build.call(level, function()
     self.tool, self.obstacles, self.opening, self.span = remarks.without(pads.make, self.scene, self, at,
       rotation, wire and wire.radius)
@@ -102,8 +126,9 @@ function stand.make_carrier(self)
   return self.carrier
 end
 
---- Puts the open pads at the wire's arc length s. Pads that move stay on their way.
-function stand.place_tool(self, wire, s, level)
+--- Puts the open pads at the wire's arc length s, or in the middle of several wires there. Pads that move
+-- stay on their way.
+function stand.place_tool(self, wire, s, wires, level)
   if not self.tool and self.carrier then
     if stand.is_moving(self) then
       error(("gripper '%s' is moving until t = %g s without pads; grasp by pads after that"):format(self.name,
@@ -114,11 +139,11 @@ function stand.place_tool(self, wire, s, level)
   if s and not stand.is_moving(self) then
     stand.tell_far(self, wire, s, self.tool and self.tool:pose() or self.at, stand.JUMPS)
   end
-  if not self.tool then return stand.make_tool(self, level + 1, wire, s) end
+  if not self.tool then return stand.make_tool(self, level + 1, wire, s, wires) end
   if s and stand.is_moving(self) then
     stand.tell_distance(self, wire, s, 0.5 * self.width)
   elseif s then
-    self.tool:pose(wire:position(s), self.rotation or facing(self.scene, wire, s))
+    self.tool:pose(around(self, wire, s, wires))
   end
 end
 
