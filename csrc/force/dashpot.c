@@ -147,17 +147,43 @@ static sw_vec clamp_rate(const sw_field *f, const sw_clamp_hinge *h) {
   return sw_madd(rate, t, -sw_dot(rate, t));
 }
 
+/* A hold's give makes the hinge longer about one axis, for bending and its damping alike. Returns
+ * that axis across the edge, and what the hinge's viscosity loses about it [N m s]. */
+static sw_vec softened(double eta, const sw_field *f, const sw_clamp_hinge *h, double *lost) {
+  *lost = 0.0;
+  if (!(h->softer > 0)) return sw_v(0, 0, 0);
+  const sw_vec t = sw_field_tangent(f, h->edge);
+  const sw_vec a = sw_vec_at(f->hold_normals, sw_clamp_place(h));
+  *lost = eta / h->length - eta / (h->length + h->softer);
+  return sw_unit_or(sw_madd(a, t, -sw_dot(a, t)), sw_v(0, 0, 0));
+}
+
 sw_vec sw_dashpot_clamp_moment(double eta, const sw_field *f, const sw_clamp_hinge *h) {
-  return sw_scale(clamp_rate(f, h), eta / h->length);
+  double lost;
+  const sw_vec rate = clamp_rate(f, h), axis = softened(eta, f, h, &lost);
+  return sw_madd(sw_scale(rate, eta / h->length), axis, -lost * sw_dot(rate, axis));
+}
+
+/* own[e] -= k w w' */
+static void take_own(sw_field *f, size_t e, double k, sw_vec w) {
+  const double d[3] = {w.x, w.y, w.z};
+  for (int i = 0, at = 0; i < 3; i++)
+    for (int j = i; j < 3; j++, at++) f->own[at][e] -= k * d[i] * d[j];
 }
 
 void sw_dashpot_clamp(double eta, sw_field *f, const sw_clamp_hinge *h) {
   const double k = eta / h->length, r = f->reciprocal[h->edge];
-  if (f->want & SW_WANT_POWER) f->power += k * sw_norm2(clamp_rate(f, h));
-  if (f->want & SW_WANT_FORCE) {
-    const sw_vec m = sw_scale(clamp_rate(f, h), k);
-    sw_field_add_gradient(f, h->edge, sw_scale(sw_cross(sw_field_tangent(f, h->edge), m), r));
+  const sw_vec t = sw_field_tangent(f, h->edge);
+  if (f->want & (SW_WANT_FORCE | SW_WANT_POWER)) {
+    const sw_vec rate = clamp_rate(f, h), m = sw_dashpot_clamp_moment(eta, f, h);
+    if (f->want & SW_WANT_POWER) f->power += sw_dot(rate, m);
+    if (f->want & SW_WANT_FORCE) sw_field_add_gradient(f, h->edge, sw_scale(sw_cross(t, m), r));
   }
-  if (f->want & SW_WANT_STIFFNESS)
-    add_own(f, h->edge, k * fmax(0.0, f->velocity_rate - growth_of(f, h)) * r * r);
+  if (f->want & SW_WANT_STIFFNESS) {
+    double lost;
+    const sw_vec axis = softened(eta, f, h, &lost);
+    const double speed = fmax(0.0, f->velocity_rate - growth_of(f, h)) * r * r;
+    add_own(f, h->edge, k * speed);
+    if (lost > 0) take_own(f, h->edge, lost * speed, sw_cross(axis, t));
+  }
 }

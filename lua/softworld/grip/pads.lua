@@ -173,8 +173,8 @@ local function components(list, names)
   return out
 end
 
--- Returns a rotation as a unit quaternion.
-local function quaternion(rotation)
+--- Returns a rotation as a unit quaternion.
+function pads.quaternion(rotation)
   if not rotation then return { 1, 0, 0, 0 } end
   if rotation.axis then
     return turn(vec.unit(components(rotation.axis, { "x", "y", "z" })), rotation.angle)
@@ -192,7 +192,7 @@ local not_of_shape = { at = true, rotation = true, friction = true, kinetic_fric
 -- opening [m], and the rotation as a quaternion.
 function pads.solids(gripper, at, rotation, radius)
   check_width(gripper)
-  local q, solids = quaternion(rotation), {}
+  local q, solids = pads.quaternion(rotation), {}
   local list, opening = draft(gripper, at, q, radius)
   for i, entry in ipairs(list) do
     local sizes = {}

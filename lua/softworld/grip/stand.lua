@@ -52,15 +52,40 @@ local function facing(scene, wire, s)
   return vec.facing(vec.unit(wire:tangent(s)), up)
 end
 
--- Returns where pads are made: at the gripper's place, or around the wire at s.
-local function place_of(self, wire, s)
-  return s and wire:position(s) or self.at or { 0, 0, 0 },
-    self.rotation or (s and facing(self.scene, wire, s)) or nil
+-- Returns the sides of several wires along y, from the place `at` of one of them: of those that fit between
+-- the open pads together with it. height: of the pads along z [m].
+local function sides(wire, wires, at, y, z, opening, height)
+  local low, high = -wire.radius, wire.radius
+  for _, one in ipairs(wires) do
+    local way = vec.sub(one:position((stand.nearest_place(one, at))), at)
+    local off = vec.dot(way, y)
+    local l, h = math.min(low, off - one.radius), math.max(high, off + one.radius)
+    if h - l <= opening and math.abs(vec.dot(way, z)) <= height then low, high = l, h end
+  end
+  return low, high
 end
 
---- Makes the gripper's pads at its place (at, rotation) or around the wire at s.
-function stand.make_tool(self, level, wire, s)
-  local at, rotation = place_of(self, wire, s)
+-- Returns place and orientation of pads around a wire at s. Two fingers close along the tool's y axis by the
+-- same way: of several wires they stand in the middle, or one finger would come first and bend them.
+local function around(self, wire, s, wires)
+  local at = wire:position(s)
+  local q = self.rotation and pads.quaternion(self.rotation) or facing(self.scene, wire, s)
+  if not wires or #wires < 2 or self.pads.fingers ~= 2 then return at, q end
+  local y, z = vec.rotate(q, { 0, 1, 0 }), vec.rotate(q, { 0, 0, 1 })
+  local opening = self.tool and self.tool:state().opening or self.pads.opening or 4 * wire.radius
+  local low, high = sides(wire, wires, at, y, z, opening, self.pads.height or 0.02)
+  return vec.add(at, y, 0.5 * (low + high)), q
+end
+
+-- Returns where pads are made: at the gripper's place, or around the wire, of several wires, at s.
+local function place_of(self, wire, s, wires)
+  if s then return around(self, wire, s, wires) end
+  return self.at or { 0, 0, 0 }, self.rotation
+end
+
+--- Makes the gripper's pads at its place (at, rotation) or around the wire, of several wires, at s.
+function stand.make_tool(self, level, wire, s, wires)
+  local at, rotation = place_of(self, wire, s, wires)
   build.call(level, function()
     self.tool, self.obstacles, self.opening, self.span = remarks.without(pads.make, self.scene, self, at,
       rotation, wire and wire.radius)
@@ -110,17 +135,17 @@ end
 
 -- Makes the pads, unless they would stand in one of the wires.
 local function make_beside(self, wire, s, wires, level)
-  local at, rotation = place_of(self, wire, s)
+  local at, rotation = place_of(self, wire, s, wires)
   build.call(level, function()
     room.check(self, wires, pads.solids(self, at, rotation, wire.radius))
   end)
-  stand.make_tool(self, level + 1, wire, s)
+  stand.make_tool(self, level + 1, wire, s, wires)
 end
 
 -- Puts the pads at the wire's arc length s, unless they would stand in one of the wires there.
 local function put_beside(self, wire, s, wires)
   local at, q = self.tool:pose()
-  if s then self.tool:pose(wire:position(s), self.rotation or facing(self.scene, wire, s)) end
+  if s then self.tool:pose(around(self, wire, s, wires)) end
   local _, now = self.tool:pose()
   local fine, why = pcall(room.check, self, wires, room.solids(self.obstacles), self.tool:state().opening,
     now)
@@ -129,8 +154,8 @@ local function put_beside(self, wire, s, wires)
   error(why, 0)
 end
 
---- Puts the open pads at the wire's arc length s. Pads that move stay on their way. Raises an error, and
--- leaves the pads as they were, if they would stand in one of the wires.
+--- Puts the open pads at the wire's arc length s, or in the middle of several wires there. Pads that move
+-- stay on their way. Raises an error, and leaves the pads as they were, if they would stand in a wire.
 function stand.place_tool(self, wire, s, wires, level)
   if not self.tool and self.carrier then
     if stand.is_moving(self) then
