@@ -27,7 +27,8 @@ local function taken(o)
     wires[k] = scene:wire{ cable = o[k], from = at(-0.1, y), to = at(0.1, y), segments = 57 + 3 * k }
     clamps[k] = scene:clamp(wires[k], { s = 0.08 })
   end
-  local hand = scene:gripper{ name = "hand", pads = { width = 0.016, height = 0.014, opening = 0.014 } }
+  local hand = scene:gripper({ name = "hand", pads = { width = 0.016, height = 0.014, opening = 0.014 },
+    rotation = o.turned and { axis = { 0, 0, 1 }, angle = o.angle } or nil })
   local inwards, borne, margin = {}, 0, nil
   scene:process(function(p)
     local list = o.swapped and { wires[2], wires[1] } or wires
@@ -48,10 +49,11 @@ describe("pads that take two cables side by side", function()
   for _, o in ipairs{
     { "GXL 1.5", "GXL 1.5" }, { "GXL 1.5", "GXL 1.5", swapped = true, angle = 0.7 },
     { "GXL 1.5", "GXL 1.5", poses = true, dt = 0.01 }, { "FLRY-B 0.5", "FLRY-B 0.5", angle = 2 },
+    { "GXL 1.5", "GXL 1.5", angle = 2, turned = true },
     { "H07V-K 4", "FLRY-B 0.5" }, { "FLRY-B 0.5", "H07V-K 4", swapped = true, poses = true, dt = 0.01 },
   } do
-    it(("stand in their middle: %s and %s%s%s"):format(o[1], o[2], o.swapped and ", swapped" or "",
-      o.poses and ", in poses" or ""), function()
+    it(("stand in their middle: %s and %s%s%s%s"):format(o[1], o[2], o.swapped and ", swapped" or "",
+      o.turned and ", with a rotation" or "", o.poses and ", in poses" or ""), function()
         local inwards, borne, margin = taken(o)
         for k = 1, 2 do t.near(force, inwards[k], 0.02 * force, "force of one pad") end
         t.below(0.02 * force, borne, "borne by a clamp beside the pads")
