@@ -196,6 +196,7 @@ double sw_contact_round_beside(const sw_contact *contact, const sw_system *syste
 int sw_contact_shaken(const sw_contact *contact, const sw_system *system);
 /* Two obstacles face each other if the cosine between their normals is below this [-]. */
 #define SW_FACING (-0.7)
+int sw_contact_on_facets(const sw_contact *contact); /* 1: facets of a round surface bear wires */
 /* A wire's weight; without gravity, its bending force EI/L^2 [N]. */
 double sw_contact_usual_force(const sw_system *system, const sw_plan *plan);
 /* From this force on a wire is squeezed or taut, and cannot come out; 0 for a mesh [N]. */
@@ -210,9 +211,8 @@ sw_status sw_contact_began(sw_contact *contact, double t, sw_error *err);
 int sw_contact_poses(const sw_contact *contact, int id, sw_pose *from, sw_pose *to);
 /* 1 if the same touches press as at the step's start, and nothing struck. */
 int sw_contact_steady(const sw_contact *contact);
-/* Largest energy that touches gain from stiffening (sw_kept_hardened) [J]. */
-double sw_contact_hardened(const sw_contact *contact);
-double sw_contact_unbent(const sw_contact *contact);  /* work of arcs that become flatter [J] */
+double sw_contact_hardened(const sw_contact *contact); /* most gain of stiffened touches [J] */
+double sw_contact_unbent(const sw_contact *contact);   /* work of arcs that become flatter [J] */
 double sw_contact_fastest(const sw_contact *contact); /* fastest obstacle at the step's end [m/s] */
 int sw_contact_emerges(const sw_contact *contact); /* 1: wires are on their way out of obstacles */
 double sw_contact_emerged(const sw_contact *contact); /* work of touches on such wires [J] */

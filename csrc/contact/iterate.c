@@ -165,8 +165,9 @@ static const double OF_SCALE = 0.02;
  * value anyway. */
 static int comes_out(const sw_contact *c, const sw_system *s, const sw_touch *t, double scale) {
   const sw_press *p = &t->press;
-  const int o = t->obstacle, faceted = !c->sharp[o] && !c->flat[o] && !(c->round[o] > 0);
-  if (!faceted || !c->fresh || c->updates <= IMPATIENCE || !p->active) return 0;
+  if (!sw_contact_is_faceted(c, (size_t)t->obstacle) || !c->fresh || c->updates <= IMPATIENCE ||
+      !p->active)
+    return 0;
   if (c->regime != SW_CONTACT_IMPLICIT || s->bodies[t->body].plan->web) return 0;
   return sw_press_apart(p) && p->off <= t->friction * p->normal_force + OF_SCALE * scale;
 }

@@ -147,6 +147,18 @@ sw_status sw_contact_set_seen(sw_contact *c, const void *seen, size_t bytes, con
   return SW_OK;
 }
 
+int sw_contact_is_faceted(const sw_contact *c, size_t o) {
+  return !c->sharp[o] && !c->flat[o] && !(c->round[o] > 0);
+}
+
+int sw_contact_on_facets(const sw_contact *c) {
+  for (size_t i = 0; i < c->memory_count; i++) {
+    const size_t o = sw_contact_index(c, c->memory[i].obstacle);
+    if (c->memory[i].kept.normal_force > 0 && o < c->count && sw_contact_is_faceted(c, o)) return 1;
+  }
+  return 0;
+}
+
 int sw_contact_memory_fits(const void *memory, size_t bytes, size_t nodes, size_t obstacles) {
   const size_t count = bytes / sizeof(sw_memory);
   for (size_t i = 0; i < count; i++) {

@@ -206,12 +206,15 @@ static sw_status continue_forgetting(sw_statics *p, double touched, sw_error *er
   return status;
 }
 
-/* 1 if friction must oppose the whole way of this pose. Where holds draw a wire over facets,
- * touches begin and end in every step of continuation: with friction that forgets, the pull was 15
- * % low (spec/contact/hollow_edges_spec). In a first pose the way is that of a wire that begins in
- * the air. */
+/* 1 if friction must oppose the whole way of this pose. Where holds draw a wire over the facets of
+ * a round surface, touches begin and end in every step of continuation: with friction that forgets,
+ * the pull was 15 % low (spec/contact/hollow_edges_spec). On a smooth surface touches go on, and
+ * friction that keeps threw wires that buckle far aside (spec/model/example_spec). In a first pose
+ * the way is that of a wire that begins in the air. */
 static int keeps(const sw_statics *p) {
-  return p->leads > 0 || sw_rest_dragged(p) > 0 || (p->slides && p->rests);
+  const sw_contact *c = sw_scene_contact(p->s);
+  return p->leads > 0 || sw_rest_dragged(p) > 0 ||
+         (p->slides && p->rests && c && sw_contact_on_facets(c));
 }
 
 static sw_status continue_on(sw_statics *p, double touched, sw_error *err) {
