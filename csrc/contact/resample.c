@@ -8,6 +8,7 @@
 #include <stdlib.h>
 
 #include "base/alloc.h"
+#include "base/halving.h"
 #include "contact/pads.h"
 #include "contact/touch.h"
 #include "state/hinge.h"
@@ -85,10 +86,17 @@ static void move(const list *l, size_t k, double s, sw_memory *m) {
 /* A sample hardly presses below this share of the force that is looked for [-]. */
 static const double HARDLY = 1e-3;
 
+/* Returns the first former sample that reaches beyond s. They are in order along the wire. */
+static size_t reaching(const list *l, double s) {
+  size_t k;
+  SW_FIRST_NOT(l->sample[k].to <= s, k, 0, l->count);
+  return k;
+}
+
 /* Normal force of the former samples on the wire from `from` to `to` [N]. */
 static double force_on(const list *l, double from, double to) {
   double sum = 0;
-  for (size_t k = 0; k < l->count; k++) {
+  for (size_t k = reaching(l, from); k < l->count && l->sample[k].from < to; k++) {
     const sample *x = &l->sample[k];
     const double covered = fmin(to, x->to) - fmax(from, x->from);
     if (covered > 0) sum += x->memory->kept.normal_force * (covered / (x->to - x->from));
@@ -96,13 +104,22 @@ static double force_on(const list *l, double from, double to) {
   return sum;
 }
 
-/* The former sample that a new one has its memory from: the nearest one, or the one with the most
- * force if that hardly presses. */
-static size_t origin_of(const list *l, double s, double force) {
-  size_t k = 0, most = 0;
+/* Returns the former sample nearest to s. */
+static size_t nearest(const list *l, double s) {
+  size_t k = reaching(l, s);
+  if (k == l->count) k--;
+  while (k > 0 && fabs(l->sample[k - 1].s - s) <= fabs(l->sample[k].s - s)) k--;
   while (k + 1 < l->count && fabs(l->sample[k + 1].s - s) < fabs(l->sample[k].s - s)) k++;
+  return k;
+}
+
+/* The former sample that a new one has its memory from: the nearest one or, if that hardly presses,
+ * the one with the most force on the same wire. */
+static size_t origin_of(const list *l, const sample *x, double force) {
+  const size_t k = nearest(l, x->s);
   if (l->sample[k].memory->kept.normal_force >= HARDLY * force) return k;
-  for (size_t i = 0; i < l->count; i++)
+  size_t most = reaching(l, x->from);
+  for (size_t i = most; i < l->count && l->sample[i].from < x->to; i++)
     if (l->sample[i].memory->kept.normal_force > l->sample[most].memory->kept.normal_force)
       most = i;
   return most;
@@ -112,7 +129,7 @@ static size_t origin_of(const list *l, double s, double force) {
 static sw_status add(sw_contact *c, const list *l, size_t node, double at, sample x) {
   const double force = force_on(l, x.from, x.to);
   if (!(force > 0)) return SW_OK;
-  const size_t k = origin_of(l, x.s, force);
+  const size_t k = origin_of(l, &x, force);
   const sample *near = &l->sample[k];
   SW_TRY(SW_GROW(c->memory, c->memory_capacity, c->memory_count + 1));
   sw_memory *m = &c->memory[c->memory_count++];
@@ -175,14 +192,14 @@ static void find_row(const sw_former *of, size_t count, int id, int segment, lis
 static sw_status add_alone(sw_contact *c, const sw_body *b, const sample *x, size_t now) {
   const sw_plan *p = b->plan;
   const int segment = x->memory->segment;
-  size_t i = 0;
   if (x->to > x->from || (!segment && now == SIZE_MAX)) return SW_OK;
-  while (i + 2 < p->nodes && p->s[i + 1] <= x->s) i++;
+  double at;
+  const size_t i = sw_plan_locate(p, x->s, &at);
   SW_TRY(SW_GROW(c->memory, c->memory_capacity, c->memory_count + 1));
   sw_memory *m = &c->memory[c->memory_count++];
   *m = *x->memory;
   m->node = (uint32_t)(segment ? b->first_node + i : now);
-  if (segment) m->at = (x->s - p->s[i]) / (p->s[i + 1] - p->s[i]);
+  if (segment) m->at = at;
   return SW_OK;
 }
 
