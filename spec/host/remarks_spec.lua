@@ -155,6 +155,35 @@ local c = s:clamp(w, { s = 0 })
     assert.equal("", err)
   end)
 
+  -- Two wires that nothing lets touch are looked at when a run ends. One that had diverged has no places: the
+  -- run raised an error about them instead of returning its reason.
+  it("are left out of a run that has diverged", function()
+    local out, err, code = script(start .. [[
+      for k = 1, 2 do
+        local w = s:wire{ E = 1e9, density = 1000, segments = 30, radius = 0.002, from = { 0, k, 0.1 },
+          to = { 0.3, k, 0.1 } }
+        s:clamp(w, { s = 0 })
+      end
+      local run = s:run{ duration = 0.5, dt = 0.02, integrator = "rk4", unstable = true }
+      print(run.ok, run.reason:match "diverged" or run.reason)]])
+    assert.same({ "", 0 }, { err, code })
+    assert.matches("^false\t", out)
+  end)
+
+  -- The radius of the round surface that facets approximate was read of removed obstacles too.
+  it("are left out of obstacles that were removed", function()
+    local out, err = script(start .. [[
+      local c = s:channel{ points = { { -0.1, 0, 0 }, { 0.2, 0, 0 }, { 0.4, 0, 0 } }, width = 0.02,
+        depth = 0.02 }
+      c:close()
+      c:open()
+      s:obstacle{ shape = "cylinder", radius = 1e-3, length = 0.1, at = { 0, 0, 2 } }:remove()
+      s:wire{ E = 1e7, density = 1000, segments = 20, radius = 2e-3, from = { 0.2, 0, 0.1 },
+        to = { 0.4, 0, 0.1 } }
+      print(s:run{ duration = 0.01 }.ok)]])
+    assert.same({ "true\n", "" }, { out, err })
+  end)
+
   it("change nothing: a wire with unusual values runs", function()
     local out, err, code = script(start .. wire("E = 5e3, density = 1500, radius = 0.0025, "
       .. "from = {0,0,1}, to = {1,0,1}") .. " print(s:run{ duration = 0.01 }.ok)")

@@ -70,7 +70,7 @@ end
 
 local function run_once(scene, args, level, hindrance)
   local run = sealed.new(Run, go.once(scene, args, level, hindrance))
-  passing.look(scene)
+  if sealed.fields(run).ok ~= false then passing.look(scene) end -- a diverged run has no places to read
   kept.ended(scene, run, summary.of)
   return run
 end

@@ -8,10 +8,11 @@ local roundness = {}
 local known = setmetatable({}, { __mode = "k" }) -- a mesh's entry -> its radius [m], or false
 
 --- Returns the radius of an obstacle, an entry of a scene's data: its parameter, or of a mesh or hull the
--- radius of the round surface that its facets approximate, about [m]. nil: it is not round.
+-- radius of the round surface that its facets approximate, about [m]. nil: it is not round, or was removed.
 function roundness.of(entry)
+  if not core.exists(entry.object) or not entry.object.present then return nil end
   if entry.radius ~= nil or entry.shape ~= "mesh" and entry.shape ~= "hull" then return entry.radius end
-  if known[entry] == nil and core.exists(entry.object) then
+  if known[entry] == nil then
     local radius = entry.object.shape:roundness()
     known[entry] = radius > 0 and radius or false
   end
