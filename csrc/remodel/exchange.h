@@ -8,6 +8,10 @@
 #include "remodel/remodel.h"
 #include "scene/gripper.h"
 
+/* SW_EINVAL if a force acts on the wire that does not go with this model. */
+sw_status sw_remodel_check_forces(const sw_scene *scene, size_t wire, const sw_wire_class *cls,
+                                  sw_error *err);
+
 /* Moves the built scene to where it is in balance with its accelerations. rings: the wire's
  * accelerations before the exchange (count x 3), at its rings or nodes. Velocities stay. */
 sw_status sw_frozen_balance(sw_scene *scene, size_t wire, const double *rings, size_t count,

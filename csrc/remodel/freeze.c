@@ -184,7 +184,7 @@ static sw_status check_freeze(const sw_scene *s, const sw_tool *t, sw_handle wir
     return sw_fail(err, SW_EINVAL,
                    "gripper '%s': wire '%s' is a %s; only a mesh has sections that pads deform",
                    t->name, w->name, w->cls->name);
-  return SW_OK;
+  return sw_remodel_check_forces(s, wire.slot, sw_wire_find("rod"), err);
 }
 
 sw_status sw_scene_tool_freeze(sw_scene *s, sw_handle tool, sw_handle wire, sw_balance *balance,

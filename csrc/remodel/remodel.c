@@ -18,6 +18,7 @@
 #include "link/hold.h"
 #include "read/reading.h"
 #include "remodel/borne.h"
+#include "remodel/exchange.h"
 #include "remodel/line.h"
 #include "save/life.h"
 #include "scene/drive.h"
@@ -87,10 +88,15 @@ static void replace(sw_scene *s, size_t wire, sw_scene_wire *with) {
   sw_scene_forget_mesh(s, wire);
 }
 
+sw_status sw_remodel_check_forces(const sw_scene *s, size_t wire, const sw_wire_class *cls,
+                                  sw_error *err) {
+  sw_scene_wire as = *sw_scene_wire_in(s, wire);
+  as.cls = cls;
+  return sw_scene_check_rules(s, wire, &as, err);
+}
+
 static sw_status check(const sw_scene *s, size_t wire, const sw_wire_class *cls, sw_error *err) {
   const sw_scene_wire *w = sw_scene_wire_in(s, wire);
-  sw_scene_wire as = *w;
-  as.cls = cls;
   if (w->mesh.rest)
     return sw_fail(err, SW_EINVAL,
                    "remodel: wire '%s' is curved at rest, has two values of EI or rolls; such "
@@ -113,7 +119,7 @@ static sw_status check(const sw_scene *s, size_t wire, const sw_wire_class *cls,
   SW_EACH(hold, h, s)
     if (h->alive && h->wire == wire && h->cls->hold->rail)
       return sw_fail(err, SW_EINVAL, "remodel: wire '%s' slides along '%s'", w->name, h->name);
-  return sw_scene_check_rules(s, wire, &as, err);
+  return sw_remodel_check_forces(s, wire, cls, err);
 }
 
 sw_status sw_scene_replace_wire(sw_scene *s, size_t wire, sw_scene_wire *with, sw_error *err) {

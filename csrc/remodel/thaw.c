@@ -305,6 +305,7 @@ sw_status sw_scene_tool_thaw(sw_scene *s, sw_handle tool, sw_thaw then, sw_balan
   f->wire = sw_scene_body_now(s, f->wire); /* others may have left */
   const int on_rod =
       then == SW_THAW_LEAVES || sw_scene_wire_in(s, f->wire.slot)->strand.web != NULL;
+  if (!on_rod) SW_TRY(sw_remodel_check_forces(s, f->wire.slot, f->cls, err));
   SW_TRY(sw_scene_build(s, err));
   const sw_exchange exchange = {
       tool, f->wire.slot, f, &line, NULL, balance, on_rod ? change_to_pads : change_to_mesh};
