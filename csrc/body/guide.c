@@ -367,6 +367,7 @@ sw_status sw_feed_make_room(sw_scene *s, double t, int *changed, sw_error *err) 
     axes[2 * k + 1] = sw_vec_at(system->normals_now, 2 * k + 1);
   }
   sw_status status = sw_scene_unbuild(s);
+  sw_scene_feed_nodes(s);
   if (status == SW_OK) status = tend_all(s, t, axes, changed, err);
   if (status == SW_ENOMEM) return sw_fail(err, status, "feed: out of memory");
   if (status != SW_OK) return status;

@@ -7,7 +7,6 @@
 #include "body/build.h"
 #include "body/touching.h"
 #include "contact/resample.h"
-#include "link/hold.h"
 #include "scene/lists.h"
 #include "scene/parts.h"
 #include "scene/wire.h"
@@ -25,15 +24,14 @@ static void find_again(const sw_scene *s, size_t w, size_t *new_node, size_t *ne
 }
 
 /* 1 if wire w of the contact memory is a line that has got other nodes. Feeding makes nodes in its
- * hold, and none of those that touch something are others. */
+ * hold, and none of those that touch something are others; an edit of a wire that is fed may. */
 static int is_changed(const sw_scene *s, size_t w, const size_t *new_node) {
   const sw_kept_contact *k = sw_scene_kept(s);
   if (k->now[w] == SIZE_MAX) return 0;
   const sw_body *b = &sw_scene_system(s)->bodies[k->now[w]];
   if (b->plan->web) return 0;
   if (k->changed == w + 1) return 1;
-  SW_EACH(hold, h, s)
-    if (h->alive && h->wire == k->now[w] && sw_hold_passes(h)) return 0;
+  if (k->fed) return 0;
   int changed = b->plan->nodes != k->first[w + 1] - k->first[w];
   for (size_t i = k->first[w]; i < k->first[w + 1] && !changed; i++)
     changed = new_node[i] == SIZE_MAX;

@@ -51,6 +51,7 @@ typedef struct sw_kept_contact {
   size_t *now;   /* (wires) present slot; SIZE_MAX: the wire is gone */
   size_t wires;
   int fresh;
+  int fed;        /* 1: nodes changed by feeding only; used at once, so it is not on tape */
   size_t changed; /* number + 1 of a wire whose nodes have changed since; 0: none */
 } sw_kept_contact;
 

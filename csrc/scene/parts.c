@@ -79,6 +79,7 @@ void sw_scene_forget_mesh(sw_scene *s, size_t wire) {
   s->kept.changed = wire + 1;
   sw_course_jump(&s->course);
 }
+void sw_scene_feed_nodes(sw_scene *s) { s->kept.fed = 1; }
 void sw_scene_unmake_body(sw_scene *s) { s->wire_count--; }
 uint32_t sw_scene_number(sw_scene *s) { return ++s->serial; }
 

@@ -116,6 +116,8 @@ const sw_pose *sw_scene_part(const sw_scene *scene, double *share); /* returns b
 void sw_scene_renumber(sw_scene *scene);
 /* Call when the wire has other nodes: contact forgets it, and its velocities jump. */
 void sw_scene_forget_mesh(sw_scene *scene, size_t wire);
+/* Call when only feeding makes and removes nodes until the scene is built. */
+void sw_scene_feed_nodes(sw_scene *scene);
 /* Drops the last body from the list without freeing its memory. */
 void sw_scene_unmake_body(sw_scene *scene);
 /* Returns a new number, for a generation or a shape of a hold. */

@@ -9,7 +9,7 @@ local t = require "spec.physics.tools"
 
 local R, PULL = 0.02, 3 -- radius of the peg [m], pull at the free end [N]
 
-local function over_peg(cable, change, dt)
+local function over_peg(cable, change, dt, fed)
   local scene, points = sw.scene{}, {}
   local a = R + sw.cable(cable).outer_diameter.value / 2
   points[1] = { -a, 0, -0.2 }
@@ -23,7 +23,7 @@ local function over_peg(cable, change, dt)
   scene:force{ kind = "point", on = wire, s = wire.length, force = { 0, 0, -PULL } }
   local peg = scene:obstacle{ name = "peg", shape = "cylinder", radius = R, length = 0.1, friction = 0.3,
     rotation = { axis = { 1, 0, 0 }, angle = math.pi / 2 } }
-  scene:clamp(wire, { s = 0 })
+  if fed then scene:feed(wire, { s = 0 }) else scene:clamp(wire, { s = 0 }) end
   local out = {}
   scene:process(function(p)
     p:wait(0.5)
@@ -44,10 +44,12 @@ local function remodel(_, wire) wire:remodel{ model = "rod", segments = 131 } en
 describe("a cable round a peg that gets other edges", function()
   for _, o in ipairs{ { "GXL 1.5", clamp, 0.004 }, { "GXL 1.5", clamp, 0.002 }, { "GXL 1.5", clamp, 0.001 },
     { "GXL 1.5", pin, 0.002 }, { "GXL 1.5", remodel, 0.002 }, { "FLRY-B 0.5", clamp, 0.002 },
-    { "FLRY-B 0.5", pin, 0.002 }, { "FLRY-B 0.5", remodel, 0.002 } } do
+    { "FLRY-B 0.5", pin, 0.002 }, { "FLRY-B 0.5", remodel, 0.002 }, { "GXL 1.5", clamp, 0.002, "fed" },
+    { "GXL 1.5", pin, 0.001, "fed" }, { "FLRY-B 0.5", pin, 0.002, "fed" } } do
     local what = o[2] == clamp and "clamp" or o[2] == pin and "pin" or "remodel"
-    it(("presses as before: %s, %s, steps of %g s"):format(o[1], what, o[3]), function()
-      local got, run = over_peg(o[1], o[2], o[3])
+    local from = o[4] and ", from a feed at rest" or ""
+    it(("presses as before: %s, %s%s, steps of %g s"):format(o[1], what, from, o[3]), function()
+      local got, run = over_peg(o[1], o[2], o[3], o[4])
       t.share(got.before, got.soon, 0.1, "force of the peg at once [N]")
       t.share(got.before, got.after, 0.1, "force of the peg later [N]")
       t.below(0.1 * got.before, got.hold, "force of the new hold [N]")

@@ -35,11 +35,16 @@ local function deepest(wire, solid)
   return depth, place
 end
 
---- Returns obstacles as solids: a list of { name, shape, at, q }.
-function room.solids(obstacles)
+--- Returns obstacles as solids, a list of { name, shape, at, q }: as they are, or as they would be if what
+-- carries them went from one pose to another. from, to: { place, quaternion }.
+function room.solids(obstacles, from, to)
   local list = {}
   for i, obstacle in ipairs(obstacles) do
     local at, q = obstacle:pose()
+    if to then
+      local turn = vec.multiply(to[2], vec.conjugate(from[2]))
+      at, q = vec.add(to[1], vec.rotate(turn, vec.sub(at, from[1]))), vec.multiply(turn, q)
+    end
     list[i] = { name = obstacle.name, shape = obstacle.shape, at = at, q = q }
   end
   return list

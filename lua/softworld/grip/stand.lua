@@ -139,19 +139,19 @@ local function make_beside(self, wire, s, wires, level)
   build.call(level, function()
     room.check(self, wires, pads.solids(self, at, rotation, wire.radius))
   end)
+  if s then stand.tell_far(self, wire, s, self.at, stand.JUMPS) end
   stand.make_tool(self, level + 1, wire, s, wires)
 end
 
--- Puts the pads at the wire's arc length s, unless they would stand in one of the wires there.
+-- Puts the pads at the wire's arc length s, unless they would stand in one of the wires there. They are
+-- looked at before they move: pads that jump there and back jolt the scene.
 local function put_beside(self, wire, s, wires)
-  local at, q = self.tool:pose()
-  if s then self.tool:pose(around(self, wire, s, wires)) end
-  local _, now = self.tool:pose()
-  local fine, why = pcall(room.check, self, wires, room.solids(self.obstacles), self.tool:state().opening,
-    now)
-  if fine then return end
-  if s then self.tool:pose(at, q) end
-  error(why, 0)
+  local opening, from, to = self.tool:state().opening, { self.tool:pose() }, nil
+  if s then to = { around(self, wire, s, wires) } end
+  room.check(self, wires, room.solids(self.obstacles, from, to), opening, (to or from)[2])
+  if not to then return end
+  stand.tell_far(self, wire, s, from[1], stand.JUMPS)
+  self.tool:pose(to[1], to[2])
 end
 
 --- Puts the open pads at the wire's arc length s, or in the middle of several wires there. Pads that move
@@ -163,9 +163,6 @@ function stand.place_tool(self, wire, s, wires, level)
         self.busy_until), level)
     end
     self.at = (self.carrier:pose())
-  end
-  if s and not stand.is_moving(self) then
-    stand.tell_far(self, wire, s, self.tool and self.tool:pose() or self.at, stand.JUMPS)
   end
   if not self.tool then return make_beside(self, wire, s, wires, level + 1) end
   local moves = s and stand.is_moving(self)
