@@ -211,8 +211,7 @@ double sw_contact_edge_stiffness(const sw_system *system, size_t body, size_t no
 sw_status sw_contact_began(sw_contact *contact, double t, sw_error *err);
 /* Poses of obstacle id (of its owner) at the step's start and as last placed; 0: there is none. */
 int sw_contact_poses(const sw_contact *contact, int id, sw_pose *from, sw_pose *to);
-/* 1 if the same touches press as at the step's start, and nothing struck. */
-int sw_contact_steady(const sw_contact *contact);
+int sw_contact_steady(const sw_contact *contact); /* 1: the same touches press, nothing struck */
 double sw_contact_hardened(const sw_contact *contact); /* most gain of stiffened touches [J] */
 double sw_contact_unbent(const sw_contact *contact);   /* work of arcs that become flatter [J] */
 double sw_contact_fastest(const sw_contact *contact); /* fastest obstacle at the step's end [m/s] */
@@ -228,15 +227,14 @@ const void *sw_contact_memory(const sw_contact *contact, size_t *bytes);
 enum { SW_CONTACT_FRESH = 1, SW_CONTACT_EMERGING = 2 };
 int sw_contact_is_fresh(const sw_contact *contact);
 sw_status sw_contact_set_memory(sw_contact *contact, const void *memory, size_t bytes, int fresh);
-/* 1 if a memory of any origin names only existing nodes and obstacles. */
+/* 1 if it names only existing nodes and obstacles. */
 int sw_contact_memory_fits(const void *memory, size_t bytes, size_t nodes, size_t obstacles);
 /* The touches at the accepted state, as a block for read-outs only. SW_EINVAL: the block names
  * nodes (of this many) or obstacles that do not exist. */
 const void *sw_contact_seen(sw_contact *contact, size_t *bytes);
 sw_status sw_contact_set_seen(sw_contact *contact, const void *seen, size_t bytes,
                               const sw_system *system);
-/* A number that changes with the layout of these blocks, for comparison between versions. */
-size_t sw_contact_layout(void);
+size_t sw_contact_layout(void); /* a number that changes with the layout of these blocks */
 /* 1 if the memory contains a wire's node, or a segment that begins or ends there. */
 int sw_contact_memory_names(const void *memory, size_t bytes, size_t node);
 /* Adds the memory of nodes from old_first up to old_end (exclusive), for these obstacles (count)
