@@ -41,8 +41,8 @@ static const double LITTLE = 1e-5;
 static const double THROWN = 3.0, FAR = 0.05;
 
 /* 1 if a wire that holds draw over something that rubs is thrown aside between two states. Where it
- * buckles, Newton's iteration may find any equilibrium: single poses of 4 to 18 mm threw it by 48
- * to 179 mm (spec/contact/thrown_poses_spec). Places that hang in the air may swing far. */
+ * buckles, Newton's iteration may find any equilibrium: single poses of 4 to 30 mm threw it by 70
+ * to 180 mm (spec/contact/thrown_poses_spec). Places that hang in the air may swing far. */
 static int throws(const sw_statics *p, const double *from, const double *to) {
   const sw_contact *c = sw_scene_contact(p->s);
   if (!(p->slides && p->rests && c)) return 0;
