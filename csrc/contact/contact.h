@@ -197,8 +197,6 @@ int sw_contact_shaken(const sw_contact *contact, const sw_system *system);
 /* Two obstacles face each other if the cosine between their normals is below this [-]. */
 #define SW_FACING (-0.7)
 int sw_contact_on_facets(const sw_contact *contact); /* 1: facets of a round surface bear wires */
-/* Largest distance between two states of nodes that pressed at the step's start [m]. */
-double sw_contact_slid_far(const sw_contact *contact, const double *from, const double *to);
 /* A wire's weight; without gravity, its bending force EI/L^2 [N]. */
 double sw_contact_usual_force(const sw_system *system, const sw_plan *plan);
 /* From this force on a wire is squeezed or taut, and cannot come out; 0 for a mesh [N]. */

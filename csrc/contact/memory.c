@@ -159,16 +159,6 @@ int sw_contact_on_facets(const sw_contact *c) {
   return 0;
 }
 
-double sw_contact_slid_far(const sw_contact *c, const double *from, const double *to) {
-  double most = 0;
-  for (size_t i = 0; i < c->memory_count; i++) {
-    const size_t node = c->memory[i].node;
-    if (c->memory[i].kept.normal_force > 0)
-      most = fmax(most, sw_dist(sw_vec_at(from, node), sw_vec_at(to, node)));
-  }
-  return most;
-}
-
 int sw_contact_memory_fits(const void *memory, size_t bytes, size_t nodes, size_t obstacles) {
   const size_t count = bytes / sizeof(sw_memory);
   for (size_t i = 0; i < count; i++) {

@@ -115,9 +115,9 @@ static double led_time(const sw_statics *p) {
   return sqrt(led_by(p) / fmax(sw_norm(sw_scene_gravity(p->s)), 1.0));
 }
 
-/* Share of all iterations after which a search that others may follow ends. Most need less than a
- * tenth [-]. */
-static const double TRYING = 0.2;
+/* Share of all iterations after which a search that keeps what friction slid ends. Most need less
+ * than a tenth [-]. */
+static const double KEEPING = 0.2;
 
 /* unstable: 1 if the step failed because it ended in an unstable place. */
 static sw_status continue_by(sw_statics *p, double tau, int *unstable, sw_error *err) {
@@ -125,7 +125,7 @@ static sw_status continue_by(sw_statics *p, double tau, int *unstable, sw_error 
   *unstable = 0;
   SW_TRY(sw_rest_solve(p, tau, &CONTINUE, err));
   if (led_by(p) > 0 || !ends_unstable(p, tau) ||
-      sw_rest_is_late(p, p->tries ? PATIENCE * TRYING : PATIENCE))
+      sw_rest_is_late(p, p->keeps ? PATIENCE * KEEPING : PATIENCE))
     return SW_OK;
   *unstable = 1;
   memcpy(s->tension, p->tension, s->edges * sizeof(double));
@@ -150,7 +150,7 @@ sw_status sw_rest_transient(sw_statics *p, sw_error *err) {
   double tau =
       p->slow ? SW_REST_SLOWEST_GROWTH * sw_rest_time_scale(s) : fmax(first, LED * led_time(p));
   p->report->transient = 1;
-  while (!sw_rest_is_late(p, p->tries ? TRYING : 1.0)) {
+  while (!sw_rest_is_late(p, p->keeps ? KEEPING : 1.0)) {
     if (p->interrupted && p->interrupted()) return SW_EINTR;
     const size_t before = p->report->iterations;
     int unstable;
@@ -158,7 +158,7 @@ sw_status sw_rest_transient(sw_statics *p, sw_error *err) {
     if (sw_rest_stops(status)) return status;
     if (status != SW_OK) {
       tau *= unstable ? SHORTER_UNSTABLE : SHORTER;
-      if (!p->tries && p->too_far && tau < LEAST_LED * led_time(p)) {
+      if (!p->keeps && p->too_far && tau < LEAST_LED * led_time(p)) {
         *p->too_far = 1;
         return sw_fail(err, SW_ENOCONV, "wires are dragged too far in one step");
       }
@@ -181,7 +181,7 @@ sw_status sw_rest_transient(sw_statics *p, sw_error *err) {
     longest = fmax(SHORTER_LONGEST * longest, LEAST_GROWTH * first);
     tau = first, steps = 0;
   }
-  if (led && p->too_far && !p->tries) *p->too_far = 1; /* half of the pose may end elsewhere */
+  if (led && p->too_far && !p->keeps) *p->too_far = 1; /* half of the pose may end elsewhere */
   return sw_fail(
       err, SW_ENOCONV,
       "not at rest after %zu iteration%s: the last iteration still moved the wires by %.3g m",

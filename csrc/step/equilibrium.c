@@ -35,21 +35,6 @@ static int loose(const sw_scene *s) {
 /* Largest force, over the weight, that the solve with a little mass may leave unbalanced [-]. */
 static const double LITTLE = 1e-5;
 
-/* Where a wire that lies on something ends further from its place than THROWN times the way of its
- * holds it was thrown, if by more than FAR of the longest wire. With 0.01 instead, wires that
- * spring off pegs take 1.2 times the iterations [-]. */
-static const double THROWN = 3.0, FAR = 0.05;
-
-/* 1 if a wire that holds draw over something that rubs is thrown aside between two states. Where it
- * buckles, Newton's iteration may find any equilibrium: single poses of 4 to 30 mm threw it by 70
- * to 180 mm (spec/contact/thrown_poses_spec). Places that hang in the air may swing far. */
-static int throws(const sw_statics *p, const double *from, const double *to) {
-  const sw_contact *c = sw_scene_contact(p->s);
-  if (!(p->slides && p->rests && c)) return 0;
-  const double shift = sw_contact_slid_far(c, from, to);
-  return shift > THROWN * p->drawn && shift > FAR * sw_rest_longest(p->s);
-}
-
 sw_status sw_rest_newton(sw_statics *p, int iterations, sw_error *err) {
   const sw_newton newton = {.max_iterations = iterations,
                             .accept_rotation = fmax(STATIC_TURN, p->passing),
@@ -62,9 +47,7 @@ sw_status sw_rest_newton(sw_statics *p, int iterations, sw_error *err) {
   const int massive = loose(p->s);
   SW_TRY(sw_rest_solve(p, massive ? slowest : HUGE_VAL, &newton, err));
   p->report->residual = p->args->tolerance;
-  p->thrown = p->wary && throws(p, sw_scene_system(p->s)->x, p->y);
-  const double shift = sw_rest_take(p, p->report->negative > 0 || p->thrown);
-  if (p->thrown) return sw_fail(err, SW_ENOCONV, "a wire would be thrown aside");
+  const double shift = sw_rest_take(p, p->report->negative > 0);
   const double far = LITTLE * fmax(sw_norm(sw_scene_gravity(p->s)), 1.0) * slowest * slowest;
   if (p->report->negative == 0 && !(massive && shift > far)) return SW_OK;
   /* once more with a little mass, which removes rounding in neutral directions */
@@ -178,21 +161,20 @@ static int found(const sw_statics *p, sw_status status) {
   return (status == SW_OK && p->report->negative == 0) || sw_rest_stops(status);
 }
 
-/* Continues with a small share of all iterations. *again: 1 if no rest was found; the state is then
- * as before. touched: the time up to which contact followed the obstacles. keeps: 1 to continue
- * with all that friction slid since the pose's start, so that wires follow what drags them in steps
- * of any length, and friction opposes their way where holds draw them. */
-static sw_status try_to_continue(sw_statics *p, double touched, int keeps, int *again,
-                                 sw_error *err) {
+/* Continues with all that friction slid since the pose's start, so that wires follow what drags
+ * them in steps of any length, and friction opposes their way where holds draw them. *again: 1 if
+ * no rest was found; the state is then as before. touched: the time up to which contact followed
+ * the obstacles. */
+static sw_status continue_keeping(sw_statics *p, double touched, int *again, sw_error *err) {
   const double leads = p->leads;
   const size_t begun = p->report->iterations;
   sw_tape start = {0};
   sw_error why = {"out of memory"};
   sw_status status = sw_live_take(p->s, &start);
   if (status == SW_OK) {
-    p->keeps = keeps, p->tries = 1;
+    p->keeps = 1;
     status = sw_rest_continue(p, &why);
-    p->keeps = 0, p->tries = 0;
+    p->keeps = 0;
   }
   *again = status == SW_ENOCONV;
   if (*again) {
@@ -238,7 +220,7 @@ static int keeps(const sw_statics *p) {
 static sw_status continue_on(sw_statics *p, double touched, sw_error *err) {
   if (keeps(p)) {
     int again = 0;
-    const sw_status status = try_to_continue(p, touched, 1, &again, err);
+    const sw_status status = continue_keeping(p, touched, &again, err);
     if (status != SW_OK || !again) return status;
   }
   return continue_forgetting(p, touched, err);
@@ -278,29 +260,11 @@ static sw_status newton_down(sw_statics *p, sw_error *err) {
   return sw_fail(err, SW_ENOCONV, "a wire would come to rest higher than it was");
 }
 
-/* Where Newton's iteration threw a wire aside, continuation follows the path that the wire would
- * take. *again: 1 if it finds no rest; then the result of Newton's iteration is taken. */
-static sw_status follow_instead(sw_statics *p, double touched, int *again, sw_error *err) {
-  const int transient = p->report->transient;
-  sw_rest_take_back(p->s, p->kept);
-  SW_TRY(try_to_continue(p, touched, 0, again, err));
-  if (!*again) return SW_OK;
-  p->report->transient = transient;
-  return newton_down(p, err);
-}
-
 sw_status sw_rest_find(sw_statics *p, sw_error *err) {
   int fell = 0;
   const double touched = p->touched, leads = p->leads;
   sw_rest_put_aside(p->s, p->kept);
-  p->wary = 1, p->thrown = 0;
   sw_status status = newton_down(p, err);
-  p->wary = 0;
-  if (p->thrown) {
-    int again = 0;
-    status = follow_instead(p, touched, &again, err);
-    if (!again) return status;
-  }
   if (found(p, status)) return status;
   if (!p->rests && (sw_rest_dragged(p) > 0 || p->leads > 0)) {
     sw_rest_take_back(p->s, p->kept);

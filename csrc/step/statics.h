@@ -20,13 +20,9 @@ typedef struct sw_statics {
   int divides;    /* 1: this part must be divided */
   int rubs;       /* 1: wires may drag each other along */
   int left_alone; /* 1: in this part no hold, feed or jaw moves a wire */
-  double drawn;   /* in this part of the pose, shift of holds that draw wires that rub [m] */
   double leads;   /* shift of the holds by which wires may drag each other along; 0 from the first
                      accepted step on [m] */
   int keeps;      /* 1: continuation keeps what friction slid since the pose's start */
-  int tries;      /* 1: continuation may take a small share of all iterations only */
-  int wary;       /* 1: Newton's iteration may not throw wires aside */
-  int thrown;     /* 1: that is why it failed */
   int holds;      /* 1: contact keeps it in the coming commit */
   int slow;       /* 1: continuation begins with a step as long as the slowest growth */
   double passing; /* accuracy before the last part of the holds' path: largest shift of a node, over
