@@ -5,34 +5,19 @@
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
+local tools = require "spec.shape.tools"
 
 local FAR, TUBE, MU = 0.03, 0.012, 0.3
 
 -- A torus about z with n facets around, of m each; its facets begin at `shift` of one. n = nil: exact.
 local function torus(scene, n, m, shift)
   if not n then return scene:obstacle{ shape = "torus", radius = FAR, tube = TUBE, friction = MU } end
-  local text, plain = {}, os.tmpname()
-  for i = 0, n - 1 do
-    for j = 0, m - 1 do
-      local a, b = 2 * math.pi * (i + shift) / n, 2 * math.pi * j / m
-      local far = FAR + TUBE * math.cos(b)
-      local x, y, z = far * math.cos(a), far * math.sin(a), TUBE * math.sin(b)
-      text[#text + 1] = ("v %.12g %.12g %.12g"):format(x, y, z)
-    end
-  end
-  local function at(i, j) return (i % n) * m + j % m + 1 end
-  for i = 0, n - 1 do
-    for j = 0, m - 1 do
-      text[#text + 1] = ("f %d %d %d"):format(at(i, j), at(i + 1, j), at(i + 1, j + 1))
-      text[#text + 1] = ("f %d %d %d"):format(at(i, j), at(i + 1, j + 1), at(i, j + 1))
-    end
-  end
-  local name = plain .. ".obj"
-  local file <close> = assert(io.open(name, "w"))
-  file:write(table.concat(text, "\n"), "\n"):close()
-  scene:obstacle{ shape = "mesh", file = name, friction = MU }
-  os.remove(name)
-  os.remove(plain)
+  local points, triangles = tools.sheet(n, m, true, function(i, j)
+    local a, b = 2 * math.pi * (i + shift) / n, 2 * math.pi * j / m
+    local far = FAR + TUBE * math.cos(b)
+    return { far * math.cos(a), far * math.sin(a), TUBE * math.sin(b) }
+  end)
+  return scene:obstacle{ shape = "mesh", data = tools.obj(points, triangles), format = "obj", friction = MU }
 end
 
 -- Draws a cable that hangs over the inner side: the pulls over its weight, five during the way.

@@ -5,6 +5,7 @@
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
+local tools = require "spec.shape.tools"
 
 local MU = 0.3
 
@@ -22,26 +23,11 @@ end
 
 -- A plate of n x m facets with rounded coordinates.
 local function plate(scene, n, m)
-  local text, plain = {}, os.tmpname()
-  for i = 0, n do
-    for j = 0, m do
-      local p = turned{ -0.1 + 0.5 * i / n, -0.03 + 0.06 * j / m, 0 }
-      text[#text + 1] = ("v %.17g %.17g %.17g"):format(float(p[1]), float(p[2]), float(p[3]))
-    end
-  end
-  local function at(i, j) return i * (m + 1) + j + 1 end
-  for i = 0, n - 1 do
-    for j = 0, m - 1 do
-      text[#text + 1] = ("f %d %d %d"):format(at(i, j), at(i + 1, j), at(i + 1, j + 1))
-      text[#text + 1] = ("f %d %d %d"):format(at(i, j), at(i + 1, j + 1), at(i, j + 1))
-    end
-  end
-  local name = plain .. ".obj"
-  local file <close> = assert(io.open(name, "w"))
-  file:write(table.concat(text, "\n"), "\n"):close()
-  scene:obstacle{ shape = "mesh", file = name, friction = MU }
-  os.remove(name)
-  os.remove(plain)
+  local points, triangles = tools.sheet(n, m, false, function(i, j)
+    local p = turned{ -0.1 + 0.5 * i / n, -0.03 + 0.06 * j / m, 0 }
+    return { float(p[1]), float(p[2]), float(p[3]) }
+  end)
+  scene:obstacle{ shape = "mesh", data = tools.obj(points, triangles), format = "obj", friction = MU }
 end
 
 -- Draws a cable along it in poses: pull over mu W.

@@ -55,6 +55,23 @@ function tools.box_triangles(x, y, z)
   return tools.box_points(x, y, z), triangles
 end
 
+--- Returns corners and triangles of a sheet of n x m cells, two triangles each. place(i, j): corner i of n, j
+-- of m. closed: true if it closes to a ring both ways, as a torus; else corners go from 0 to n and m.
+function tools.sheet(n, m, closed, place)
+  local points, triangles, more = {}, {}, closed and 0 or 1
+  for i = 0, n - 1 + more do
+    for j = 0, m - 1 + more do table.move(place(i, j), 1, 3, #points + 1, points) end
+  end
+  local function at(i, j) return i % (n + more) * (m + more) + j % (m + more) + 1 end
+  for i = 0, n - 1 do
+    for j = 0, m - 1 do
+      triangles[#triangles + 1] = { at(i, j), at(i + 1, j), at(i + 1, j + 1) }
+      triangles[#triangles + 1] = { at(i, j), at(i + 1, j + 1), at(i, j + 1) }
+    end
+  end
+  return points, triangles
+end
+
 function tools.obj(points, triangles)
   local lines = {}
   for i = 1, #points, 3 do
