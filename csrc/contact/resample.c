@@ -137,8 +137,8 @@ static sw_status add(sw_contact *c, const list *l, size_t node, double at, sampl
   *m = *near->memory;
   m->node = (uint32_t)node, m->at = at;
   m->kept.normal_force *= share, m->kept.steady *= share;
-  m->kept.depth *=
-      share; /* at the same stiffness: it is as soft as a touch that was always there */
+  /* at the same stiffness: it is as soft as a touch that was always there */
+  m->kept.depth *= share;
   m->kept.elastic = sw_scale(m->kept.elastic, share);
   if (x.s != near->s) move(l, k, x.s, m);
   return SW_OK;

@@ -157,7 +157,7 @@ const sw_memory *sw_contact_remembered(const sw_contact *c, const sw_candidate *
                                        const sw_closest *place);
 /* Returns the obstacle with this owner's number, or count. */
 size_t sw_contact_index(const sw_contact *c, int id);
-int sw_contact_is_faceted(const sw_contact *c, size_t o); /* 1: its facets approximate a round */
+int sw_contact_is_faceted(const sw_contact *c, size_t o); /* 1: a round thing, of facets */
 /* Returns a place along a candidate as a mean of nodes. */
 sw_mean sw_contact_spot(const sw_system *s, const sw_candidate *k, double at);
 
