@@ -68,14 +68,16 @@ static lsw_load load_of(lua_State *L) {
 static int meth_force(lua_State *L) { return lsw_push_vector(L, load_of(L).force), 1; }
 static int meth_moment(lua_State *L) { return lsw_push_vector(L, load_of(L).moment), 1; }
 
-/* join:read() of a tie -> { distance, tension, peak, broken, broken_time, broken_force } */
+/* join:read() of a tie -> { distance [m], tension [N], peak [N], broken, broken_time [s],
+ * broken_force [N] }; no distance (NaN in C) once a wire of it has been removed. */
 static int meth_read(lua_State *L) {
   const char *const *names;
   double values[SW_LINK_OUTPUTS];
   const lsw_self j = lsw_check_self(L, &lsw_class_join);
   LSW_DO(L, sw_scene_read_join, j.scene, j.id, &names, values);
   lua_newtable(L);
-  for (size_t k = 0; names[k]; k++) lsw_set_number(L, names[k], values[k]);
+  for (size_t k = 0; names[k]; k++)
+    if (!isnan(values[k])) lsw_set_number(L, names[k], values[k]);
   return 1;
 }
 

@@ -22,6 +22,11 @@ describe("an error", function()
   local tie = scene:tie(wire, { s = 0.1 })
   tie:release()
   scene:force{ kind = function() end }
+  local wild, earlier = sw.scene{} -- `earlier`: a run that was ok before the scene diverged in an advance
+  wild:clamp(wild:wire{ E = 1e9, density = 1e3, segments = 30, radius = 2e-3, from = { 0, 0, 0.1 },
+    to = { 0.3, 0, 0.1 } }, { s = 0 })
+  earlier = wild:run{ duration = 0.01 }
+  wild:advance({ dt = 0.02, integrator = "rk4", unstable = true }, 0.5)
   local judged, tube_section = {}
   do
     local other, tube = world()
@@ -33,6 +38,8 @@ describe("an error", function()
 
   for name, call in pairs{
     ["settle without wires"] = function() empty:settle() end,
+    ["a run of a scene that diverged"] = function() return earlier and wild:run{ duration = 0.01 } end,
+    ["settle of a scene that diverged"] = function() return earlier and wild:settle() end,
     ["a scene that is closed"] = function() closed:wire{} end,
     ["a trajectory that is closed"] = function() path:save "x.csv" end,
     ["a file that is none"] = function() way:save {} end,

@@ -26,4 +26,19 @@ describe("a tie", function()
     assert.has_error(function() whole:tension() end,
       "tie 'whole' was released, or taken back when a snapshot was restored")
   end)
+
+  it("has no distance once a wire of it is removed", function()
+    local scene = sw.scene{ name = "parted" }
+    local wires = {}
+    for k = 1, 2 do
+      wires[k] = scene:wire{ cable = "GXL 1.5", from = { 0, 0.1 * k, 0.1 }, to = { 0.3, 0.1 * k, 0.1 },
+        segments = 10 }
+    end
+    local tie = scene:join{ ends = { { wires[1], s = 0.1 }, { wires[2], s = 0.1 } }, slack = 0.2 }
+    t.near(0.1, tie:read().distance, 1e-12)
+    scene:remove(wires[2])
+    assert.same({ tension = 0, peak = 0, broken = 0, broken_time = 0, broken_force = 0 }, tie:read())
+    t.fine(scene:run{ duration = 0.02 })
+    assert.is_nil(tie:read().distance)
+  end)
 end)

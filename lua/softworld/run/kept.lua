@@ -25,7 +25,9 @@ function kept.begin(scene)
   last[scene] = nil
   if not run then return end
   local own = sealed.fields(run)
-  if own.ok and own.restores == build.data(scene).restores then own.summary_rows = before.summary(run) end
+  if own.ok and own.restores == build.data(scene).restores then
+    own.summary_rows = build.call(4, before.summary, run) -- refused if the scene has diverged since
+  end
 end
 
 --- Called when nobody will read the summary of the last run as long as the scene is in other states. Returns
