@@ -22,10 +22,10 @@ describe("an error", function()
   local tie = scene:tie(wire, { s = 0.1 })
   tie:release()
   scene:force{ kind = function() end }
-  local wild, earlier = sw.scene{} -- `earlier`: a run that was ok before the scene diverged in an advance
+  local wild = sw.scene{} -- diverges in an advance after a run that was ok
   wild:clamp(wild:wire{ E = 1e9, density = 1e3, segments = 30, radius = 2e-3, from = { 0, 0, 0.1 },
     to = { 0.3, 0, 0.1 } }, { s = 0 })
-  earlier = wild:run{ duration = 0.01 }
+  local earlier = wild:run{ duration = 0.01 }
   wild:advance({ dt = 0.02, integrator = "rk4", unstable = true }, 0.5)
   local judged, tube_section = {}
   do
