@@ -41,6 +41,7 @@ describe("an error", function()
     ["a run of a scene that diverged"] = function() return earlier and wild:run{ duration = 0.01 } end,
     ["settle of a scene that diverged"] = function() return earlier and wild:settle() end,
     ["a scene that is closed"] = function() closed:wire{} end,
+    ["save of a closed scene"] = function() closed:save "x.sws" end,
     ["a trajectory that is closed"] = function() path:save "x.csv" end,
     ["a file that is none"] = function() way:save {} end,
     ["gravity of a new scene"] = function() sw.scene{ gravity = 3 } end,

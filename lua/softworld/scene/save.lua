@@ -149,7 +149,7 @@ end
 --- scene:save(file): writes the whole state of the scene, for scene:resume and sw.load.
 function class.scene.save(scene, file)
   if core.type(scene) == "scene" then
-    local busy, seen = core.busy(scene)
+    local busy, seen = build.call(3, core.busy, scene)
     if busy then build.call(3, refuse, scene, seen) end
   end
   build.check(scene, "scene:save", 3)
