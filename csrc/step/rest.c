@@ -147,14 +147,16 @@ static sw_status follow_in(sw_statics *p, size_t parts, sw_error *err) {
   sw_status status = SW_OK;
   const size_t most = MOST_DIVIDED * parts;
   p->rubs = rubs(sw_scene_pairs(p->s)) || rubs(sw_scene_grains(p->s));
-  const double way = p->rubs ? drive_shift(p) : 0, fed_way = p->rubs ? fed(p) : 0;
+  const int drawn = p->rubs || p->slides;
+  const double way = drawn ? drive_shift(p) : 0, fed_way = drawn ? fed(p) : 0;
   p->report->rubbed = 0, p->divides = 0;
   p->left_alone = !is_driven(p);
   for (size_t i = 1; status == SW_OK && i <= parts; i++) {
     sw_scene_go_part(p->s, i < parts ? p->from_poses : NULL, (double)i / (double)parts);
     p->passing = i < parts || p->args->passing ? PASSING : 0.0;
     p->before = p->report->iterations;
-    p->leads = fmax(way / (double)parts, fed_way);
+    p->drawn = fmax(way / (double)parts, fed_way);
+    p->leads = p->rubs ? p->drawn : 0;
     const int slid = p->divides ? p->may_divide : has_slid(p);
     p->may_divide = p->slides && slid && parts < most, p->divides = 0;
     status = sw_rest_find(p, err);
