@@ -47,8 +47,8 @@ local function plane(scene) scene:obstacle{ shape = "plane", friction = MU } end
 
 local EVERY = 1.6 -- between the places of the middle that are compared [s]
 
--- Lays the cable. Returns where its middle is, every 1.6 s, and how far a node moved in one step at most, beyond
--- three times the hand's way in this step.
+-- Lays the cable. Returns where its middle is, every 1.6 s, and how far a node moved in one step at most,
+-- beyond three times the hand's way in this step.
 local function laid(put, segments, dt, quasistatic)
   local scene = sw.scene{}
   scene:force{ kind = "damping", mass = 5 }
@@ -82,10 +82,10 @@ end
 
 describe("a cable that buckles while poses lay it down", function()
   -- In slow motion nodes move by less than 10 mm more than three times as far as the hand. Friction keeps a
-  -- band of places: motion and poses of 0.1 s are up to 22 mm apart on the way (12 edges), and end up to 3 mm apart. A
-  -- thrown wire is 50 to 90 mm off on the way, until the hand has drawn it straight.
-  for _, case in ipairs{ { "plane", plane, 12, 0.8 }, { "plane", plane, 24, 0.2 }, { "plane", plane, 24, 1.6 },
-    { "plane", plane, 48, 0.8 }, { "plate", plate, 24, 0.8 } } do
+  -- band of places: motion and poses of 0.1 s are up to 22 mm apart on the way (12 edges), and end up to 3 mm
+  -- apart. A thrown wire is 50 to 90 mm off on the way, until the hand has drawn it straight.
+  for _, case in ipairs{ { "plane", plane, 12, 0.8 }, { "plane", plane, 24, 0.2 },
+    { "plane", plane, 24, 1.6 }, { "plane", plane, 48, 0.8 }, { "plate", plate, 24, 0.8 } } do
     local name, put, segments, dt = table.unpack(case)
     it(("is not thrown aside: %s, %d edges, poses of %g s"):format(name, segments, dt), function()
       local slow = laid(put, segments, 0.02)
