@@ -143,13 +143,32 @@ static int is_driven(const sw_statics *p) {
   return drive_shift(p) > 0;
 }
 
+/* Wires that move much further than their holds and obstacles have jumped to another
+ * equilibrium. */
+static const double JUMP = 4.0;           /* largest shift over that of holds and obstacles [-] */
+static const double SMALLEST_JUMP = 0.01; /* of the longest wire [-] */
+
+/* Finds the equilibrium after a part of the holds' path. Continuation, if it was needed, tells
+ * there whether a wire that rubs on something snapped: in a pose of several parts the holds may
+ * then have moved as far as the wire. */
+static sw_status find_part(sw_statics *p, sw_error *err) {
+  const int transient = p->report->transient;
+  p->report->transient = 0;
+  const sw_status status = sw_rest_find(p, err);
+  p->leapt |=
+      status == SW_OK && p->report->transient && p->slides && p->rests &&
+      sw_rest_shift_from(p, p->kept) > fmax(SMALLEST_JUMP * sw_rest_longest(p->s), JUMP * p->drawn);
+  p->report->transient |= transient;
+  return status;
+}
+
 static sw_status follow_in(sw_statics *p, size_t parts, sw_error *err) {
   sw_status status = SW_OK;
   const size_t most = MOST_DIVIDED * parts;
   p->rubs = rubs(sw_scene_pairs(p->s)) || rubs(sw_scene_grains(p->s));
   const int drawn = p->rubs || p->slides;
   const double way = drawn ? drive_shift(p) : 0, fed_way = drawn ? fed(p) : 0;
-  p->report->rubbed = 0, p->divides = 0;
+  p->report->rubbed = 0, p->divides = 0, p->leapt = 0;
   p->left_alone = !is_driven(p);
   for (size_t i = 1; status == SW_OK && i <= parts; i++) {
     sw_scene_go_part(p->s, i < parts ? p->from_poses : NULL, (double)i / (double)parts);
@@ -159,7 +178,7 @@ static sw_status follow_in(sw_statics *p, size_t parts, sw_error *err) {
     p->leads = p->rubs ? p->drawn : 0;
     const int slid = p->divides ? p->may_divide : has_slid(p);
     p->may_divide = p->slides && slid && parts < most, p->divides = 0;
-    status = sw_rest_find(p, err);
+    status = find_part(p, err);
     if (p->divides) {
       status = SW_OK, i = 2 * (i - 1), parts *= 2;
       continue;
@@ -255,10 +274,6 @@ static sw_status follow_holds(sw_statics *p, sw_error *err) {
   return follow_in(p, more, err);
 }
 
-/* Wires that move much further than their holds and obstacles have jumped to another
- * equilibrium. */
-static const double JUMP = 4.0;           /* largest shift over that of holds and obstacles [-] */
-static const double SMALLEST_JUMP = 0.01; /* of the longest wire [-] */
 /* Wires that move further than this beyond their holds fall without limit. Where rounding is as
  * large as their steps they seem to rest [of the longest wire]. */
 static const double FALLEN = 1e3;
@@ -302,8 +317,8 @@ sw_status sw_scene_rest(sw_scene *s, double since, int *too_far, const sw_settle
   if (status == SW_OK && args->farthest > 0 && shift > args->farthest)
     status = sw_fail(why, SW_ENOCONV, "the next equilibrium is %.3g m away", shift);
   if (status == SW_OK) {
-    report->jumped = report->transient && shift > SMALLEST_JUMP * sw_rest_longest(s) &&
-                     shift > JUMP * drive_shift(&p);
+    report->jumped = p.leapt || (report->transient && shift > SMALLEST_JUMP * sw_rest_longest(s) &&
+                                 shift > JUMP * drive_shift(&p));
   } else if (status != SW_EINTR) {
     sw_rest_take_back(s, p.begun);
   }

@@ -23,6 +23,7 @@ typedef struct sw_statics {
   double drawn;   /* in this part, shift of holds that draw wires which something rubs [m] */
   double leads;   /* shift of the holds by which wires may drag each other along; 0 from the first
                      accepted step on [m] */
+  int leapt;      /* 1: in a part of the path a wire that rubs on something snapped */
   int keeps;      /* 1: continuation keeps what friction slid since the pose's start */
   int holds;      /* 1: contact keeps it in the coming commit */
   int slow;       /* 1: continuation begins with a step as long as the slowest growth */
