@@ -31,7 +31,7 @@ struct sw_contact {
   int *pads;                  /* (pad_count) numbers of the pads of grippers */
   int *pressing;              /* (count) 1: a pad that pressed on something at the step's start */
   int *sharp;                 /* (count) 1: it has faces, edges and corners */
-  double *round;              /* (count) radius of its round side; 0: no round side [m] */
+  double *round, *facet;      /* (count) radius of its round side, sw_shape_facet; 0: none [m] */
   int *wound;   /* (count) last body that goes round it in this step: number + 1, or 0 */
   int *dense;   /* (count) 1: particles of the current body lie close to each other */
   double *sunk; /* (3 nodes) shift of each node's place for contact; NULL: no node is shifted [m] */

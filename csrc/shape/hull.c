@@ -142,6 +142,7 @@ const sw_shape_class sw_shape_class_hull = {
     .bones = sw_meshed_bones,
     .sharp = sw_meshed_sharp,
     .faceted = sw_meshed_faceted,
+    .facet = sw_meshed_facet,
     .roundness = sw_meshed_roundness,
     .ridges = sw_meshed_ridges,
     .points_out = sw_meshed_points_out};

@@ -77,6 +77,7 @@ const sw_shape_class sw_shape_class_mesh = {
     .bones = sw_meshed_bones,
     .sharp = sw_meshed_sharp,
     .faceted = sw_meshed_faceted,
+    .facet = sw_meshed_facet,
     .open = is_open,
     .roundness = sw_meshed_roundness,
     .ridges = sw_meshed_ridges,

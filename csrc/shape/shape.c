@@ -108,6 +108,10 @@ int sw_shape_has_edges(const sw_shape *shape) {
   return k->sharp && !(k->faceted && k->faceted(shape));
 }
 
+double sw_shape_facet(const sw_shape *shape) {
+  return shape->class->facet ? shape->class->facet(shape) : 0.0;
+}
+
 int sw_shape_is_open(const sw_shape *shape) {
   return shape->class->open && shape->class->open(shape);
 }

@@ -55,6 +55,8 @@ struct sw_shape_class {
   sw_sharp (*sharp)(const sw_shape *shape, int feature, sw_vec *along);
   /* 1 if some edges approximate a round surface; NULL = none do. */
   int (*faceted)(const sw_shape *shape);
+  /* Like sw_shape_facet; NULL = 0. */
+  double (*facet)(const sw_shape *shape);
   /* Like sw_shape_is_open; NULL = 0. */
   int (*open)(const sw_shape *shape);
   /* Like sw_shape_roundness; NULL = 0. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The radius of the round surface that a mesh's facets approximate. */
+/* The round surface that a mesh's facets approximate: its radius, and the width of the facets. */
 #include "shape/meshed.h"
 
 /* Sine of the angle between an edge's faces: from FLAT to BLUNT (25 degrees) the faces are facets
@@ -46,4 +46,26 @@ double sw_meshed_roundness(const sw_shape *shape) {
     turn += length * asin(edge->sine);
   }
   return turn > 0 ? width / turn : 0;
+}
+
+/* Sine of the angle between the faces of a hollow edge: from LEVEL on it is no rounding of the
+ * file; up to STEEP (53 degrees) it is part of a hollow in facets, and not the foot of a flange
+ * [-]. */
+static const double LEVEL = 0.01, STEEP = 0.8;
+
+static int is_hollow(const sw_trimesh_edge *edge) {
+  return !(edge->flags & SW_CONVEX) && edge->tri[1] >= 0 && edge->sine > LEVEL &&
+         edge->sine < STEEP;
+}
+
+double sw_trimesh_facet(const sw_trimesh *mesh) {
+  double width = 0, along = 0;
+  for (size_t e = 0; e < mesh->edge_count; e++) {
+    const sw_trimesh_edge *edge = &mesh->edges[e];
+    if (is_hollow(edge)) return 0;
+    if (!is_facet_edge(edge) || !(edge->sine > LEVEL)) continue;
+    along += sw_dist(sw_trimesh_vertex(mesh, edge->v[0]), sw_trimesh_vertex(mesh, edge->v[1]));
+    width += area_of(mesh, edge->tri[0]) + area_of(mesh, edge->tri[1]); /* times the length */
+  }
+  return along > 0 ? width / along : 0;
 }
