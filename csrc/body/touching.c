@@ -269,6 +269,27 @@ sw_status sw_scene_linearise(sw_scene *s, const size_t *only, size_t count, sw_e
   return status;
 }
 
+/* Keeps the touches of contact as it presses now, while it has none of a step. */
+sw_status sw_scene_find_touches(sw_scene *s, sw_error *err) {
+  sw_contact *const own = s->contact;
+  sw_mutual *const pairs = s->pairs;
+  sw_mutual *const grains = s->grains;
+  const void *seen;
+  size_t bytes;
+  if (!own || sw_contact_touches(own) > 0) return SW_OK;
+  s->contact = NULL, s->pairs = NULL, s->grains = NULL;
+  sw_status status = sw_contact_copy(own, &s->contact);
+  if (status == SW_OK) status = sw_contact_begin_look(s->contact, &s->system, s->time, err);
+  if (status == SW_OK) status = sw_system_linearise(&s->system, s->time, err);
+  if (status == SW_OK) {
+    seen = sw_contact_seen(s->contact, &bytes);
+    status = sw_contact_set_seen(own, seen, bytes, &s->system);
+  }
+  sw_contact_free(s->contact);
+  s->contact = own, s->pairs = pairs, s->grains = grains;
+  return status == SW_ENOMEM ? sw_fail(err, status, "out of memory") : status;
+}
+
 /* --- read-outs ------------------------------------------------------------------- */
 
 double sw_scene_deepest(const sw_scene *s, size_t *node) {

@@ -44,6 +44,9 @@ void sw_scene_stop_wires(sw_scene *scene);
 /* Computes the built system's stiffness at its state, with contact as it presses now: of these
  * obstacles (count), or of all (NULL). */
 sw_status sw_scene_linearise(sw_scene *scene, const size_t *only, size_t count, sw_error *err);
+/* After a change there are no touches until the next step: finds those of the present state, with
+ * the forces that their memory has. */
+sw_status sw_scene_find_touches(sw_scene *scene, sw_error *err);
 double sw_scene_deepest(const sw_scene *scene, size_t *node); /* deepest penetration [m] */
 /* Lists of all touches; returns how many lists. */
 enum { SW_SCENE_PRESSES = 5 };

@@ -8,6 +8,7 @@
 #include "base/alloc.h"
 #include "body/body.h"
 #include "body/build.h"
+#include "body/touching.h"
 #include "contact/contact.h"
 #include "edit/links.h"
 #include "grip/frozen.h"
@@ -199,6 +200,11 @@ sw_status sw_scene_tool_freeze(sw_scene *s, sw_handle tool, sw_handle wire, sw_b
   sw_frozen *f = sw_alloc(1, sizeof *f);
   if (!f) return sw_fail(err, SW_ENOMEM, "gripper: out of memory");
   f->references = 1;
+  const sw_status found = sw_scene_find_touches(s, err);
+  if (found != SW_OK) {
+    sw_frozen_release(f);
+    return found;
+  }
   if (!pressed_rings(s, t, &sw_scene_system(s)->bodies[wire.slot], f)) {
     sw_frozen_release(f);
     return sw_fail(err, SW_EINVAL, "gripper '%s' does not press on wire '%s'", t->name,

@@ -171,7 +171,8 @@ local take = rows.call("gripper:grasp", "wire, {...}", "takes hold of a wire, or
     max = 1, above = true, usual = "0.9" },
   { "region", "number", "m", "of mixed: length of the wire that becomes a mesh", min = 0, above = true,
     usual = "pads and 6 radii on both sides" },
-  { "model", "text", "-", "of mixed: model of the mesh", usual = "radial" },
+  { "model", "choice", "-", "of mixed: model of the mesh", -- an unknown one is refused before pads are made
+    choices = { "tube", "radial", "cubic", "composite" }, usual = "radial" },
   { "section", "mesh", "-", "of mixed: parameter of the mesh, see wire:remodel" },
   { "spacing", "mesh", "m", "of mixed: parameter of the mesh, see wire:remodel" },
   { "particles", "mesh", "-", "of mixed: parameter of the mesh, see wire:remodel" },
