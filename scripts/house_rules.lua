@@ -64,7 +64,7 @@ rules.ROOMS = {
 -- state and solve have no single header, because their parts have different users.
 rules.OPEN = { base = true, bind = true,
   contact = { "behind.h", "contact.h", "halt.h", "jolt.h", "resample.h" },
-  mutual = { "crowd.h", "halt.h", "jolt.h", "mutual.h", "relief.h" },
+  mutual = { "crowd.h", "halt.h", "jolt.h", "mutual.h", "relief.h", "resample.h" },
   touch = true,
   film = { "film.h", "pack.h", "skin.h" }, view = { "server.h" },
   read = { "frames.h" },

@@ -7,6 +7,7 @@
 #include "body/build.h"
 #include "body/touching.h"
 #include "contact/resample.h"
+#include "mutual/resample.h"
 #include "scene/lists.h"
 #include "scene/parts.h"
 #include "scene/wire.h"
@@ -59,6 +60,19 @@ static sw_status keep_touches(sw_scene *s, const size_t *new_node) {
   return SW_OK;
 }
 
+/* The same of touches of wires with each other. */
+static sw_status inherit_pairs(sw_scene *s, sw_mutual *pairs, const size_t *new_node) {
+  const sw_kept_contact *k = sw_scene_kept(s);
+  char *changed SW_LOCAL = sw_alloc(k->wires + 1, 1);
+  int any = 0;
+  if (!changed) return SW_ENOMEM;
+  for (size_t w = 0; w < k->wires; w++) any |= changed[w] = (char)is_changed(s, w, new_node);
+  const sw_pairs_former former = {
+      .s = k->s, .first = k->first, .now = k->now, .changed = changed, .wires = k->wires};
+  return sw_mutual_inherit(pairs, sw_scene_system(s), k->pairs, k->pair_bytes, new_node, k->now,
+                           any ? &former : NULL);
+}
+
 sw_status sw_scene_inherit_contact(sw_scene *s) {
   const sw_kept_contact *k = sw_scene_kept(s);
   sw_mutual *pairs = sw_scene_pairs(s), *grains = sw_scene_grains(s);
@@ -73,9 +87,10 @@ sw_status sw_scene_inherit_contact(sw_scene *s) {
         sw_contact_inherit(sw_scene_contact(s), k->memory, k->bytes, k->fresh, new_node, new_edge));
     SW_TRY(keep_touches(s, new_node));
   }
-  if (pairs) SW_TRY(sw_mutual_inherit(pairs, k->pairs, k->pair_bytes, new_node, k->now));
+  if (pairs) SW_TRY(inherit_pairs(s, pairs, new_node));
   if (!grains) return SW_OK;
-  return sw_mutual_inherit(grains, k->grains, k->grain_bytes, new_node, k->now);
+  return sw_mutual_inherit(grains, sw_scene_system(s), k->grains, k->grain_bytes, new_node, k->now,
+                           NULL);
 }
 
 int sw_scene_was_pressed(const sw_scene *s, size_t obstacle) {

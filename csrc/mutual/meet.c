@@ -24,8 +24,7 @@ static double free_share(const sw_system *s, const sw_meet *t, int side, sw_vec 
   return (one ? 0.0 : 1.0 - at) + (two ? 0.0 : at);
 }
 
-/* Depth that holds impose [m]: no force can part wires that are held closer together than their
- * radii. */
+/* Depth that holds impose [m]: no force parts wires that are held closer than their radii. */
 static double imposed(const sw_system *s, const sw_meet *t) {
   sw_vec a, b;
   const double one = free_share(s, t, 0, &a), share = sw_larger(one, free_share(s, t, 1, &b));
@@ -36,14 +35,13 @@ static int is_line(const sw_system *s, uint32_t body) { return !s->bodies[body].
 
 /* 1 if the touch of two wires pressed at the step's start. If it were stiffened within a step, it
  * would press more at the same depth and store energy from nowhere: a twisted pair that was drawn
- * taut repeated each step, and its wires sank into each other by 0.3 of the radius
- * (spec/contact/drawn_pair_spec). Such a touch is stiffened from step to step, with the same
- * force. */
+ * taut repeated each step, and its wires sank in by 0.3 of the radius (spec/contact/
+ * drawn_pair_spec). Such a touch is stiffened from step to step, with the same force. */
 static int is_squeezed(const sw_mutual *m, const sw_system *s, const sw_met *met,
                        const sw_meet *t) {
   if (!met || m->regime != SW_CONTACT_IMPLICIT) return 0;
   if (!is_line(s, t->of.body[0]) || !is_line(s, t->of.body[1])) return 0;
-  return met->kept.normal_force > 0 || met->kept.left > 0;
+  return met->kept.normal_force > 0 || met->kept.left != 0;
 }
 
 /* Axial stiffness of the softer of both edges [N/m]. */
@@ -65,20 +63,25 @@ static int is_elsewhere(const sw_system *s, const sw_met *met, const sw_meet *t)
 
 /* Sets the part of a touch's depth that the step does not correct. Wires that were placed in each
  * other come out slowly: within one step the depth would become speed. So do touches that were not
- * seen before. */
+ * seen before, and other edges that are far inside. */
 static void forgive(const sw_mutual *m, const sw_system *s, const sw_met *met, sw_meet *t) {
-  if (m->regime == SW_CONTACT_EXPLICIT || t->press.gap >= 0) return;
+  const int edited = met && met->kept.edited, stays = edited || (met && met->kept.left < 0);
+  const int outside = t->press.gap >= 0 && !(stays && m->regime == SW_CONTACT_IMPLICIT);
+  if (m->regime == SW_CONTACT_EXPLICIT || outside) return;
   const double always = imposed(s, t);
   t->forgiven = always;
   if (m->regime != SW_CONTACT_IMPLICIT) return;
   const double depth = t->reach - sw_dot(t->square, sw_bows_apart(s->x, t->bow)) - always;
-  t->emerges |=
-      met ? met->emerges || is_elsewhere(s, met, t) : sw_press_was_put(depth, m->memory_count == 0);
+  const double off = edited ? fabs(depth - met->kept.depth - met->kept.left) : 0.0;
+  const int far = off > sw_depth_for(SW_DEEPEST, 0.5 * t->reach); /* it comes out */
+  t->emerges |= far || (met ? met->emerges || (!edited && is_elsewhere(s, met, t))
+                            : sw_press_was_put(depth, m->memory_count == 0));
   sw_kept kept = met ? met->kept : (sw_kept){0};
   t->squeezed = is_squeezed(m, s, met, t);
+  if (edited) kept.left = far ? 0.0 : HUGE_VAL; /* the rest of the depth is due to the edges */
   if (!t->squeezed) kept.left = 0;
-  sw_left left =
-      sw_press_leave(depth, met ? &kept : NULL, (t->emerges ? SW_LET_OUT : SW_PART) * m->h);
+  const double way = (t->emerges ? SW_LET_OUT : SW_PART) * m->h;
+  sw_left left = sw_press_leave(depth, met ? &kept : NULL, way);
   if (t->emerges && sw_meet_abuts(s, t))
     left = (sw_left){.forgiven = sw_larger(0.0, depth - kept.depth)};
   t->forgiven += left.forgiven, t->left = left.left;

@@ -8,6 +8,7 @@
 
 #include "base/alloc.h"
 #include "mutual/meet.h"
+#include "mutual/resample.h"
 #include "touch/same.h"
 #include "touch/tally.h"
 
@@ -318,8 +319,9 @@ static sw_status show(sw_mutual *m, const sw_met *met) {
   return SW_OK;
 }
 
-sw_status sw_mutual_inherit(sw_mutual *m, const void *memory, size_t bytes, const size_t *new_node,
-                            const size_t *new_body) {
+sw_status sw_mutual_inherit(sw_mutual *m, const sw_system *s, const void *memory, size_t bytes,
+                            const size_t *new_node, const size_t *new_body,
+                            const sw_pairs_former *former) {
   size_t kept = 0;
   SW_TRY(sw_mutual_set_memory(m, memory, bytes));
   for (size_t i = 0; i < m->memory_count; i++) {
@@ -327,8 +329,9 @@ sw_status sw_mutual_inherit(sw_mutual *m, const void *memory, size_t bytes, cons
     if (renumber(&t.of, new_node, new_body)) m->memory[kept++] = t;
   }
   m->memory_count = kept;
-  if (kept) qsort(m->memory, kept, sizeof *m->memory, in_order);
-  for (size_t i = 0; i < kept; i++) SW_TRY(show(m, &m->memory[i]));
+  if (former) SW_TRY(sw_pairs_resample(m, s, memory, bytes, former));
+  if (m->memory_count) qsort(m->memory, m->memory_count, sizeof *m->memory, in_order);
+  for (size_t i = 0; i < m->memory_count; i++) SW_TRY(show(m, &m->memory[i]));
   return SW_OK;
 }
 

@@ -90,9 +90,12 @@ const void *sw_mutual_seen(sw_mutual *mutual, size_t *bytes);
 sw_status sw_mutual_set_seen(sw_mutual *mutual, const void *seen, size_t bytes,
                              const sw_system *system);
 size_t sw_mutual_layout(void); /* like sw_contact_layout */
-/* new_node, new_body: new numbers of old nodes and bodies; SIZE_MAX: gone. */
-sw_status sw_mutual_inherit(sw_mutual *mutual, const void *memory, size_t bytes,
-                            const size_t *new_node, const size_t *new_body);
+/* new_node, new_body: new numbers of old nodes and bodies; SIZE_MAX: gone. former: of contact of
+ * wires, what has changed, or NULL (mutual/resample.h). */
+struct sw_pairs_former;
+sw_status sw_mutual_inherit(sw_mutual *mutual, const sw_system *system, const void *memory,
+                            size_t bytes, const size_t *new_node, const size_t *new_body,
+                            const struct sw_pairs_former *former);
 
 /* A place where two things press on each other. */
 typedef struct sw_pair_place {

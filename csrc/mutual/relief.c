@@ -91,7 +91,7 @@ static double tension_after(const sw_system *s, const span *p, double longer) {
   return 0.5 * (low + high);
 }
 
-static double depth_of(const sw_met *t) { return t->kept.depth + t->kept.left; }
+static double depth_of(const sw_met *t) { return t->kept.depth + fmax(t->kept.left, 0.0); }
 
 /* Way by which the touches shorten a stretch; *out: the touch that does so most [m]. */
 static double shortened(const sw_mutual *m, const sw_system *s, const span *p, sw_relief *out) {
