@@ -64,3 +64,30 @@ describe("a mixed grasp by an unknown model", function()
     t.fine(scene:run{ dt = 2e-3 })
   end)
 end)
+
+describe("a release of a frozen grip while a force for rods is on the wire", function()
+  -- The mesh that would come back was refused, and so was the release. The force never yields: it does
+  -- nothing.
+  it("leaves the wire a rod, as a release without the force does", function()
+    local function free(force)
+      local scene <close> = sw.scene{}
+      local w = scene:wire{ E = 8.68e7, density = 1400, radius = 0.003, from = { 0, 0, 0.1 }, segments = 13,
+        to = { 0.3, 0, 0.1 } }
+      local g = scene:gripper{ pads = { width = 0.01, friction = 0.8, opening = 0.01 } }
+      scene:clamp(w, { s = 0 })
+      scene:force{ kind = "damping", mass = 5 }
+      scene:process(function(p)
+        g:grasp(w, { s = 0.1, approach = "mixed", force = 8, speed = 0.2, spacing = 0.002, region = 0.02 })
+        if force then scene:force{ kind = "plastic", on = w, yield_moment = 10 } end
+        p:wait(0.02)
+        g:release()
+        assert.equal("rod", w.model)
+        assert.is_nil(g.wire)
+        p:wait(1.5)
+      end)
+      t.fine(scene:run{ dt = 2e-3 })
+      return w:position(w.length)[3]
+    end
+    t.near(free(false), free(true), 1e-4, "height of the wire's end [m]")
+  end)
+end)

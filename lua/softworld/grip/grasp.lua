@@ -313,7 +313,10 @@ function grasp.release(self, args)
     -- A loose mesh may search for rest for minutes; other pads would press on a line beside the mesh, and
     -- this line would lose the torsion between other holds.
     local as_rod = build.data(self.scene).slow or is_pressed(self) or untwisted.others_keep(self)
-    if as_rod then mixed.leave(self) else mixed.let_go(self) end
+    local fine, why = not as_rod, nil
+    if fine then fine, why = pcall(mixed.let_go, self) end
+    if not (fine or self.frozen) then error(why, 0) end
+    if not fine then mixed.leave(self) end -- also where a force for rods refuses the mesh
   end
   self.held = false
   self:open_jaws{ speed = args.speed, distance = args.distance }
