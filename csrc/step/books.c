@@ -98,6 +98,7 @@ sw_status sw_ledger_open(sw_scene *s, sw_error *err) {
   weigh(s);
   sw_system_energies(system, sw_course_lumps(sw_scene_course(s)), NULL, &e);
   b->has_powers = sw_system_has_powers(system);
+  b->powers = (sw_powers){0}; /* also of forces that are gone */
   if (b->has_powers) SW_TRY(sw_system_powers(system, sw_scene_time(s), &b->powers, err));
   const double contact = sw_ledger_contact(s), now = e.kinetic + sw_ledger_potential(&e, contact);
   const double last = b->now.kinetic + sw_ledger_potential(&b->now, b->contact);

@@ -260,21 +260,51 @@ static int rises(const sw_statics *p, double before) {
          potential(p) - before > RISE * weight * longest;
 }
 
+/* Wires at rest that obstacles drag move about as far as these. Newton's iteration that moved them
+ * more than LEAP times as far has lost the way, and may end anywhere: a cable on a table, pushed by
+ * 0.15 mm, lay 250 mm farther (spec/contact/pushed_aside_spec). A shift below SMALL_LEAP of the
+ * longest wire is not looked at [-]. */
+static const double LEAP = 10.0, SMALL_LEAP = 0.01;
+
+/* Runs Newton's iteration from the present state, where obstacles drag wires. *leapt: 1 if it lost
+ * the way; the state is then as before. touched: see continue_keeping. */
+static sw_status newton_near(sw_statics *p, double touched, int iterations, int *leapt,
+                             sw_error *err) {
+  const double way = sw_rest_dragged(p) + sw_rest_driven(p), leads = p->leads;
+  if (!p->rests || !(sw_rest_dragged(p) > 0)) return sw_rest_newton(p, iterations, err);
+  sw_contact *contact = sw_scene_contact(p->s);
+  sw_tape start = {0};
+  sw_status status = sw_live_take(p->s, &start);
+  if (status != SW_OK) sw_fail(err, status, "out of memory");
+  if (status == SW_OK) status = sw_rest_newton(p, iterations, err);
+  const double shift = status == SW_OK ? sw_rest_shift_from(p, p->kept) : 0.0;
+  *leapt = shift > LEAP * way && shift > SMALL_LEAP * sw_rest_longest(p->s);
+  if (*leapt) {
+    status = sw_live_back(p->s, &start, err);
+    if (status == SW_OK && contact) status = sw_contact_began(contact, touched, err);
+    p->touched = touched, p->leads = leads;
+    if (status == SW_OK)
+      status = sw_fail(err, SW_ENOCONV, "a wire would move much farther than what drags it");
+  }
+  sw_tape_free(&start);
+  return status;
+}
+
 /* Runs Newton's iteration from the present state, which may not lead upwards by itself. */
-static sw_status newton_down(sw_statics *p, sw_error *err) {
+static sw_status newton_down(sw_statics *p, double touched, int *leapt, sw_error *err) {
   const sw_system *s = sw_scene_system(p->s);
   const int judged = p->left_alone && !(sw_rest_dragged(p) > 0) && !sw_system_has_powers(s);
   const double before = judged ? potential(p) : 0.0;
-  SW_TRY(sw_rest_newton(p, SW_REST_ITERATIONS, err));
+  SW_TRY(newton_near(p, touched, SW_REST_ITERATIONS, leapt, err));
   if (!judged || p->report->negative > 0 || !rises(p, before)) return SW_OK;
   return sw_fail(err, SW_ENOCONV, "a wire would come to rest higher than it was");
 }
 
 sw_status sw_rest_find(sw_statics *p, sw_error *err) {
-  int fell = 0;
+  int fell = 0, leapt = 0;
   const double touched = p->touched, leads = p->leads;
   sw_rest_put_aside(p->s, p->kept);
-  sw_status status = newton_down(p, err);
+  sw_status status = newton_down(p, touched, &leapt, err);
   if (found(p, status)) return status;
   if (!p->rests && (sw_rest_dragged(p) > 0 || p->leads > 0)) {
     sw_rest_take_back(p->s, p->kept);
@@ -285,10 +315,11 @@ sw_status sw_rest_find(sw_statics *p, sw_error *err) {
       if (found(p, status)) return status;
     }
   }
-  if (status == SW_ENOCONV && sw_rest_dragged(p) > 0 && !p->rubs) {
+  if (status == SW_ENOCONV && sw_rest_dragged(p) > 0 && !p->rubs && !leapt) {
     sw_rest_take_back(p->s, p->kept); /* touches may begin to slide one by one */
     const double most = SW_REST_ITERATIONS + SLIDES * (double)sw_scene_system(p->s)->nodes;
-    status = sw_rest_newton(p, (int)fmin(most, MOST_SLIDES * (double)p->args->max_iterations), err);
+    status = newton_near(p, touched, (int)fmin(most, MOST_SLIDES * (double)p->args->max_iterations),
+                         &leapt, err);
   }
   if (found(p, status)) return status;
   sw_rest_take_back(p->s, p->kept);

@@ -114,7 +114,7 @@ static int has_slid(const sw_statics *p) {
 }
 
 /* Returns the holds' largest shift; a turn counts as the shift of half a wire by it [m]. */
-static double drive_shift(const sw_statics *p) {
+double sw_rest_driven(const sw_statics *p) {
   double largest = 0, turn;
   for (size_t k = 0; k < sw_scene_system(p->s)->hold_count; k++)
     largest = fmax(largest, hold_shift(p, k, 0.5 * sw_rest_longest(p->s), &turn));
@@ -140,7 +140,7 @@ static int is_driven(const sw_statics *p) {
     if (h->alive && sw_hold_passes(h)) return 1;
   SW_EACH(tool, t, p->s)
     if (t->alive && t->pads) return 1;
-  return drive_shift(p) > 0;
+  return sw_rest_driven(p) > 0;
 }
 
 /* Wires that move much further than their holds and obstacles have jumped to another
@@ -167,7 +167,7 @@ static sw_status follow_in(sw_statics *p, size_t parts, sw_error *err) {
   const size_t most = MOST_DIVIDED * parts;
   p->rubs = rubs(sw_scene_pairs(p->s)) || rubs(sw_scene_grains(p->s));
   const int drawn = p->rubs || p->slides;
-  const double way = drawn ? drive_shift(p) : 0, fed_way = drawn ? fed(p) : 0;
+  const double way = drawn ? sw_rest_driven(p) : 0, fed_way = drawn ? fed(p) : 0;
   p->report->rubbed = 0, p->divides = 0, p->leapt = 0;
   p->left_alone = !is_driven(p);
   for (size_t i = 1; status == SW_OK && i <= parts; i++) {
@@ -261,7 +261,7 @@ static sw_status follow_holds(sw_statics *p, sw_error *err) {
   const double edge = LONGEST_PART * p->edge;
   SW_TRY(count_parts(p, 0.0, edge, &parts, err));
   const int poses = p->touched != sw_scene_time(p->s);
-  if (poses && !forgets(p->s) && drive_shift(p) > 0) p->most_far = FAR_IN_POSES;
+  if (poses && !forgets(p->s) && sw_rest_driven(p) > 0) p->most_far = FAR_IN_POSES;
   p->slides = p->most_far > 0 && !has_meshes(p->s);
   SW_TRY(count_parts(p, 0.0, fmax(edge, LONG_PART * sw_rest_longest(p->s)), &fewer, err));
   if (fewer < parts && forgets(p->s)) SW_TRY(follow_fast(p, fewer, &done, err));
@@ -312,13 +312,13 @@ sw_status sw_scene_rest(sw_scene *s, double since, int *too_far, const sw_settle
   sw_status status = follow_holds(&p, why);
   system->still = 0;
   const double shift = sw_rest_shift_from(&p, p.begun);
-  if (status == SW_OK && shift > FALLEN * sw_rest_longest(s) + drive_shift(&p))
+  if (status == SW_OK && shift > FALLEN * sw_rest_longest(s) + sw_rest_driven(&p))
     status = sw_fail(why, SW_ENOCONV, "a wire that nothing holds is carried away");
   if (status == SW_OK && args->farthest > 0 && shift > args->farthest)
     status = sw_fail(why, SW_ENOCONV, "the next equilibrium is %.3g m away", shift);
   if (status == SW_OK) {
     report->jumped = p.leapt || (report->transient && shift > SMALLEST_JUMP * sw_rest_longest(s) &&
-                                 shift > JUMP * drive_shift(&p));
+                                 shift > JUMP * sw_rest_driven(&p));
   } else if (status != SW_EINTR) {
     sw_rest_take_back(s, p.begun);
   }

@@ -57,6 +57,8 @@ double sw_rest_time_scale(const sw_scene *scene);
 double sw_rest_first_step(const sw_scene *scene);
 /* Shift of obstacles since contact last followed them. Friction then drags the wires [m]. */
 double sw_rest_dragged(const sw_statics *p);
+/* Returns the holds' largest shift; a turn counts as the shift of half a wire by it [m]. */
+double sw_rest_driven(const sw_statics *p);
 /* 1 if this part of the path has taken more than this share of the iterations that it may take. */
 int sw_rest_is_late(const sw_statics *p, double share);
 /* Finds y from the present state, with a step hbar of implicit Euler or (HUGE_VAL) at rest. */
