@@ -245,7 +245,9 @@ static sw_status change_to_mesh(sw_scene *s, const sw_exchange *x, const double 
 }
 
 /* The wire became a mesh elsewhere, between the pads of another gripper, while this one held it; or
- * other pads press on it as a rod. It stays as it is, and the pads of this one press on the rod. */
+ * other pads press on it as a rod; or this one lets go, and another hold
+ * has taken it since. It stays as it is, and the
+ * pads of this one press on the rod. */
 static sw_status change_to_pads(sw_scene *s, const sw_exchange *x, const double *a, size_t count,
                                 sw_freeze_report *out, sw_error *err) {
   const size_t wire = x->frozen->wire.slot;
@@ -294,6 +296,30 @@ static sw_status take_pads(sw_scene *s, sw_handle tool, int on_rod, sw_thaw then
   return tell_jump(s, tool, wire, was, err);
 }
 
+/* Share of the wire's length within which a hold's end lies at a station [-]. */
+static const double SAME_PLACE = 1e-9;
+
+static int is_station(const sw_stations *at, double s, double length) {
+  for (size_t r = 0; r < at->n; r++)
+    if (fabs(at->s[r] - s) <= SAME_PLACE * length) return 1;
+  return 0;
+}
+
+/* 1 if another hold has taken the wire since the freeze, where the mesh has no nodes for its ends.
+ * On the mesh it would hold a place, but no direction: a wire hung from the rigid grip of a second
+ * gripper like from a pin (spec/physics/mixed_again_spec). */
+static int is_held_between(const sw_scene *s, const sw_frozen *f) {
+  const sw_mesh *m = &sw_scene_wire_in(s, f->wire.slot)->mesh;
+  const sw_hold *own = sw_scene_find_hold(s, f->hold, NULL);
+  const double length = f->stations.s[f->stations.n - 1];
+  SW_EACH(hold, h, s)
+    if (h->alive && h->wire == f->wire.slot && h != own &&
+        (!is_station(&f->stations, h->s1 - m->s[0], length) ||
+         !is_station(&f->stations, h->s2 - m->s[0], length)))
+      return 1;
+  return 0;
+}
+
 sw_status sw_scene_tool_thaw(sw_scene *s, sw_handle tool, sw_thaw then, sw_balance *balance,
                              sw_freeze_report *out, sw_error *err) {
   sw_line line = {0};
@@ -303,8 +329,9 @@ sw_status sw_scene_tool_thaw(sw_scene *s, sw_handle tool, sw_thaw then, sw_balan
   sw_frozen *f = t->frozen;
   if (!f) return sw_fail(err, SW_EINVAL, "gripper '%s' does not hold its wire rigidly", t->name);
   f->wire = sw_scene_body_now(s, f->wire); /* others may have left */
-  const int on_rod =
-      then == SW_THAW_LEAVES || sw_scene_wire_in(s, f->wire.slot)->strand.web != NULL;
+  const int on_rod = then == SW_THAW_LEAVES ||
+                     sw_scene_wire_in(s, f->wire.slot)->strand.web != NULL ||
+                     (then != SW_THAW_HOLDS && is_held_between(s, f));
   if (!on_rod) SW_TRY(sw_remodel_check_forces(s, f->wire.slot, f->cls, err));
   SW_TRY(sw_scene_build(s, err));
   const sw_exchange exchange = {

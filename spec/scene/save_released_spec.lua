@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A run goes on from a file whose next step of the process first takes a damping or a clip away: the ledger has
+-- A run goes on from a file whose next step of the process first takes a damping away: the ledger has
 -- the same bits as without a power cut. What a force lost in the step before its removal is no loss after it.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
