@@ -31,8 +31,14 @@ static const sw_body *body_of(const sw_system *s, const sw_pairs_former *of, siz
 }
 
 static size_t wire_of(const sw_pairs_former *of, size_t node) {
-  size_t w = 0;
-  while (w + 1 < of->wires && of->first[w + 1] <= node) w++;
+  size_t w = 0, end = of->wires;
+  while (end - w > 1) {
+    const size_t middle = w + (end - w) / 2;
+    if (of->first[middle] <= node)
+      w = middle;
+    else
+      end = middle;
+  }
   return w;
 }
 
@@ -93,13 +99,15 @@ static double there_at(const sample *x, size_t count, size_t k, double s) {
   return a->there + (s - a->s) / (b->s - a->s) * (b->there - a->there);
 }
 
-/* Adds what a new node, which stands for the wire from `from` to `to`, has of a row's force. */
+/* Adds what a new node, which stands for the wire from `from` to `to`, has of a row's force. first:
+ * the first sample that may reach this far. */
 static sw_status add_node(sw_mutual *m, const sw_system *s, const sw_pairs_former *of,
-                          const sample *x, size_t count, size_t i, double from, double to) {
+                          const sample *x, size_t first, size_t count, size_t i, double from,
+                          double to) {
   const sw_body *b = body_of(s, of, x->wire);
   double force = 0;
   size_t near = SIZE_MAX;
-  for (size_t k = 0; k < count; k++) {
+  for (size_t k = first; k < count && x[k].from < to; k++) {
     const double covered = fmin(to, x[k].to) - fmax(from, x[k].from);
     if (!(covered > 0)) continue;
     force += x[k].met->kept.normal_force * (covered / (x[k].to - x[k].from));
@@ -124,9 +132,11 @@ static sw_status add_row(sw_mutual *m, const sw_system *s, const sw_pairs_former
   int row = count > 1;
   for (size_t k = 1; k < count; k++) row = row && x[k].number == x[k - 1].number + 1;
   for (size_t k = 0; !row && k < count; k++) SW_TRY(stay(m, s, of, &x[k]));
-  for (size_t i = 0; row && i < p->nodes; i++) {
+  for (size_t i = 0, first = 0; row && i < p->nodes; i++) {
     const size_t a = i > 0 ? i - 1 : i, b = i + 1 < p->nodes ? i + 1 : i;
-    SW_TRY(add_node(m, s, of, x, count, i, 0.5 * (p->s[a] + p->s[i]), 0.5 * (p->s[i] + p->s[b])));
+    const double from = 0.5 * (p->s[a] + p->s[i]), to = 0.5 * (p->s[i] + p->s[b]);
+    while (first < count && x[first].to <= from) first++;
+    SW_TRY(add_node(m, s, of, x, first, count, i, from, to));
   }
   return SW_OK;
 }
@@ -148,8 +158,7 @@ static int is_one_row(const sample *a, const sample *b) {
          a->met->of.body[1] == b->met->of.body[1] && b->number <= a->number + 1;
 }
 
-/* --- all ----------------------------------------------------------------------------------------
- */
+/* --- all -------------------------------------------------------------------------------------- */
 
 /* 1 if the memory's touch presses and is of two lines that are still there, one of which has got
  * other edges. */
@@ -181,17 +190,21 @@ static sample sample_of(const sw_pairs_former *of, const sw_met *t) {
 }
 
 /* Forgets the pressing touches of present bodies whose edges have changed: of lines alone. */
-static void forget(sw_mutual *m, const sw_system *s, const sw_pairs_former *of) {
+static sw_status forget(sw_mutual *m, const sw_system *s, const sw_pairs_former *of) {
+  char *changed SW_LOCAL = sw_alloc(s->body_count + 1, 1);
   size_t kept = 0;
+  if (!changed) return SW_ENOMEM;
+  for (size_t w = 0; w < of->wires; w++)
+    if (of->changed[w] && of->now[w] < s->body_count) changed[of->now[w]] = 1;
   for (size_t i = 0; i < m->memory_count; i++) {
     const sw_met *t = &m->memory[i];
-    const int lines = !s->bodies[t->of.body[0]].plan->web && !s->bodies[t->of.body[1]].plan->web;
-    int changed = 0;
-    for (size_t w = 0; w < of->wires; w++)
-      changed |= of->changed[w] && (of->now[w] == t->of.body[0] || of->now[w] == t->of.body[1]);
-    if (!lines || !changed || !(t->kept.normal_force > 0)) m->memory[kept++] = *t;
+    const uint32_t *b = t->of.body;
+    const int lines = !s->bodies[b[0]].plan->web && !s->bodies[b[1]].plan->web;
+    const int due = lines && (changed[b[0]] || changed[b[1]]) && t->kept.normal_force > 0;
+    if (!due) m->memory[kept++] = *t;
   }
   m->memory_count = kept;
+  return SW_OK;
 }
 
 sw_status sw_pairs_resample(sw_mutual *m, const sw_system *s, const void *memory, size_t bytes,
@@ -203,7 +216,7 @@ sw_status sw_pairs_resample(sw_mutual *m, const sw_system *s, const void *memory
   sw_status status = x ? SW_OK : SW_ENOMEM;
   for (size_t i = 0; x && i < all; i++)
     if (is_due(s, of, &old[i])) x[count++] = sample_of(of, &old[i]);
-  if (x) forget(m, s, of);
+  if (x) status = forget(m, s, of);
   if (count) qsort(x, count, sizeof *x, in_rows);
   for (size_t k = 0, end; k < count && status == SW_OK; k = end) {
     end = k + 1;

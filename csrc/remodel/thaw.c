@@ -245,9 +245,8 @@ static sw_status change_to_mesh(sw_scene *s, const sw_exchange *x, const double 
 }
 
 /* The wire became a mesh elsewhere, between the pads of another gripper, while this one held it; or
- * other pads press on it as a rod; or this one lets go, and another hold
- * has taken it since. It stays as it is, and the
- * pads of this one press on the rod. */
+ * other pads press on it as a rod; or this one lets go, and another hold has taken it since. It
+ * stays as it is, and the pads of this one press on the rod. */
 static sw_status change_to_pads(sw_scene *s, const sw_exchange *x, const double *a, size_t count,
                                 sw_freeze_report *out, sw_error *err) {
   const size_t wire = x->frozen->wire.slot;
