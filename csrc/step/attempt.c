@@ -126,6 +126,31 @@ double sw_rest_shift(const sw_statics *p) {
   return shift;
 }
 
+double sw_rest_shift_from(const sw_statics *p, const double *before) {
+  const sw_system *s = sw_scene_system(p->s);
+  double largest = 0;
+  for (size_t i = 0; i < s->nodes; i++)
+    largest = fmax(largest, sw_dist(sw_vec_at(s->x, i), sw_vec_at(before, i)));
+  return largest;
+}
+
+int sw_rest_falls(const sw_statics *p) {
+  return p->fall > 0 && sw_rest_shift_from(p, p->begun) > p->fall;
+}
+
+sw_status sw_rest_fail_fall(const sw_statics *p, sw_error *err) {
+  const sw_system *s = sw_scene_system(p->s);
+  double largest = -1;
+  size_t furthest = 0;
+  for (size_t i = 0; i < s->nodes; i++) {
+    const double shift = sw_dist(sw_vec_at(s->x, i), sw_vec_at(p->begun, i));
+    if (shift > largest) largest = shift, furthest = i;
+  }
+  const sw_scene_wire *wire = sw_scene_wire_in(p->s, sw_system_body_of(s, furthest));
+  return sw_fail(err, SW_ENOCONV, "%s'%s', which nothing holds, is carried away",
+                 sw_scene_is_loose(wire) ? "" : "wire ", wire->name);
+}
+
 double sw_rest_take(sw_statics *p, int trial) {
   sw_scene *s = p->s;
   sw_system *system = sw_scene_system(s);

@@ -173,6 +173,7 @@ sw_status sw_rest_transient(sw_statics *p, sw_error *err) {
     (void)sw_rest_take(p, 0);
     p->holds = 0;
     if (rests) return SW_OK;
+    if (sw_rest_falls(p)) return sw_rest_fail_fall(p, err);
     hurry(p, &d);
     const double factor = growth(s, p->report->iterations - before, tau < first);
     tau = fmin(tau * factor, longest);

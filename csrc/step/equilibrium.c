@@ -63,7 +63,7 @@ sw_status sw_rest_newton(sw_statics *p, int iterations, sw_error *err) {
   /* once more with a little mass, which removes rounding in neutral directions */
   SW_TRY(sw_rest_solve(p, slowest, &newton, err));
   if (sw_rest_take(p, p->report->negative > 0) > far && massive && p->report->negative == 0)
-    return sw_fail(err, SW_ENOCONV, "a wire that nothing holds is carried away");
+    return sw_rest_fail_fall(p, err);
   return SW_OK;
 }
 

@@ -251,6 +251,10 @@ static sw_status follow_fast(sw_statics *p, size_t parts, int *done, sw_error *e
   return status;
 }
 
+/* Wires that move further than this beyond their holds fall without limit. Where rounding is as
+ * large as their steps they seem to rest [of the longest wire]. */
+static const double FALLEN = 1e3;
+
 /* Settles after every part of the holds' path. The parts only help convergence: the memory of
  * forces is updated after the last part only. If particles of a mesh are further from the axis than
  * its slices from each other, the usual parts may be too long. */
@@ -260,6 +264,7 @@ static sw_status follow_holds(sw_statics *p, sw_error *err) {
   p->edge = shortest_edge(sw_scene_system(p->s));
   const double edge = LONGEST_PART * p->edge;
   SW_TRY(count_parts(p, 0.0, edge, &parts, err));
+  p->fall = FALLEN * sw_rest_longest(p->s) + sw_rest_driven(p);
   const int poses = p->touched != sw_scene_time(p->s);
   if (poses && !forgets(p->s) && sw_rest_driven(p) > 0) p->most_far = FAR_IN_POSES;
   p->slides = p->most_far > 0 && !has_meshes(p->s);
@@ -272,18 +277,6 @@ static sw_status follow_holds(sw_statics *p, sw_error *err) {
   if (more <= parts) return status;
   sw_rest_take_back(p->s, p->begun);
   return follow_in(p, more, err);
-}
-
-/* Wires that move further than this beyond their holds fall without limit. Where rounding is as
- * large as their steps they seem to rest [of the longest wire]. */
-static const double FALLEN = 1e3;
-
-double sw_rest_shift_from(const sw_statics *p, const double *before) {
-  const sw_system *s = sw_scene_system(p->s);
-  double largest = 0;
-  for (size_t i = 0; i < s->nodes; i++)
-    largest = fmax(largest, sw_dist(sw_vec_at(s->x, i), sw_vec_at(before, i)));
-  return largest;
 }
 
 sw_status sw_scene_rest(sw_scene *s, double since, int *too_far, const sw_settle_args *args,
@@ -312,8 +305,7 @@ sw_status sw_scene_rest(sw_scene *s, double since, int *too_far, const sw_settle
   sw_status status = follow_holds(&p, why);
   system->still = 0;
   const double shift = sw_rest_shift_from(&p, p.begun);
-  if (status == SW_OK && shift > FALLEN * sw_rest_longest(s) + sw_rest_driven(&p))
-    status = sw_fail(why, SW_ENOCONV, "a wire that nothing holds is carried away");
+  if (status == SW_OK && sw_rest_falls(&p)) status = sw_rest_fail_fall(&p, why);
   if (status == SW_OK && args->farthest > 0 && shift > args->farthest)
     status = sw_fail(why, SW_ENOCONV, "the next equilibrium is %.3g m away", shift);
   if (status == SW_OK) {

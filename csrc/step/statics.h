@@ -30,6 +30,7 @@ typedef struct sw_statics {
   double passing; /* accuracy before the last part of the holds' path: largest shift of a node, over
                      an edge [-] */
   double edge;    /* length of the shortest edge [m] */
+  double fall;    /* wires that move further fall without limit; 0: not known yet [m] */
   double touched; /* time up to which contact has followed the obstacles [s] */
   int *too_far;   /* see sw_scene_rest; or NULL */
   double *zero, *from, *y, *v; /* (freedoms) */
@@ -73,6 +74,10 @@ sw_status sw_rest_transient(sw_statics *p, sw_error *err);
 double sw_rest_longest(const sw_scene *scene);
 /* Returns the largest distance of a node from its place in an earlier state [m]. */
 double sw_rest_shift_from(const sw_statics *p, const double *before);
+/* 1 if a wire has fallen so far since the beginning of the search that nothing can hold it. */
+int sw_rest_falls(const sw_statics *p);
+/* Fails with the name of the wire that has moved furthest since then. */
+sw_status sw_rest_fail_fall(const sw_statics *p, sw_error *err);
 /* 1 for errors that no other search can avoid. */
 int sw_rest_stops(sw_status status);
 /* Finds the equilibrium from the present state by Newton's iteration alone; it becomes the state.

@@ -171,6 +171,19 @@ describe("an event doubts", function()
     assert.truthy(why(event "hand", time, bar, "b"))
   end)
 
+  -- A gripper at rest that takes its wire from afar holds the right wire, at a place that it cannot reach.
+  it("rows after a grasp from afar, in words of their own", function()
+    local scene = sw.scene{}
+    local wire = scene:wire{ name = "a", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.2, 0, 0 } }
+    scene:clamp(wire, { s = 0 })
+    local hand = scene:gripper{ name = "hand", at = { 0, 0.5, 0 } }
+    scene:process(function() hand:grasp(wire, { s = 0.1 }) end)
+    local row = scene:run{ dt = 0.005, duration = 0.02 }:check{ use = "movement" }:row "a.max_tension"
+    assert.equal("OPEN", row.verdict)
+    assert.truthy(row.note:find("took a wire far from its centre", 1, true), row.note)
+    assert.is_nil(row.note:find("another wire", 1, true), row.note)
+  end)
+
   it("checks of the script, unless they say that it does not matter", function()
     for _, kind in ipairs{ "crash", "buckling", "hand", "grasp", "unbalanced" } do
       local scene = sw.scene{}

@@ -57,6 +57,8 @@ local kinds = {
     named = true, places = true, always = true },
   unbalanced = { "forces after a change of model may be too large", own = true, always = true },
   grasp = { "a gripper held another wire than the one to grasp", places = true, always = true },
+  ["grasp far"] = { "a gripper took a wire far from its centre, as no real one can", places = true,
+    always = true, only = " from its centre: " },
   late = { "a process went on after the force or touch that it waited for: peaks depend on dt" },
   held = { "a feed without its force at rest was let go", always = true },
   hand = { "something was moved by hand: this is not the script's process", all = true, always = true },
@@ -69,10 +71,10 @@ local UNKNOWN = "come from nowhere" -- in events `energy` about a gap that no st
 local MUCH = 0.1
 
 local second = { energy = kinds["energy at once"], pressed = kinds["pressed in each other"],
-  untwisted = kinds["untwisted rolled"] }
+  untwisted = kinds["untwisted rolled"], grasp = kinds["grasp far"] }
 
--- Returns what is wrong after an event. Events `energy` have three meanings, `pressed` and
--- `untwisted` two.
+-- Returns what is wrong after an event. Events `energy` have three meanings, `pressed`, `untwisted` and
+-- `grasp` two.
 local function kind_of(e)
   local other = second[e.kind]
   if other and e.text:find(other.only) then return other end

@@ -19,6 +19,8 @@ local known = {
   { "no equilibrium exists", "a run without quasistatic, which computes how the wire slips; a larger force "
     .. "of the jaws; or a smaller pull" },
   { "nothing holds a wire", "a clamp, or an obstacle that the wire can lie on" },
+  { "which nothing holds, is carried away", "a clamp, or an obstacle that the wire can lie on; or a run "
+    .. "without quasistatic" },
 }
 
 local function is_explicit(integrator)
