@@ -33,15 +33,14 @@ static double imposed(const sw_system *s, const sw_meet *t) {
 
 static int is_line(const sw_system *s, uint32_t body) { return !s->bodies[body].plan->web; }
 
-/* 1 if the touch of two wires pressed at the step's start. If it were stiffened within a step, it
- * would press more at the same depth and store energy from nowhere: a twisted pair that was drawn
- * taut repeated each step, and its wires sank in by 0.3 of the radius (spec/contact/
- * drawn_pair_spec). Such a touch is stiffened from step to step, with the same force. */
+/* 1 if the touch of two wires pressed at the step's start. Stiffened within a step, it would press
+ * more at the same depth and store energy from nowhere: a drawn twisted pair repeated each step and
+ * sank in by 0.3 of the radius (spec/contact/drawn_pair_spec). It stiffens between steps instead. */
 static int is_squeezed(const sw_mutual *m, const sw_system *s, const sw_met *met,
                        const sw_meet *t) {
   if (!met || m->regime != SW_CONTACT_IMPLICIT) return 0;
   if (!is_line(s, t->of.body[0]) || !is_line(s, t->of.body[1])) return 0;
-  return met->kept.normal_force > 0 || met->kept.left != 0;
+  return met->kept.normal_force > 0 || met->kept.left != 0 || met->kept.edited;
 }
 
 /* Axial stiffness of the softer of both edges [N/m]. */
@@ -61,9 +60,9 @@ static int is_elsewhere(const sw_system *s, const sw_met *met, const sw_meet *t)
   return met->kind != t->kind || most > SW_SAME_TOUCH;
 }
 
-/* Sets the part of a touch's depth that the step does not correct. Wires that were placed in each
- * other come out slowly: within one step the depth would become speed. So do touches that were not
- * seen before, and other edges that are far inside. */
+/* Sets the part of a touch's depth that the step does not correct. Wires placed in each other come
+ * out slowly: else the depth would become speed. So do unseen touches and other edges far inside.
+ */
 static void forgive(const sw_mutual *m, const sw_system *s, const sw_met *met, sw_meet *t) {
   const int edited = met && met->kept.edited, stays = edited || (met && met->kept.left < 0);
   const int outside = t->press.gap >= 0 && !(stays && m->regime == SW_CONTACT_IMPLICIT);
@@ -78,7 +77,8 @@ static void forgive(const sw_mutual *m, const sw_system *s, const sw_met *met, s
                             : sw_press_was_put(depth, m->memory_count == 0));
   sw_kept kept = met ? met->kept : (sw_kept){0};
   t->squeezed = is_squeezed(m, s, met, t);
-  if (edited) kept.left = far ? 0.0 : HUGE_VAL; /* the rest of the depth is due to the edges */
+  const double due = kept.normal_force > 0 ? HUGE_VAL : sw_larger(0.0, depth); /* to the edges */
+  if (edited) kept.left = far ? 0.0 : due;
   if (!t->squeezed) kept.left = 0;
   const double way = (t->emerges ? SW_LET_OUT : SW_PART) * m->h;
   sw_left left = sw_press_leave(depth, met ? &kept : NULL, way);

@@ -62,6 +62,17 @@ static sw_bow chord_bow(const sw_system *s, uint32_t body, uint32_t e, double at
   return (sw_bow){{3, {node - 1, node, node + 1}, {0, 1, 0}}, {-0.5, 0, 0.5}};
 }
 
+/* Right after an edit touches are of the kind that they were. A node that lies open beside a
+ * pressed one of the other wire must not take that one's force as well: the step would make energy.
+ * Its own depth is due to the edges (spec/contact/edges_pair_spec). */
+static const sw_met *open_beside(const sw_met *met, sw_meet_kind kind, sw_met *out) {
+  if (!met || !met->kept.edited || met->kind == kind) return met;
+  *out = *met;
+  out->kind = kind, out->emerges = 0;
+  out->kept = (sw_kept){.edited = 1};
+  return out;
+}
+
 /* Adds the touch at given places, unless the wires are apart there. A crossing of smooth wires is
  * on their curves, and a place at a joint counts once. */
 static sw_status touch_at(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
@@ -75,7 +86,8 @@ static sw_status touch_at(sw_pairs *p, const sw_system *s, const sw_pair *k, con
   sw_vec normal = curved ? sw_pair_normal(y, bow, slides) : d;
   double distance = curved ? sw_dot(normal, d) : sw_norm(d);
   if (!(distance < (1.0 + SW_LISTED_GAP) * k->reach)) return SW_OK;
-  const sw_met *met = sw_pair_recall(p, k, at, kind);
+  sw_met beside;
+  const sw_met *met = open_beside(sw_pair_recall(p, k, at, kind), kind, &beside);
   const sw_meet *last = sw_pair_last(p, k, at, kind);
   if (!curved) normal = sw_unit_or(d, met ? met->normal : sw_v(0, 0, 1));
   sw_meet_side(met, k->reach, &normal, &distance);

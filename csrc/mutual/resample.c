@@ -99,6 +99,9 @@ static double there_at(const sample *x, size_t count, size_t k, double s) {
   return a->there + (s - a->s) / (b->s - a->s) * (b->there - a->there);
 }
 
+/* A smaller share of a stretch is none [-]. */
+static const double ROUNDING = 1e-9;
+
 /* Adds what a new node, which stands for the wire from `from` to `to`, has of a row's force. first:
  * the first sample that may reach this far. */
 static sw_status add_node(sw_mutual *m, const sw_system *s, const sw_pairs_former *of,
@@ -109,7 +112,7 @@ static sw_status add_node(sw_mutual *m, const sw_system *s, const sw_pairs_forme
   size_t near = SIZE_MAX;
   for (size_t k = first; k < count && x[k].from < to; k++) {
     const double covered = fmin(to, x[k].to) - fmax(from, x[k].from);
-    if (!(covered > 0)) continue;
+    if (!(covered > ROUNDING * (x[k].to - x[k].from))) continue;
     force += x[k].met->kept.normal_force * (covered / (x[k].to - x[k].from));
     if (near == SIZE_MAX || fabs(x[k].s - b->plan->s[i]) < fabs(x[near].s - b->plan->s[i]))
       near = k;

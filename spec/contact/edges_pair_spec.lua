@@ -13,7 +13,7 @@ local function sum_of(scene)
 end
 
 -- Two cables twisted about each other, drawn taut by 0.1 %. Returns the pull and the force between them,
--- before a change, in the step after it, and later.
+-- before a change, in the step after it, and later. alone: each in a run of its own.
 local function pair(o)
   local scene <close> = sw.scene{ gravity = { 0, 0, 0 } }
   local r, length, pitch, holds, wires = sw.cable(o.cable).outer_diameter.value / 2, 0.2, 0.08, {}, {}
@@ -38,20 +38,28 @@ local function pair(o)
   local function look()
     out[#out + 1] = { pull = holds[1]:force()[1] + holds[2]:force()[1], between = sum_of(scene) }
   end
-  scene:process(function(p)
-    p:wait(0.5)
-    look()
+  local function change()
     if o.segments then
       wires[2]:remodel{ model = "rod", segments = o.segments }
     else
       scene:clamp(wires[1], { s = 0.111 }):release()
     end
+  end
+  local function course(wait)
+    wait(0.5)
+    look()
+    change()
     for _, duration in ipairs{ dt, 0.2 } do
-      p:wait(duration)
+      wait(duration)
       look()
     end
-  end)
-  t.fine(scene:run{ dt = dt })
+  end
+  if o.alone then
+    course(function(duration) t.fine(scene:run{ duration = duration, dt = dt }) end)
+  else
+    scene:process(function(p) course(function(duration) p:wait(duration) end) end)
+    t.fine(scene:run{ dt = dt })
+  end
   return out
 end
 
@@ -97,6 +105,25 @@ describe("wires that press on each other and get other edges", function()
       end
     end)
   end
+
+  -- A node that lay open beside a pressed one of the other wire took that one's force as well: H07V-K 4 got
+  -- 20 uJ from nowhere. Within a longer run that was a small share; a run of its own failed.
+  it("keep them where the change comes after rest, in a run of its own", function()
+    for _, case in ipairs{
+      { "GXL 1.5", 60 }, { "FLRY-B 0.5", 60 }, { "H07V-K 4", 60 }, { "H07V-K 4", 77 }, { "H07V-K 4", 45 },
+      { "H07V-K 4" }, { "H07V-K 4", 60, turned = 0.5 }, { "H07V-K 4", 60, swapped = true },
+    } do
+      local cable, segments = case[1], case[2]
+      local out = pair{ cable = cable, segments = segments, alone = true, turned = case.turned,
+        swapped = case.swapped }
+      local same = segments == 60 -- the same edges: nothing changes
+      for i = 2, 3 do
+        local what = ("%s, %s segments"):format(cable, segments or "a clamp,")
+        t.share(out[1].pull, out[i].pull, same and 1e-6 or 0.002, "pull [N]: " .. what)
+        t.share(out[1].between, out[i].between, same and 1e-6 or 0.02, "force between them [N]: " .. what)
+      end
+    end
+  end)
 
   it("keep the force between three that lie on each other", function()
     for _, cable in ipairs{ "GXL 1.5", "FLRY-B 0.5" } do
