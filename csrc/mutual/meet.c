@@ -35,7 +35,7 @@ static int is_line(const sw_system *s, uint32_t body) { return !s->bodies[body].
 
 /* 1 if the touch of two wires pressed at the step's start. Stiffened within a step, it would press
  * more at the same depth and store energy from nowhere: a drawn twisted pair repeated each step and
- * sank in by 0.3 of the radius (spec/contact/drawn_pair_spec). It stiffens between steps instead. */
+ * sank in by 0.3 of the radius (spec/contact/drawn_pair_spec). It stiffens between steps. */
 static int is_squeezed(const sw_mutual *m, const sw_system *s, const sw_met *met,
                        const sw_meet *t) {
   if (!met || m->regime != SW_CONTACT_IMPLICIT) return 0;
