@@ -247,7 +247,7 @@ describe("a run with error bars", function()
     local r = scene:run{ duration = 0.1, tolerance = { tip = 0.01 } }
     assert.is_false(r.ok)
     assert.is_false(r.met)
-    assert.matches("^at t = 0 s: no equilibrium to begin with: not at rest after ", r.reason)
+    assert.matches("^at t = 0 s: no equilibrium to begin with: wire 'wire1', which nothing holds, ", r.reason)
     assert.matches("^level 4, 40 segments: at t = 0 s: no equilibrium", r.where)
     assert.matches("^run of 'slides': FAILED %(at t = 0 s: no equilibrium to begin with", tostring(r))
     assert.same({ 0, 0, 0 }, { r.steps, r.start, r.time })
