@@ -18,6 +18,21 @@ local function bent_path(slope, radius, round)
   return path
 end
 
+--- Returns a path half round a peg at the origin, from x = -top to x = top, with straight parts downwards of
+-- these lengths [m]. at(x, z) gives the place; swapped: it begins at the other end.
+function drawn.half_round(top, near, far, at, swapped)
+  local path = { at(-top, -near) }
+  for k = 0, 200 do
+    local phi = math.pi * (1 - k / 200)
+    path[#path + 1] = at(top * math.cos(phi), top * math.sin(phi))
+  end
+  path[#path + 1] = at(top, -far)
+  if swapped then
+    for i = 1, #path // 2 do path[i], path[#path + 1 - i] = path[#path + 1 - i], path[i] end
+  end
+  return path
+end
+
 --- Returns the least, mean and largest pull over T. o.taut: T h^2/EI; o.angle: of the bend [rad]; o.round:
 -- radius of the obstacle [m]; o.dt [s]; o.fine: factor on the number of edges; o.turn: of everything;
 -- o.swap: arc length counts from the other end. put(scene, see) adds the obstacle below the origin, before

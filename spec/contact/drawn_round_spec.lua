@@ -4,6 +4,7 @@
 -- cable is too short: GXL 1.5 pulls with 218, 129, 100, 79 and 72 N with 40 to 160 edges, a thread of the
 -- path's length with 64 N. No event told it.
 local sw = require "softworld"
+local half_round = require("contact.drawn").half_round
 local t = require "physics.tools"
 
 -- Radius of the peg, straight parts, gap between the path and the peg, way of the clamp [m].
@@ -28,18 +29,8 @@ local function pull(o, look)
   local function at(x, z) return { c * x + s * z, 0, c * z - s * x } end
   scene:obstacle(o.facets and faceted(o.facets) or { shape = "cylinder", radius = R, length = 0.1,
     friction = 0, rotation = { axis = { 1, 0, 0 }, angle = math.pi / 2 } })
-  local path = { at(-top, -FREE) }
-  for k = 0, 200 do
-    local phi = math.pi * (1 - k / 200)
-    path[#path + 1] = at(top * math.cos(phi), top * math.sin(phi))
-  end
-  path[#path + 1] = at(top, -BEYOND)
-  if o.swapped then
-    local back = {}
-    for i = #path, 1, -1 do back[#back + 1] = path[i] end
-    path = back
-  end
-  local wire = scene:wire{ cable = o.cable, path = path, segments = o.segments, rest = o.rest or "path" }
+  local wire = scene:wire{ cable = o.cable, path = half_round(top, FREE, BEYOND, at, o.swapped),
+    segments = o.segments, rest = o.rest or "path" }
   scene:force{ kind = "damping", mass = 30, stiffness = 0.001 }
   local one, two = scene:clamp(wire, { s = 0 }), scene:clamp(wire, { s = wire.length })
   local far, by = o.swapped and one or two, at(0, -WAY)

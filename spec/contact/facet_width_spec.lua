@@ -4,6 +4,7 @@
 -- on a facet. As corners and nodes passed each other the way round the drum changed, by up to h^2/8R within
 -- an edge h, and the pull rippled by up to 29 %, with ok = true and no event.
 local sw = require "softworld"
+local half_round = require("contact.drawn").half_round
 local t = require "spec.physics.tools"
 
 local R, MU, FREE, STEP = 0.02, 0.3, 0.1, 0.02 -- [m], [-], [m], [s]
@@ -30,17 +31,9 @@ local function drawn(o)
   scene:obstacle(o.facets and { shape = "hull", points = drum(o.facets, turned), friction = MU }
     or { shape = "cylinder", radius = R, length = 0.04, friction = MU,
       rotation = { axis = { 1, 0, 0 }, angle = math.pi / 2 } })
-  local path = { at(-top, -FREE) }
-  for k = 0, 200 do
-    local phi = math.pi * (1 - k / 200)
-    path[#path + 1] = at(top * math.cos(phi), top * math.sin(phi))
-  end
-  path[#path + 1] = at(top, -FREE)
   local length = 2 * FREE + math.pi * top
-  if o.swapped then
-    for i = 1, #path // 2 do path[i], path[#path + 1 - i] = path[#path + 1 - i], path[i] end
-  end
-  local wire = scene:wire{ cable = o.cable, path = path, segments = math.floor(length / o.edge + 0.5) }
+  local wire = scene:wire{ cable = o.cable, path = half_round(top, FREE, FREE, at, o.swapped),
+    segments = math.floor(length / o.edge + 0.5) }
   local near, far = o.swapped and wire.length or 0, o.swapped and 0 or wire.length
   scene:force{ kind = "point", on = wire, s = near, force = at(0, -o.pull) }
   if o.motion then scene:force{ kind = "damping", on = wire, mass = 5, stiffness = 0.001 } end
