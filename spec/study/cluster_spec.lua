@@ -5,7 +5,7 @@ local one_cluster = require "study.one_cluster"
 local program = require "host.program"
 
 -- Arguments: the journal, the duration of an evaluation [s], the number of tasks, detach, and what happens
--- to some tasks.
+-- to some tasks ("held": all wait for the file journal.go).
 local SCRIPT = [[
 local sw = require "softworld"
 local study = sw.study { name = "lot", file = arg[1], seed = 7, on = "ON", workers = 2,
@@ -16,7 +16,8 @@ local study = sw.study { name = "lot", file = arg[1], seed = 7, on = "ON", worke
     noted:write(p.number, "\n")
     noted:close()
     if p.random() < 0.1 then error("lost by chance", 0) end
-    os.execute("sleep " .. arg[2])
+    os.execute((arg[5] ~= "held" or not os.getenv "SOFTWORLD_TASK") and "sleep " .. arg[2]
+      or ("for i in $(seq 600); do [ -e %s.go ] || sleep 0.1; done"):format(arg[1]))
     local file, mark = io.open "/proc/self/stat", arg[1] .. ".mark." .. p.number
     local parent = file:read("a"):match "^%d+ %b() %u (%d+)"
     file:close()
@@ -129,13 +130,15 @@ describe("a study on a cluster", function()
 
   it("recomputes the evaluations of a cancelled task and of a requeued one", function()
     local c = case()
-    local _, err = during(c, c.command("0.1", 4), function(id)
-      for _ = 1, 100 do
+    -- The tasks are held until both are done: on a busy machine they would have ended before.
+    local _, err = during(c, c.command("0", 4, nil, "held"), function(id)
+      for _ = 1, 300 do
         if select(2, slurm:ask("squeue -h -r -o %T"):gsub("RUNNING", "")) == 4 then break end
         program.shell "sleep 0.05"
       end
       slurm:ask("scancel " .. id .. "_2")
       slurm:ask("scontrol requeue " .. id .. "_1")
+      program.write(c.journal .. ".go", "")
     end)
     assert.truthy(err:find("task 2 of job %d+: CANCELLED.*; sent again: 10 evaluations\n"), err)
     same(c)
@@ -174,7 +177,7 @@ describe("a study on a cluster", function()
     local c = case()
     local _, err, code = program.shell(c.command("0.02", 4, "detach"))
     assert.equal(1, code)
-    assert.truthy(err:find("script.lua:24: study 'lot': 4 tasks left to Slurm, job %d+; run the script"),
+    assert.truthy(err:find("script.lua:25: study 'lot': 4 tasks left to Slurm, job %d+; run the script"),
       err)
     until_empty()
     os.remove(c.journal .. ".tasks/1/out.1")
@@ -239,7 +242,7 @@ print(study:cancel(), study:cancel())
       said = program.shell(("%s %s %s %s 2>/dev/null"):format(slurm.env, program.path, canceller, c.journal))
     end)
     assert.equal("4\t0\n", said)
-    assert.truthy(err:find("script.lua:24: study 'lot' was cancelled; run the script again", 1, true), err)
+    assert.truthy(err:find("script.lua:25: study 'lot' was cancelled; run the script again", 1, true), err)
     until_empty()
     _, err = program.shell(c.command("0", 4))
     assert.equal(2, select(2, err:gsub("4 tasks sent", "")), err)
@@ -346,7 +349,7 @@ print(study:sweep { count = 2 }[2].failed)
     local c = case "{ partition = 'mian' }"
     local _, err, code = program.shell(c.command())
     assert.equal(1, code)
-    assert.truthy(err:find("script.lua:24: study 'lot': Slurm takes no tasks: invalid partition specified: "
+    assert.truthy(err:find("script.lua:25: study 'lot': Slurm takes no tasks: invalid partition specified: "
       .. "mian", 1, true), err)
     assert.truthy(err:find("; partitions are: main\n", 1, true), err)
     assert.is_nil(io.open(c.journal .. ".tasks/1/list"))
@@ -360,7 +363,7 @@ print(study:sweep { count = 2 }[2].failed)
     local _, err, code = program.shell(("PATH=%s %s %s/script.lua %s 0"):format(bin, path, c.folder,
       c.journal))
     assert.equal(1, code)
-    assert.truthy(err:find("script.lua:24: study 'lot': on = 'slurm' needs Slurm's commands, and sbatch is "
+    assert.truthy(err:find("script.lua:25: study 'lot': on = 'slurm' needs Slurm's commands, and sbatch is "
       .. "not on the PATH: run the script on the cluster's login node", 1, true), err)
     local conf = program.read(slurm.folder .. "/slurm.conf"):gsub("SlurmctldPort=%d+", "SlurmctldPort=1")
     program.write(c.folder .. "/slurm.conf", conf)
