@@ -148,18 +148,22 @@ void sw_contact_forgive(const sw_contact *c, const sw_system *s, const sw_candid
  * (spec/scene/feed_energy_spec); with five and ten clamps are the same [-]. */
 static const double IN_MOTION = 0.03;
 
-/* New edges that are off the depth of their force stay so from this share of the allowed depth on,
- * up to the usual one. Below, a wire that only lies on something comes to lie as if it had always
- * had them; above, it comes out, though that makes energy: it must not stay so far inside [-]. */
+/* New edges that are off the depth of their force stay so from this share of the allowed depth on.
+ * Below, a wire that only lies on something comes to lie as if it had always had them [-]. */
 static const double OF_EDGES = 0.1;
+
+/* Further inside than this share of the radius they come out, though that makes energy. Chords of
+ * 0.6 of a peg's radius beside a clamp are off by a tenth. With the usual depth as the limit the
+ * force of a cable doubled in short steps, with none it stays inside unseen. Outside they always
+ * stay: else the wire would lose its force (spec/contact/held_beside_spec) [-]. */
+static const double TOO_DEEP = 0.25;
 
 /* 1 if the line has got other edges, and they stay at the depth where they are. */
 static int stays(const sw_contact *c, const sw_system *s, const sw_kept *last, const sw_touch *t,
                  double deepest) {
-  const double usual = sw_depth_for(SW_DEEPEST, c->candidates[t->candidate].radius);
   if (c->regime != SW_CONTACT_IMPLICIT || last->left != HUGE_VAL) return 0;
-  const double off = fabs(sw_contact_depth_before(c, s, t) - last->depth);
-  return off > OF_EDGES * deepest && off <= usual;
+  const double off = sw_contact_depth_before(c, s, t) - last->depth;
+  return fabs(off) > OF_EDGES * deepest && off <= TOO_DEEP * c->candidates[t->candidate].radius;
 }
 
 int sw_contact_is_squeezed(const sw_contact *c, const sw_system *s, const sw_candidate *k,
