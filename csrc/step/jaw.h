@@ -3,6 +3,7 @@
 #ifndef SW_STEP_JAW_H
 #define SW_STEP_JAW_H
 
+#include "scene/gripper.h"
 #include "scene/scene.h"
 
 /* Begins a step of size h for all jaws. Returns 1 if a trial may have to be corrected. */
@@ -30,11 +31,12 @@ int sw_jaw_end_rest(sw_scene *scene, int went_well);
 /* Returns the pose step, at most h [s]. It is shorter if jaws that close to a force would close by
  * more than a small share of the wires' thickness. */
 double sw_jaw_step(const sw_scene *scene, double h);
-/* Call after a pose of size h. Returns a shorter one if pads press a mesh's section by too much in
- * one pose; else h [s]. */
-double sw_jaw_part(sw_scene *scene, double h);
-/* 1 if pads may press a mesh's section. */
-int sw_jaw_presses_sections(const sw_scene *scene);
+/* Call after a pose of size h; before: the jaws at its start, one per slot. A search may have begun
+ * anew within it. Returns a shorter one if pads gain too much force in it to follow their way; else
+ * h [s]. */
+double sw_jaw_part(sw_scene *scene, const sw_jaw *before, double h);
+/* 1 if pads close whose way matters: on a mesh's section, or three and more on a wire. */
+int sw_jaw_ways_matter(const sw_scene *scene);
 /* Call after a trial of size h. Returns the closing of jaws on wires over the allowed closing per
  * part; up to 1 is fine [-]. */
 double sw_jaw_closes(sw_scene *scene, double h);

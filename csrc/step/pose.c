@@ -212,7 +212,8 @@ static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_ar
     if (!helps || !halvings) return status;
     return by_the_middle(s, t1, halvings, how, report, start, err);
   }
-  const double part_of_jaws = start->jaws && squeezes ? sw_jaw_part(s, t1 - t0) : t1 - t0;
+  const double part_of_jaws =
+      start->jaws && squeezes ? sw_jaw_part(s, start->jaws, t1 - t0) : t1 - t0;
   if (start->jaws && part_of_jaws < (t1 - t0) * (1 - 1e-9))
     return again(s, t0, t0 + part_of_jaws, halvings, how, report, start, err);
   if (start->jaws && t1 - t0 > how->shortest &&
@@ -232,7 +233,7 @@ static sw_status pose(sw_scene *s, double t1, int halvings, const sw_pose_args *
                       sw_run_report *report, sw_error *err) {
   kept start = {0};
   sw_status status = sw_outer_begin_pose(s, &start.outer, err);
-  const int breaks = sw_scene_may_break(s) || sw_passing_any(s) || sw_jaw_presses_sections(s);
+  const int breaks = sw_scene_may_break(s) || sw_passing_any(s) || sw_jaw_ways_matter(s);
   if (status == SW_OK && breaks)
     status = keep(s, &start, err);
   else if (status == SW_OK && sw_grips_frozen(s))
