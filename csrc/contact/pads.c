@@ -15,6 +15,11 @@ static const double CLOSE = 3.0; /* least number of rings along the pad's face, 
  * at its edges [-]. */
 static const double SAMPLES = 12.0;
 
+/* Least number across a pad of small height, for wires that cross it askew. With SAMPLES there, a
+ * pad 20 mm wide and 2 mm high had 120 along the wire, and was ten times too stiff: poses found no
+ * rest, or threw the wire out of four fingers (spec/physics/low_pads_spec) [-]. */
+static const double SAMPLES_ACROSS = 2.0;
+
 /* Edges of a whole number of samples, within rounding, all have one sample more [-]. */
 static const double ROUNDING = 1e-9;
 
@@ -95,12 +100,12 @@ void sw_pads_look(sw_contact *c, const sw_plan *p) {
   for (size_t k = 0; k < c->pad_count; k++) {
     const int o = c->pads[k];
     const sw_bounds b = sw_shape_bounds(c->obstacles[o].shape);
-    const double width = fmin(b.max.x - b.min.x, b.max.z - b.min.z);
+    const sw_vec size = sw_sub(b.max, b.min);
     round_pad pad;
-    c->dense[o] = rings && width > CLOSE * widest;
+    c->dense[o] = rings && fmin(size.x, size.z) > CLOSE * widest;
     c->spaced[o] = 0;
     if (!p->web && sw_shape_is(c->obstacles[o].shape, SW_SHAPE_FACED))
-      c->spaced[o] = width / SAMPLES;
+      c->spaced[o] = fmin(size.x / SAMPLES, size.z / SAMPLES_ACROSS);
     else if (find_round(c, p, (size_t)o, &pad))
       c->spaced[o] = 2.0 * pad.half / IN_CONTACT;
   }

@@ -76,6 +76,22 @@ local function is_beside(self, wire)
   return z < self.span[1] or z > self.span[2]
 end
 
+local AROUND = { flat = true, round = true } -- shapes of fingers that close as the sides of a polygon
+
+-- True if the wire's axis is out of the polygon of three or more fingers: they have closed beside it, and
+-- some press it from outside. Within the polygon an axis has at least its radius to each side, and is at most
+-- twice as far from the centre as it could go towards a side: in the corner of a triangle.
+local function is_outside(self, wire, state)
+  local fingers = self.pads
+  if not wire or state.squeeze <= 0 then return false end
+  if fingers.fingers < 3 or not AROUND[fingers.shape] then return false end
+  local at, q = self.tool:pose()
+  local place = wire:position(stand.nearest_place(wire, at))
+  local off = vec.rotate(vec.conjugate(q), vec.sub(place, at))
+  local half = 0.5 * state.opening
+  return math.max(half, 2 * (half - wire.radius)) < (off[2] ^ 2 + off[3] ^ 2) ^ 0.5
+end
+
 -- Stops the jaws and raises an error with the reason why they failed.
 local function give_up(self, order, wire, state, crushed, longest)
   self.tool:jaws{ mode = "still" }
@@ -129,6 +145,12 @@ local function wait_for_jaws(self, p, order)
   end
   local longest = self.tool:state().opening / order.speed + PATIENCE
   local arrived = p:wait_until(done, { timeout = longest })
+  if arrived and not crushed and is_outside(self, wire, state) then
+    self.tool:jaws{ mode = "still" }
+    note(self, "missed", {})
+    error(("gripper '%s' closed beside the wire: it is not between the %d fingers, which are %.4g mm "
+      .. "open%s"):format(self.name, self.pads.fingers, 1e3 * state.opening, whereabouts(self, wire)), 0)
+  end
   if arrived and not crushed and state.jaws ~= "empty" then
     if state.squeeze > 0 and state.opening < least then -- the order asked for this opening
       note(self, "crushed", { opening = state.opening, squeeze = state.squeeze })
