@@ -123,7 +123,7 @@ static double longest_step(const sw_scene *s, const sw_tool *t) {
   SW_EACH(wire, wire, s) radius = fmin(radius, wire->beam.radius);
   const double width = fmax(LEAST * radius, fmin(radius, LEFT * j->opening));
   double way = WIDEST_STEP * width;
-  if (way_matters(s, t) && j->now > 0 && j->stiffness > 0)
+  if (way_matters(s, t) && has_sections(s) && j->now > 0 && j->stiffness > 0)
     way = fmin(way, fmax(TELLS, GAINS * j->force / j->stiffness));
   return way / j->most;
 }
