@@ -65,6 +65,7 @@ static sw_status run_loop(sw_ladder *p, double until, int (*interrupted)(void), 
     began = sw_scene_time(s);
     SW_TRY(one_step(p, t1, until, err));
     SW_TRY(sw_scene_watch_sunk(s, err));
+    SW_TRY(sw_scene_look_across(s, err));
     const int early = !p->args->quasistatic && sw_scene_time(s) < t1 - slack; /* jaws arrived */
     if (!cut && !early) k++;
     if (isfinite(p->args->frame) && sw_scene_time(s) >= sw_scene_frames_of(s)->next - slack)

@@ -29,6 +29,16 @@ typedef struct sw_unbent {
   int plane;        /* 1: it was bent in a plane at times */
 } sw_unbent;
 
+/* A wire that is bent in a plane, moves, and is pushed along its length, see watch/arched.c. */
+typedef struct sw_arched {
+  double growth;     /* logarithm of the growth of a straight piece's bend so far [-] */
+  double time, seen; /* time for which it has been pushed; time of the last check [s] */
+  double need;       /* growth at which its motions are looked at again [-] */
+  double push, at;   /* now [N], as arc length [m] */
+  sw_vec normal;     /* of the plane */
+  int pushed;        /* 1: at the last check */
+} sw_arched;
+
 typedef struct sw_body {
   sw_plan *plan;
   size_t first_node, first_edge, first_slice; /* first place in the system's arrays */
@@ -93,6 +103,7 @@ typedef struct sw_body {
   double gravity, stored, loads; /* its energies, see sw_energies [J] */
   double pushed;                 /* largest push in the checks for buckling so far [N] */
   sw_unbent unbent;
+  sw_arched arched;
 } sw_body;
 
 /* Axial stiffness of an edge or spring: force over strain [N]. */

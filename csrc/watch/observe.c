@@ -143,6 +143,7 @@ sw_status sw_scene_observe(sw_scene *s, sw_error *err) {
   for (size_t w = 0; w < sw_scene_wire_slots(s); w++) sw_scene_watch_undamped(s, w);
   for (size_t w = 0; w < sw_scene_wire_slots(s); w++) sw_scene_watch_pierced(s, w);
   for (size_t w = 0; w < sw_scene_wire_slots(s); w++) sw_scene_watch_unbent(s, w);
+  for (size_t w = 0; w < sw_scene_wire_slots(s); w++) sw_scene_watch_arched(s, w);
   sw_scene_watch_together(s);
   sw_scene_watch_passed(s);
   if (sw_scene_has_contact(s)) SW_TRY(observe_contact(s, err));

@@ -12,6 +12,7 @@
 #include "scene/parts.h"
 #include "scene/wire.h"
 #include "system/system.h"
+#include "watch/across.h"
 #include "watch/observe.h"
 
 /* A wire whose tangents differ by at most this is straight [-]. */
@@ -69,32 +70,34 @@ static int is_straight(const sw_system *system, const sw_body *b) {
 
 static double gravity_of(const sw_scene *s) { return fmax(sw_norm(sw_scene_gravity(s)), 1.0); }
 
-/* 1 if the wire is bent in a plane, and slow. */
-static int lies_in_plane(const sw_scene *s, const sw_system *system, const sw_body *b,
-                         sw_vec *normal) {
+static int is_slow(const sw_scene *s, const sw_system *system, const sw_body *b) {
   const double most = SLOW * sqrt(gravity_of(s) * b->plan->length);
+  for (size_t i = b->first_node; i < b->first_node + b->plan->nodes; i++)
+    if (!(sw_norm2(sw_vec_at(system->v, i)) <= most * most)) return 0;
+  return 1;
+}
+
+int sw_scene_lies_in_plane(const sw_system *system, const sw_body *b, double bent, sw_vec *normal) {
   const sw_vec first = tangent_at(system, b, 0);
   sw_vec n = {0};
   for (size_t e = 1; e < b->plan->edges; e++) {
     const sw_vec turn = sw_cross(first, tangent_at(system, b, e));
     if (sw_norm2(turn) > sw_norm2(n)) n = turn;
   }
-  *normal = n = sw_unit_or(n, sw_v(0, 0, 0));
-  if (!(sw_norm2(n) > 0)) return 0;
+  *normal = sw_unit_or(n, sw_v(0, 0, 0));
+  if (!(sw_norm2(n) > bent * bent)) return 0;
+  n = *normal;
   for (size_t e = 0; e < b->plan->edges; e++)
     if (!(fabs(sw_dot(tangent_at(system, b, e), n)) <= IN_PLANE)) return 0;
-  for (size_t i = b->first_node; i < b->first_node + b->plan->nodes; i++)
-    if (!(sw_norm2(sw_vec_at(system->v, i)) <= most * most)) return 0;
   return 1;
 }
 
-/* Counts the unstable motions that go across the plane. */
-static sw_status count_across(const sw_system *system, size_t w, double slow, sw_vec normal,
-                              size_t *count) {
+sw_status sw_scene_unstable_across(const sw_system *system, size_t w, double slow, sw_vec normal,
+                                   size_t *count, double *rate) {
   const size_t nodes = system->bodies[w].plan->nodes;
   sw_modes modes;
   sw_error ignored;
-  *count = 0;
+  *count = 0, *rate = 0;
   SW_TRY(sw_modal_solve(system, w, 0, slow, NULL, &modes, &ignored));
   for (size_t k = 0; k < modes.unstable; k++) {
     const double *shape = modes.shapes + k * modes.unknowns;
@@ -103,7 +106,9 @@ static sw_status count_across(const sw_system *system, size_t w, double slow, sw
       const double aside = sw_dot(sw_load(shape), normal);
       across += aside * aside, all += sw_norm2(sw_load(shape));
     }
-    *count += across > ACROSS * all;
+    if (!(across > ACROSS * all)) continue;
+    *count += 1;
+    *rate = fmax(*rate, sqrt(-modes.omega2[k]));
   }
   sw_modes_free(&modes);
   return SW_OK;
@@ -121,9 +126,10 @@ static sw_status look_at(sw_scene *s, size_t w, double push, size_t edge, sw_vec
   const double rate = SLOWEST * sqrt(gravity_of(s) / b->plan->length);
   const int flat = sw_norm2(normal) > 0;
   size_t count = 0;
+  double fastest;
   sw_status status = sw_modal_unstable(system, w, rate * rate, &count);
   if (status == SW_OK && flat && count > 0)
-    status = count_across(system, w, rate * rate, normal, &count);
+    status = sw_scene_unstable_across(system, w, rate * rate, normal, &count, &fastest);
   if (cannot_be_said(status)) return SW_OK;
   if (status != SW_OK || count == 0) return status;
   system->bodies[w].pushed = HUGE_VAL;
@@ -154,7 +160,8 @@ static int is_new_push(const sw_scene *s, size_t w, double *push, size_t *edge, 
   if (!(*push > rounding_of(system, b))) return 0;
   *normal = sw_v(0, 0, 0);
   return *push > GROWN * b->pushed &&
-         (is_straight(system, b) || lies_in_plane(s, system, b, normal));
+         (is_straight(system, b) ||
+          (is_slow(s, system, b) && sw_scene_lies_in_plane(system, b, 0, normal)));
 }
 
 /* Checks all wires. The system is linearised once for all of them. */

@@ -14,6 +14,7 @@
 #include "scene/wire.h"
 #include "system/axis.h"
 #include "system/pushed.h"
+#include "watch/across.h"
 #include "watch/observe.h"
 
 /* Directions of all edges of a straight wire differ from its chord by at most this. Real wires are
@@ -154,8 +155,7 @@ static int slides(const sw_beam *beam, double friction, const sw_pushed *p) {
   return 0.5 * (p->push - beam->EI * k * k) * k * k * CROOKED * p->length > friction;
 }
 
-/* Returns the rate at which a real wire would bend to the side; 0: it would not [1/s]. */
-static double rate_of(const sw_scene *s, const sw_body *b, sw_pushed *most) {
+double sw_scene_bend_rate(const sw_scene *s, const sw_body *b, sw_pushed *most) {
   const sw_system *system = sw_scene_system(s);
   if (!(sw_pushed_rate(system, b, system->x, 0, most) > 0)) return 0;
   const double friction = friction_on(s, b, most);
@@ -176,7 +176,7 @@ void sw_scene_watch_unbent(sw_scene *s, size_t wire) {
   sw_pushed most = {0};
   u->seen = time;
   if (b->waits || !(b->plan->beam.EI > 0)) return;
-  const double rate = rate_of(s, b, &most);
+  const double rate = sw_scene_bend_rate(s, b, &most);
   const int shape = (rate > 0 || u->due > 0) && since > 0 ? shape_of(system, b) : LEFT;
   const int was_straight = u->due > 0 && !u->plane; /* it buckles in a plane */
   if (rate > 0 && (shape == STRAIGHT_ON || (shape == IN_PLANE && !was_straight))) {

@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reports wires that are bent in a plane and move, and are pushed for longer than a real wire stays
+ * in that plane. Nothing in the simulation moves such a wire across the plane, not even rounding:
+ * two hands that bring a cable's ends together over a peg bend it in the plane of its drawing.
+ * watch/straight.c looks at slow wires, watch/unbent.c at nearly straight ones.
+ *
+ * A step takes the rate of a straight piece under this push. Only when a real wire had left the
+ * plane at this rate, the motions of the bent wire itself are computed. */
+#include <math.h>
+
+#include "body/join.h"
+#include "body/touching.h"
+#include "scene/course.h"
+#include "scene/events.h"
+#include "scene/parts.h"
+#include "scene/wire.h"
+#include "watch/across.h"
+#include "watch/observe.h"
+
+/* A wire that is bent by less is nearly straight, see watch/unbent.c [-]. */
+static const double BENT = 0.02;
+/* After this much growth, as its logarithm, the bend of a real wire out of the plane would be its
+ * own length three times over [-]. */
+static const double GROWTH = 8.0;
+/* Growth until the next look, over that at the last one, at least and at most [-]. */
+static const double SOONER = 1.2, LATER = 2.0;
+
+static int can_be_told(const sw_scene *s, size_t w, const sw_body *b) {
+  return !sw_course_is_still(sw_scene_course(s)) && !b->waits && b->plan->beam.EI > 0 &&
+         !b->plan->web && b->pushed < HUGE_VAL && !sw_scene_joined(s, w);
+}
+
+void sw_scene_watch_arched(sw_scene *s, size_t wire) {
+  sw_system *system = sw_scene_system(s);
+  sw_body *b = &system->bodies[wire];
+  sw_arched *a = &b->arched;
+  const double time = sw_scene_time(s), since = time - a->seen;
+  sw_pushed most = {0};
+  sw_vec normal;
+  a->seen = time;
+  const double rate = can_be_told(s, wire, b) ? sw_scene_bend_rate(s, b, &most) : 0;
+  if (!(rate > 0) || !sw_scene_lies_in_plane(system, b, BENT, &normal)) {
+    *a = (sw_arched){.seen = time};
+    return;
+  }
+  if (a->pushed) a->growth += rate * since, a->time += since; /* else it began within the step */
+  a->pushed = 1, a->push = most.push, a->at = b->plan->s[most.edge] - b->plan->s[0];
+  a->normal = normal;
+}
+
+static void tell(sw_scene *s, size_t w) {
+  const sw_arched *a = &sw_scene_system(s)->bodies[w].arched;
+  const char *name = sw_scene_wire_in(s, w)->name;
+  sw_scene_tell(s, "buckling", name, a->at, a->push,
+                "wire '%s' stays in a plane under a push of %.3g N for %.3g s, but is unstable "
+                "across it: a real wire has left it by then; draw it bent out of it by a "
+                "thousandth of its length, or add a small force across it",
+                name, a->push, a->time);
+}
+
+/* Looks at a wire of the linearised system. */
+static sw_status look_at(sw_scene *s, size_t w) {
+  sw_body *b = &sw_scene_system(s)->bodies[w];
+  sw_arched *a = &b->arched;
+  const double slow = GROWTH / (LATER * a->time);
+  size_t count = 0;
+  double rate = 0;
+  const sw_status status =
+      sw_scene_unstable_across(sw_scene_system(s), w, slow * slow, a->normal, &count, &rate);
+  if (status == SW_ENOMEM) return status;
+  const double grown = status == SW_OK && count > 0 ? rate * a->time : 0;
+  a->need = a->growth * fmin(LATER, fmax(SOONER, GROWTH / fmax(grown, 1.0)));
+  if (grown < GROWTH) return SW_OK;
+  tell(s, w);
+  b->pushed = HUGE_VAL; /* once in a run */
+  return SW_OK;
+}
+
+sw_status sw_scene_look_across(sw_scene *s, sw_error *err) {
+  sw_system *system = sw_scene_system(s);
+  sw_status status = SW_OK;
+  int linear = 0;
+  for (size_t w = 0; w < system->body_count && status == SW_OK; w++) {
+    const sw_arched *a = &system->bodies[w].arched;
+    if (!(a->growth >= fmax(GROWTH, a->need))) continue;
+    if (!linear) status = sw_scene_linearise(s, NULL, 0, err);
+    linear = 1;
+    if (status == SW_OK) status = look_at(s, w);
+  }
+  if (linear) sw_system_refresh(system);
+  const int unsaid = status == SW_EDIVERGED || status == SW_EINVAL || status == SW_ENOCONV;
+  return unsaid ? SW_OK : status;
+}
