@@ -102,8 +102,26 @@ static void add_turn(turning *w, double N, sw_vec arm, sw_vec slip) {
       w->inertia[i][j] += N * ((i == j ? sw_norm2(arm) : 0.0) - r[i] * r[j]);
 }
 
+/* Touches of a wire within this share of its radius do not show a turn: pads that touch it with one
+ * edge or corner each. The arms are rounding, and a turn of 1e35 rad came from them [-]. */
+static const double ONE_PLACE = 0.05;
+
+/* Adds the turn that the touches from first to end of one wire show. middle: of them. */
+static void look_for_turn(const list *l, size_t first, size_t end, sw_vec middle, double radius,
+                          turning *w) {
+  double normal = 0, wide = 0;
+  for (size_t k = first; k < end; k++) {
+    normal += l->touch[k].force;
+    wide += l->touch[k].force * sw_norm2(sw_sub(l->touch[k].at, middle));
+  }
+  if (!(wide > normal * ONE_PLACE * ONE_PLACE * radius * radius)) return;
+  for (size_t k = first; k < end; k++)
+    add_turn(w, l->touch[k].force, sw_sub(l->touch[k].at, middle), l->slip[k]);
+}
+
 /* Looks at the touches from first to end, of one wire: its margin, its slip and turn. */
-static void look_at_wire(const list *l, size_t first, size_t end, sw_held *out, turning *w) {
+static void look_at_wire(const sw_system *system, const list *l, size_t first, size_t end,
+                         sw_held *out, turning *w) {
   sw_vec force = sw_v(0, 0, 0), moment = force, middle = force, axle = force;
   double normal = 0;
   for (size_t k = first; k < end; k++) {
@@ -115,8 +133,7 @@ static void look_at_wire(const list *l, size_t first, size_t end, sw_held *out, 
     normal += t->force;
   }
   middle = sw_scale(middle, 1.0 / normal), axle = sw_scale(axle, 1.0 / normal);
-  for (size_t k = first; k < end; k++)
-    add_turn(w, l->touch[k].force, sw_sub(l->touch[k].at, middle), l->slip[k]);
+  look_for_turn(l, first, end, middle, system->bodies[l->body[first]].plan->beam.radius, w);
   out->margin =
       fmax(out->margin, sw_touches_margin(l->touch + first, end - first, axle, force, moment));
   for (size_t k = first; k < end; k++) l->touch[k].at = sw_sub(l->touch[k].at, middle);
@@ -137,7 +154,7 @@ static sw_status read_touches(sw_scene *s, sw_tool *t, list *l, sw_held *out, sw
   collect(s, t, l, out);
   for (size_t first = 0, end; first < l->count; first = end) {
     for (end = first + 1; end < l->count && l->body[end] == l->body[first];) end++;
-    look_at_wire(l, first, end, out, &w);
+    look_at_wire(sw_scene_system(s), l, first, end, out, &w);
   }
   if (sw_dense_least(&w.inertia[0][0], 3, w.moment, IDLE)) out->turn = sw_load(w.moment);
   return SW_OK;
