@@ -5,7 +5,8 @@ package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
 
--- Way of the hand along the cable. Most of it slips: before, friction that sticks gives by 0.02 to 0.08 mm [m].
+-- Way of the hand along the cable. Most of it slips; before, friction that sticks gives by 0.02 to 0.08 mm
+-- [m].
 local way = 1e-3
 
 -- Writes a finger whose ridge is the line x = y = 0 of height 20 mm; returns the file's name.
