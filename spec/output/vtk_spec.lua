@@ -107,6 +107,22 @@ describe("vtk", function()
       sink.read_file(folder .. "/a.vtk/objects.json"))
   end)
 
+  it("gives a wire that is not there neither tension nor bend", function()
+    local run, nan = scene.run { frames = 2 }, 0 / 0
+    run.series = { time = { run.frames[1].t, run.frames[2].t }, columns = {
+      { name = "w.bend_radius", unit = "m", values = { 0.05, nan } },
+      { name = "w.tension", unit = "N", values = { 3, nan } },
+      { name = "v.bend_radius", unit = "m", values = { math.huge, 0.02 } } } }
+    vtk.write(run, folder .. "/a.pvd")
+    local first = read_vtp(folder .. "/a.vtk/wires_00000.vtp")
+    local second = read_vtp(folder .. "/a.vtk/wires_00001.vtp")
+    assert.same({ 0.05 }, first["w.bend_radius"])
+    assert.same({ 1e9 }, first["v.bend_radius"]) -- straight
+    assert.same({ 1e9 }, second["w.bend_radius"])
+    assert.same({ 0 }, second["w.tension"])
+    assert.same({ 0.02 }, second["v.bend_radius"])
+  end)
+
   it("leaves out frames that are not finite", function()
     local run = scene.run { frames = 3 }
     run.frames[3].wires[1][7] = 0 / 0

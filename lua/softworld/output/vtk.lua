@@ -123,7 +123,8 @@ local function fields_at(run, t)
   local i = math.abs(times[low] - t) <= math.abs(times[high] - t) and low or high
   for c, column in ipairs(series.columns) do
     local value = column.values[i]
-    if value ~= value then value = 0.0 end -- for example nothing was held; VTK reads no nan
+    -- For example nothing was held; VTK reads no nan. A radius of 0 would be the smallest of the run.
+    if value ~= value then value = column.name:find "%.bend_radius$" and STRAIGHT or 0.0 end
     fields[c] = { name = column.name, value = value == math.huge and STRAIGHT or value }
   end
   return fields
