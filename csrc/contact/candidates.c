@@ -73,26 +73,12 @@ static double reach_of(const sw_contact *c, const sw_system *s, size_t node, siz
   return c->reach[node] + sw_norm(sw_obstacle_velocity(&c->start[o], x)) * c->h;
 }
 
-/* A wire meets the facets of a round surface with its smooth curve if they are wider than this
- * share of its edges. A chord is further out on a corner than on a facet: as both pass each other,
- * the wire's way changes, and the pull of a drawn cable rippled by up to 29 %, for facets of any
- * width. On the curve it is that of the round surface within 2 % (spec/contact/facet_width_spec).
- * The curve touches all corners within an edge, though: where a soft wire falls on 13 of them,
- * steps need 2.7 times the iterations (spec/contact/smooth_spec) [-]. */
-static const double WIDE = 0.125;
-
-static int has_wide_facets(const sw_contact *c, const sw_plan *p, size_t i, const sw_candidate *k) {
-  const size_t high = i < p->edges ? i : p->edges - 1, low = k->segment || i == 0 ? high : i - 1;
-  return c->facet[k->obstacle] > WIDE * fmin(p->rest[low], p->rest[high]);
-}
-
 /* Decides whether the wire touches the candidate's obstacle with its smooth curve or its chords. */
 static void find_smooth(const sw_contact *c, const sw_system *s, sw_candidate *k) {
   const sw_body *b = &s->bodies[k->body];
   if (b->plan->web || b->plan->beam.rolls) return;
   sw_contact_find_round(c, s, k);
-  k->smooth =
-      c->sharp[k->obstacle] || k->round || has_wide_facets(c, b->plan, k->node - b->first_node, k);
+  k->smooth = c->sharp[k->obstacle] || k->round || sw_contact_meets_curve(c, s, k);
 }
 
 static sw_status add_candidate(sw_contact *c, const sw_system *s, size_t body, size_t node,
@@ -337,12 +323,14 @@ sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err)
   c->unmarked = 1;
   c->hardens = c->falls = 0;
   memset(c->wound, 0, c->count * sizeof *c->wound);
+  memset(c->curved, 0, c->count * sizeof *c->curved);
   for (size_t b = 0; b < s->body_count && status == SW_OK; b++) {
     const size_t first = c->candidate_count;
     if (s->bodies[b].waits) continue;
     const sw_web *web = s->bodies[b].plan->web;
     sw_pads_look(c, s->bodies[b].plan);
     sw_contact_find_wound(c, s, b);
+    sw_contact_find_curved(c, s, b);
     reach_out(c, s, &s->bodies[b]);
     for (size_t i = 0; i < s->bodies[b].plan->nodes && status == SW_OK; i++)
       if (sw_interrupted())

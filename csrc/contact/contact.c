@@ -17,7 +17,7 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_
   if (!c) return SW_ENOMEM;
   const sw_status status =
       SW_ALLOC_ALL(SW_ROOM(c->obstacles, count), SW_ROOM(c->loads, count), SW_ROOM(c->start, count),
-                   SW_ROOM(c->now, count), SW_ROOM(c->before, count), SW_ROOM(c->flat, 8 * count),
+                   SW_ROOM(c->now, count), SW_ROOM(c->before, count), SW_ROOM(c->flat, 9 * count),
                    SW_ROOM(c->spaced, 3 * count), SW_ROOM(c->bounds, count));
   if (status != SW_OK || sw_broad_new(&c->broad, count) != SW_OK) {
     sw_contact_free(c);
@@ -25,7 +25,7 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_
   }
   c->dense = c->flat + count, c->busy = c->dense + count, c->pads = c->busy + count;
   c->pressing = c->pads + count, c->straight = c->pressing + count;
-  c->sharp = c->straight + count, c->wound = c->sharp + count;
+  c->sharp = c->straight + count, c->wound = c->sharp + count, c->curved = c->wound + count;
   c->round = c->spaced + count, c->facet = c->round + count;
   memcpy(c->obstacles, obstacles, count * sizeof *obstacles);
   for (size_t o = 0; o < count; o++) {

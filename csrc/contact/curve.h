@@ -35,7 +35,7 @@ static inline double sw_place_share(const sw_place *place) {
 }
 
 /* Places of a segment: the nearest ones on its curve, all on its chord, or its samples. */
-enum { SW_PLACES_MOST = 3 * SW_CLOSEST_MAX };
+enum { SW_PLACES_MOST = 6 * SW_CLOSEST_MAX };
 typedef struct sw_places {
   size_t count;
   sw_place place[SW_SAMPLES_MOST];

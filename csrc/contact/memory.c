@@ -53,7 +53,7 @@ static sw_status remember(sw_contact *c, const sw_system *s, const sw_touch *t, 
       .point = t->local,
       .seen = t->seen};
   m->kept.steady = steady_force(c, s, t), m->kept.left = t->left;
-  m->kept.edited = t->edited;
+  m->kept.edited = t->edited, m->kept.curve = c->candidates[t->candidate].smooth;
   if (t->squeezed && c->regime == SW_CONTACT_IMPLICIT && !sw_contact_is_pinched(c, t))
     sw_kept_harden(&m->kept, sw_contact_edge_stiffness(s, t->body, t->node), deepest);
   if (holds) sw_kept_hold_slide(&m->kept, &t->press, t->known);

@@ -49,7 +49,7 @@ static double bend_beside(const sw_system *s, const sw_body *b, size_t node, int
   return bend_at(s, b, segment || i == 0 ? high : i - 1, high);
 }
 
-static size_t first_memory(const sw_contact *c, size_t node) {
+size_t sw_contact_first_memory(const sw_contact *c, size_t node) {
   size_t i;
   SW_FIRST_NOT(c->memory[i].node < node, i, 0, c->memory_count);
   return i;
@@ -58,7 +58,7 @@ static size_t first_memory(const sw_contact *c, size_t node) {
 void sw_contact_find_wound(sw_contact *c, const sw_system *s, size_t body) {
   const sw_body *b = &s->bodies[body];
   if (b->plan->web) return;
-  for (size_t i = first_memory(c, b->first_node); i < c->memory_count; i++) {
+  for (size_t i = sw_contact_first_memory(c, b->first_node); i < c->memory_count; i++) {
     const sw_memory *m = &c->memory[i];
     if (m->node >= b->first_node + b->plan->nodes) return;
     if (!m->segment || !(m->kept.normal_force > 0)) continue;

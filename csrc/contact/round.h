@@ -18,6 +18,11 @@ void sw_contact_find_wound(sw_contact *c, const sw_system *s, size_t body);
  * firmly touches stay in the middle of edges. */
 void sw_contact_find_round(const sw_contact *c, const sw_system *s, sw_candidate *k);
 
+/* Finds the obstacles on which a body presses with its curve at the step's start, or taut. */
+void sw_contact_find_curved(sw_contact *c, const sw_system *s, size_t body);
+/* 1 if the wire meets the candidate's obstacle, of facets, with its curve. */
+int sw_contact_meets_curve(const sw_contact *c, const sw_system *s, const sw_candidate *k);
+
 /* Lists the places of a piece less than reach away [m]. */
 void sw_contact_round_places(const sw_piece *piece, double reach, sw_places *list);
 

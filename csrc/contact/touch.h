@@ -32,8 +32,9 @@ struct sw_contact {
   int *pressing;              /* (count) 1: a pad that pressed on something at the step's start */
   int *sharp;                 /* (count) 1: it has faces, edges and corners */
   double *round, *facet;      /* (count) radius of its round side, sw_shape_facet; 0: none [m] */
-  int *wound;   /* (count) last body that goes round it in this step: number + 1, or 0 */
-  int *dense;   /* (count) 1: particles of the current body lie close to each other */
+  int *wound, *curved; /* (count) last body that goes round it in this step, and that presses on
+                          narrow facets with its curve or taut: number + 1, or 0 */
+  int *dense;          /* (count) 1: particles of the current body lie close to each other */
   double *sunk; /* (3 nodes) shift of each node's place for contact; NULL: no node is shifted [m] */
   size_t sunk_capacity;
   sw_ahead *ahead; /* (2 ahead_count) statics: states of the touches in the search, work space */
@@ -155,6 +156,8 @@ void sw_contact_sort_memory(sw_contact *c); /* in the order of candidates */
  * else its normal, decides between touches at the same place of the wire. */
 const sw_memory *sw_contact_remembered(const sw_contact *c, const sw_candidate *k,
                                        const sw_closest *place);
+/* Returns the index of the first memory of this node or a later one. */
+size_t sw_contact_first_memory(const sw_contact *c, size_t node);
 /* Returns the obstacle with this owner's number, or count. */
 size_t sw_contact_index(const sw_contact *c, int id);
 int sw_contact_is_faceted(const sw_contact *c, size_t o); /* 1: a round thing, of facets */

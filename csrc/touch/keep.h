@@ -4,6 +4,8 @@
 #ifndef SW_TOUCH_KEEP_H
 #define SW_TOUCH_KEEP_H
 
+#include <stdint.h>
+
 #include "base/vec.h"
 
 struct sw_press;
@@ -19,7 +21,8 @@ typedef struct sw_kept {
                      them, below 0 where it is outside now [m] */
   sw_vec elastic; /* displacement of friction's spring, with that stiffness [m] */
   int sliding;
-  int edited; /* 1: `left` is due to other edges, and stays though the touch opens */
+  int16_t edited; /* 1: `left` is due to other edges, and stays though the touch opens */
+  int16_t curve;  /* 1: it is on a smooth curve, not on a chord */
 } sw_kept;
 
 #define SW_STIFFENED_MOST 10.0 /* largest stiffening of a touch at once [-] */
