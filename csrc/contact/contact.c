@@ -18,7 +18,7 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_
   const sw_status status =
       SW_ALLOC_ALL(SW_ROOM(c->obstacles, count), SW_ROOM(c->loads, count), SW_ROOM(c->start, count),
                    SW_ROOM(c->now, count), SW_ROOM(c->before, count), SW_ROOM(c->flat, 9 * count),
-                   SW_ROOM(c->spaced, 3 * count), SW_ROOM(c->bounds, count));
+                   SW_ROOM(c->spaced, 4 * count), SW_ROOM(c->bounds, count));
   if (status != SW_OK || sw_broad_new(&c->broad, count) != SW_OK) {
     sw_contact_free(c);
     return SW_ENOMEM;
@@ -27,6 +27,7 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_
   c->pressing = c->pads + count, c->straight = c->pressing + count;
   c->sharp = c->straight + count, c->wound = c->sharp + count, c->curved = c->wound + count;
   c->round = c->spaced + count, c->facet = c->round + count;
+  c->facet_radius = c->facet + count;
   memcpy(c->obstacles, obstacles, count * sizeof *obstacles);
   for (size_t o = 0; o < count; o++) {
     c->flat[o] = sw_shape_is(obstacles[o].shape, SW_SHAPE_FLAT);
@@ -37,7 +38,7 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_
     sw_vec q, along;
     if (obstacles[o].grips > 0) continue;
     c->round[o] = sw_shape_middle(obstacles[o].shape, sw_v(0, 0, 0), &q, &along);
-    c->facet[o] = sw_shape_facet(obstacles[o].shape);
+    c->facet[o] = sw_shape_facet(obstacles[o].shape, &c->facet_radius[o]);
   }
   for (size_t o = 0; o < count; o++)
     if (obstacles[o].grips > 0) c->pads[c->pad_count++] = (int)o;

@@ -18,6 +18,8 @@ void sw_contact_find_wound(sw_contact *c, const sw_system *s, size_t body);
  * firmly touches stay in the middle of edges. */
 void sw_contact_find_round(const sw_contact *c, const sw_system *s, sw_candidate *k);
 
+/* Returns the index of the first memory of this node or a later one. */
+size_t sw_contact_first_memory(const sw_contact *c, size_t node);
 /* Finds the obstacles on which a body presses with its curve at the step's start, or taut. */
 void sw_contact_find_curved(sw_contact *c, const sw_system *s, size_t body);
 /* 1 if the wire meets the candidate's obstacle, of facets, with its curve. */

@@ -31,14 +31,13 @@ struct sw_contact {
   int *pads;                  /* (pad_count) numbers of the pads of grippers */
   int *pressing;              /* (count) 1: a pad that pressed on something at the step's start */
   int *sharp;                 /* (count) 1: it has faces, edges and corners */
-  double *round, *facet;      /* (count) radius of its round side, sw_shape_facet; 0: none [m] */
-  int *wound, *curved; /* (count) last body that goes round it in this step, and that presses on
-                          narrow facets with its curve or taut: number + 1, or 0 */
-  int *dense;          /* (count) 1: particles of the current body lie close to each other */
+  double *round, *facet, *facet_radius; /* (count) radius of its round side, sw_shape_facet [m] */
+  int *wound;   /* (count) last body that goes round it in this step: number + 1, or 0 */
+  int *curved;  /* (count) the same of one that presses with its curve, or taut, on facets */
+  int *dense;   /* (count) 1: particles of the current body lie close to each other */
   double *sunk; /* (3 nodes) shift of each node's place for contact; NULL: no node is shifted [m] */
-  size_t sunk_capacity;
   sw_ahead *ahead; /* (2 ahead_count) statics: states of the touches in the search, work space */
-  size_t ahead_count, ahead_capacity; /* ahead_count = 0: no search */
+  size_t sunk_capacity, ahead_count, ahead_capacity; /* ahead_count = 0: no search */
   int softer;    /* softening stage of the search; 0: touches have their full stiffness [-] */
   int passes;    /* solves at one place in the search for the touches' states [-] */
   double *reach; /* (nodes) widest gap to a resting obstacle that may close in the step [m] */
@@ -156,8 +155,6 @@ void sw_contact_sort_memory(sw_contact *c); /* in the order of candidates */
  * else its normal, decides between touches at the same place of the wire. */
 const sw_memory *sw_contact_remembered(const sw_contact *c, const sw_candidate *k,
                                        const sw_closest *place);
-/* Returns the index of the first memory of this node or a later one. */
-size_t sw_contact_first_memory(const sw_contact *c, size_t node);
 /* Returns the obstacle with this owner's number, or count. */
 size_t sw_contact_index(const sw_contact *c, int id);
 int sw_contact_is_faceted(const sw_contact *c, size_t o); /* 1: a round thing, of facets */

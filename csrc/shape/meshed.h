@@ -24,7 +24,10 @@ void sw_meshed_bones(const sw_shape *shape, sw_bone_visit visit, void *user);
 /* 1: some edges are so blunt that they approximate a round surface. */
 int sw_meshed_faceted(const sw_shape *shape);
 double sw_meshed_roundness(const sw_shape *shape);
-static inline double sw_meshed_facet(const sw_shape *shape) { return sw_trimesh_of(shape)->facet; }
+static inline double sw_meshed_facet(const sw_shape *shape, double *radius) {
+  *radius = sw_trimesh_of(shape)->facet_radius;
+  return sw_trimesh_of(shape)->facet;
+}
 sw_sharp sw_meshed_sharp(const sw_shape *shape, int feature, sw_vec *along);
 void sw_meshed_ridges(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_ridge_visit visit,
                       void *user);

@@ -108,8 +108,9 @@ int sw_shape_has_edges(const sw_shape *shape) {
   return k->sharp && !(k->faceted && k->faceted(shape));
 }
 
-double sw_shape_facet(const sw_shape *shape) {
-  return shape->class->facet ? shape->class->facet(shape) : 0.0;
+double sw_shape_facet(const sw_shape *shape, double *radius) {
+  *radius = 0;
+  return shape->class->facet ? shape->class->facet(shape, radius) : 0.0;
 }
 
 int sw_shape_is_open(const sw_shape *shape) {

@@ -163,8 +163,8 @@ int sw_shape_over_face(const sw_shape *shape, const sw_vec *p, size_t count);
  * faces. */
 int sw_shape_has_edges(const sw_shape *shape);
 /* Returns the mean width of the facets that approximate a round surface. 0: there are none, or some
- * of the surface is hollow in facets [m]. */
-double sw_shape_facet(const sw_shape *shape);
+ * of the surface is hollow in facets. *radius: about that of the round surface [m]. */
+double sw_shape_facet(const sw_shape *shape, double *radius);
 /* 1: a mesh with a border. It is a sheet, solid on its back only. */
 int sw_shape_is_open(const sw_shape *shape);
 /* Returns the radius of the round surface that facets of a mesh approximate, about [m]. 0: there is

@@ -56,7 +56,7 @@ struct sw_shape_class {
   /* 1 if some edges approximate a round surface; NULL = none do. */
   int (*faceted)(const sw_shape *shape);
   /* Like sw_shape_facet; NULL = 0. */
-  double (*facet)(const sw_shape *shape);
+  double (*facet)(const sw_shape *shape, double *radius);
   /* Like sw_shape_is_open; NULL = 0. */
   int (*open)(const sw_shape *shape);
   /* Like sw_shape_roundness; NULL = 0. */

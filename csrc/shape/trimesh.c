@@ -210,7 +210,7 @@ sw_status sw_trimesh_build(sw_trimesh *mesh, const char *object, const double *v
   if (status == SW_OK) status = build_tree(mesh);
   if (status == SW_OK) status = sw_trimesh_topology(mesh, object, err);
   if (status == SW_OK) status = sw_trimesh_check_shells(mesh, object, err);
-  if (status == SW_OK) mesh->facet = sw_trimesh_facet(mesh);
+  if (status == SW_OK) mesh->facet = sw_trimesh_facet(mesh, &mesh->facet_radius);
   if (status == SW_ENOMEM) return sw_fail(err, status, "%s: out of memory", object);
   return status;
 }

@@ -45,10 +45,10 @@ typedef struct sw_trimesh {
   int *corner_edges;          /* 2 x edge_count */
   sw_tree_node *nodes;        /* node_count, the root first */
   sw_bounds bounds;
-  double size;  /* largest extent [m] */
-  double facet; /* as sw_shape_facet [m] */
-  int open;     /* 1: it has a border */
-  int hollow;   /* 1: it is not convex, so a point may be near several faces */
+  double size;                /* largest extent [m] */
+  double facet, facet_radius; /* as sw_shape_facet [m] */
+  int open;                   /* 1: it has a border */
+  int hollow;                 /* 1: it is not convex, so a point may be near several faces */
 } sw_trimesh;
 
 /* Builds a mesh from cleaned copies of the triangles: coinciding vertices are joined, triangles
@@ -67,7 +67,7 @@ sw_status sw_trimesh_topology(sw_trimesh *mesh, const char *object, sw_error *er
 sw_status sw_trimesh_check_shells(const sw_trimesh *mesh, const char *object, sw_error *err);
 
 /* Returns what sw_shape_facet tells of a mesh whose topology is known [m]. */
-double sw_trimesh_facet(const sw_trimesh *mesh);
+double sw_trimesh_facet(const sw_trimesh *mesh, double *radius);
 
 /* Calls visit for every triangle in leaves whose box, widened by reach on all sides, meets the
  * segment a-b. */

@@ -58,14 +58,19 @@ static int is_hollow(const sw_trimesh_edge *edge) {
          edge->sine < STEEP;
 }
 
-double sw_trimesh_facet(const sw_trimesh *mesh) {
-  double width = 0, along = 0;
+double sw_trimesh_facet(const sw_trimesh *mesh, double *radius) {
+  double width = 0, along = 0, turn = 0;
+  *radius = 0;
   for (size_t e = 0; e < mesh->edge_count; e++) {
     const sw_trimesh_edge *edge = &mesh->edges[e];
     if (is_hollow(edge)) return 0;
     if (!is_facet_edge(edge) || !(edge->sine > LEVEL)) continue;
-    along += sw_dist(sw_trimesh_vertex(mesh, edge->v[0]), sw_trimesh_vertex(mesh, edge->v[1]));
+    const double length =
+        sw_dist(sw_trimesh_vertex(mesh, edge->v[0]), sw_trimesh_vertex(mesh, edge->v[1]));
+    along += length, turn += length * asin(edge->sine);
     width += area_of(mesh, edge->tri[0]) + area_of(mesh, edge->tri[1]); /* times the length */
   }
-  return along > 0 ? width / along : 0;
+  if (!(along > 0)) return 0;
+  *radius = width / turn;
+  return width / along;
 }
