@@ -79,7 +79,7 @@ local function check(o, within, ripple)
 end
 
 describe("a cable drawn round a drum of narrow facets is pulled as round the exact drum", function()
-  -- The ripple was 1.9 to 8.1 %; with 571 and 598 facets, 1000 on R = 50 mm, poses were "not at rest".
+  -- The ripple was 1.9 to 8.1 %; with 571 and 598 facets poses were "not at rest".
   for _, case in ipairs{
     { "FLRY-B 0.5", 5, 2e-3, 571 }, { "FLRY-B 0.5", 5, 3e-3, 598 }, { "FLRY-B 0.5", 5, 4.5e-3, 398 },
     { "GXL 1.5", 8, 3e-3, 380 }, { "GXL 1.5", 8, 2e-3, 571 }, { "GXL 1.5", 8, 5e-3, 600, R = 0.05 },

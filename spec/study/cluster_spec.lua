@@ -4,8 +4,8 @@
 local one_cluster = require "study.one_cluster"
 local program = require "host.program"
 
--- Arguments: the journal, the duration of an evaluation [s], the number of tasks, detach, and what happens
--- to some tasks ("held": all wait for the file journal.go).
+-- Arguments: the journal, the duration of an evaluation [s], the number of tasks, detach, what happens to
+-- some tasks ("held": all wait for the file journal.go).
 local SCRIPT = [[
 local sw = require "softworld"
 local study = sw.study { name = "lot", file = arg[1], seed = 7, on = "ON", workers = 2,
@@ -71,26 +71,19 @@ end
 local function during(c, command, meanwhile, word)
   local out = c.folder .. "/out"
   program.shell((": >%s.err; %s >%s 2>%s.err & echo $! >%s.pid"):format(out, command, out, out, out))
-  local id
-  for _ = 1, 300 do
-    id = program.read(out .. ".err"):match(word or "sent to Slurm, jobs? (%d+)")
-    if id then break end
-    program.shell "sleep 0.05"
-  end
+  local id = one_cluster.waited(function()
+    return program.read(out .. ".err"):match(word or "sent to Slurm, jobs? (%d+)")
+  end, 300)
   assert(id, program.read(out .. ".err"))
   meanwhile(id, program.read(out .. ".pid"):match "%d+")
-  for _ = 1, 1000 do
-    if select(3, program.shell(("kill -0 $(cat %s.pid) 2>/dev/null"):format(out))) ~= 0 then break end
-    program.shell "sleep 0.05"
-  end
+  one_cluster.waited(function()
+    return select(3, program.shell(("kill -0 $(cat %s.pid) 2>/dev/null"):format(out))) ~= 0
+  end, 1000)
   return program.read(out), program.read(out .. ".err")
 end
 
 local function until_empty()
-  for _ = 1, 600 do
-    if slurm:ask "squeue -h" == "" then return end
-    program.shell "sleep 0.05"
-  end
+  if one_cluster.waited(function() return slurm:ask "squeue -h" == "" end, 600) then return end
   error("tasks do not end: " .. slurm:ask "squeue")
 end
 
@@ -132,10 +125,9 @@ describe("a study on a cluster", function()
     local c = case()
     -- The tasks are held until both are done: on a busy machine they would have ended before.
     local _, err = during(c, c.command("0", 4, nil, "held"), function(id)
-      for _ = 1, 300 do
-        if select(2, slurm:ask("squeue -h -r -o %T"):gsub("RUNNING", "")) == 4 then break end
-        program.shell "sleep 0.05"
-      end
+      assert.is_true(one_cluster.waited(function()
+        return select(2, slurm:ask("squeue -h -r -o %T"):gsub("RUNNING", "")) == 4
+      end, 600))
       slurm:ask("scancel " .. id .. "_2")
       slurm:ask("scontrol requeue " .. id .. "_1")
       program.write(c.journal .. ".go", "")

@@ -107,6 +107,15 @@ function cluster.start()
     .. tostring(why), 0)
 end
 
+--- Calls ends() until it returns a value that is true, which it returns, or 0.05 s as often as told.
+function cluster.waited(ends, times)
+  for _ = 1, times do
+    local found = ends()
+    if found then return found end
+    socket.sleep(0.05)
+  end
+end
+
 --- Runs a command of Slurm; returns its output.
 function cluster:ask(command)
   local out, err = program.shell(self.env .. " " .. command)
