@@ -16,7 +16,7 @@ manual.groups = {
   { "Choose", { "models", "auto", "wire_mesh", "sections", "cable", "springback", "damping", "integrators",
     "vibration", "calibrate", "remodel", "units" } },
   { "Trust", { "accuracy", "tolerance", "limits", "speed", "peaks", "energy", "events", "changes",
-    "changed_calls" } },
+    "changed_contact", "changed_forces", "changed_holds", "changed_grips", "changed_runs", "changed_calls" } },
   { "What runs tell", { "results", "check", "change", "compare", "refused", "remarks", "crashes", "breaking",
     "kinks", "files" } },
   { "Grippers' methods", { "gripper" } },
