@@ -18,6 +18,18 @@ local function bent_path(slope, radius, round)
   return path
 end
 
+--- Returns the corners of a drum along y of radius R with n facets, turned about its axis [m], [-], [rad].
+function drawn.drum(R, n, turned)
+  local points = {}
+  for i = 0, n - 1 do
+    local a = 2 * math.pi * (i + 0.3) / n + turned
+    for _, y in ipairs { -0.02, 0.02 } do
+      points[#points + 1], points[#points + 2], points[#points + 3] = R * math.cos(a), y, R * math.sin(a)
+    end
+  end
+  return points
+end
+
 --- Returns a path half round a peg at the origin, from x = -top to x = top, with straight parts downwards of
 -- these lengths [m]. at(x, z) gives the place; swapped: it begins at the other end.
 function drawn.half_round(top, near, far, at, swapped)

@@ -4,22 +4,10 @@
 -- on a facet. As corners and nodes passed each other the way round the drum changed, by up to h^2/8R within
 -- an edge h, and the pull rippled by up to 29 %, with ok = true and no event.
 local sw = require "softworld"
-local half_round = require("contact.drawn").half_round
+local paths = require "contact.drawn"
 local t = require "spec.physics.tools"
 
 local R, MU, FREE, STEP = 0.02, 0.3, 0.1, 0.02 -- [m], [-], [m], [s]
-
--- A drum along y with n facets; turned: about its axis [rad].
-local function drum(n, turned)
-  local points = {}
-  for i = 0, n - 1 do
-    local a = 2 * math.pi * (i + 0.3) / n + turned
-    for _, y in ipairs{ -0.02, 0.02 } do
-      points[#points + 1], points[#points + 2], points[#points + 3] = R * math.cos(a), y, R * math.sin(a)
-    end
-  end
-  return points
-end
 
 -- Returns the smallest and the largest pull over that at the other end, of states a step apart, while it
 -- slides. o: cable, pull [N], edge [m], facets (nil: the exact drum); motion, turned [rad], swapped.
@@ -28,11 +16,11 @@ local function drawn(o)
   local r, turned = sw.cable(o.cable).outer_diameter.value / 2, o.turned or 0
   local top, c, s = R + r + 2e-5, math.cos(turned), math.sin(turned)
   local function at(x, z) return { c * x - s * z, 0, s * x + c * z } end
-  scene:obstacle(o.facets and { shape = "hull", points = drum(o.facets, turned), friction = MU }
+  scene:obstacle(o.facets and { shape = "hull", points = paths.drum(R, o.facets, turned), friction = MU }
     or { shape = "cylinder", radius = R, length = 0.04, friction = MU,
       rotation = { axis = { 1, 0, 0 }, angle = math.pi / 2 } })
   local length = 2 * FREE + math.pi * top
-  local wire = scene:wire{ cable = o.cable, path = half_round(top, FREE, FREE, at, o.swapped),
+  local wire = scene:wire{ cable = o.cable, path = paths.half_round(top, FREE, FREE, at, o.swapped),
     segments = math.floor(length / o.edge + 0.5) }
   local near, far = o.swapped and wire.length or 0, o.swapped and 0 or wire.length
   scene:force{ kind = "point", on = wire, s = near, force = at(0, -o.pull) }

@@ -4,32 +4,10 @@
 -- other, by w^2/8R for facets w if all pass at once; the pull rippled by 1 to 6 %, with ok = true and no
 -- event, or poses ended with "not at rest". A taut wire and poses now meet such facets with the smooth curve.
 local sw = require "softworld"
+local paths = require "contact.drawn"
 local t = require "spec.physics.tools"
 
 local MU, STEP = 0.3, 0.02 -- [-], [s]
-
--- A drum along y of radius R with n facets, turned about its axis [m], [-], [rad].
-local function drum(R, n, turned)
-  local points = {}
-  for i = 0, n - 1 do
-    local a = 2 * math.pi * (i + 0.3) / n + turned
-    for _, y in ipairs{ -0.02, 0.02 } do
-      points[#points + 1], points[#points + 2], points[#points + 3] = R * math.cos(a), y, R * math.sin(a)
-    end
-  end
-  return points
-end
-
--- Returns a path half round the drum at this distance from its middle, with straight ends of `free`.
-local function half_round(at, top, free)
-  local path = { at(-top, -free) }
-  for k = 0, 400 do
-    local phi = math.pi * (1 - k / 400)
-    path[#path + 1] = at(top * math.cos(phi), top * math.sin(phi))
-  end
-  path[#path + 1] = at(top, -free)
-  return path
-end
 
 -- Returns the smallest, mean and largest pull over that at the other end, of states a step apart, while the
 -- cable slides. o: cable, pull [N], edge [m], R [m], facets (nil: the exact drum); laid (settled in poses
@@ -39,13 +17,10 @@ local function drawn(o)
   local R, r, turned = o.R or 0.02, sw.cable(o.cable).outer_diameter.value / 2, o.turned or 0
   local top, c, s, free = R + r + 2e-5, math.cos(turned), math.sin(turned), 5 * (o.R or 0.02)
   local function at(x, z) return { c * x - s * z, 0, s * x + c * z } end
-  scene:obstacle(o.facets and { shape = "hull", points = drum(R, o.facets, turned), friction = MU }
+  scene:obstacle(o.facets and { shape = "hull", points = paths.drum(R, o.facets, turned), friction = MU }
     or { shape = "cylinder", radius = R, length = 0.04, friction = MU,
       rotation = { axis = { 1, 0, 0 }, angle = math.pi / 2 } })
-  local path, length = half_round(at, top, free), 2 * free + math.pi * top
-  if o.swapped then
-    for i = 1, #path // 2 do path[i], path[#path + 1 - i] = path[#path + 1 - i], path[i] end
-  end
+  local path, length = paths.half_round(top, free, free, at, o.swapped), 2 * free + math.pi * top
   local wire = scene:wire{ cable = o.cable, path = path, segments = math.floor(length / o.edge + 0.5) }
   local near, far = o.swapped and wire.length or 0, o.swapped and 0 or wire.length
   scene:force{ kind = "point", on = wire, s = near, force = at(0, -o.pull) }
