@@ -147,6 +147,7 @@ sw_status sw_rest_fail_fall(const sw_statics *p, sw_error *err) {
     if (shift > largest) largest = shift, furthest = i;
   }
   const sw_scene_wire *wire = sw_scene_wire_in(p->s, sw_system_body_of(s, furthest));
+  p->report->falls = 1;
   return sw_fail(err, SW_ENOCONV, "%s'%s', which nothing holds, is carried away",
                  sw_scene_is_loose(wire) ? "" : "wire ", wire->name);
 }

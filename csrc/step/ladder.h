@@ -34,6 +34,9 @@ typedef struct sw_ladder {
   double made;    /* the energy that it made [J] */
   int changed;    /* 1: the scene was changed since the last step; the energy of this step is not
                      judged */
+  int unsettled;  /* poses in a row in which no equilibrium was found [-] */
+  int falls;      /* 1: because a wire falls without limit */
+  double moves_until; /* no equilibrium is looked for until then [s] */
   int (*interrupted)(void);
   sw_observer *observer; /* or NULL */
 } sw_ladder;

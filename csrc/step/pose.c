@@ -206,6 +206,7 @@ static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_ar
   sw_status status = hold_on(s, t0, tells, squeezes, &args, interrupted, &rest, err);
   if (status == SW_OK && !squeezes) status = rest_again(s, &args, interrupted, &rest, err);
   report->iterations += rest.iterations;
+  *how->falls = status != SW_OK && rest.falls;
   if (status != SW_OK) {
     sw_scene_set_time(s, t0);
     const int helps = too_far || (squeezes && status == SW_ENOCONV); /* jaws then go less far */

@@ -11,6 +11,7 @@
 #include "step/passing.h"
 #include "step/rest.h"
 #include "step/run.h"
+#include "step/unsettled.h"
 #include "watch/observe.h"
 
 static const double SHORTEST_PASSING = 1.0 / 64; /* shortest pose for passing a clip, over the pose
@@ -35,8 +36,12 @@ static sw_status pose_steps(sw_ladder *p, double t, sw_error *err) {
     if (!(part > sw_scene_time(s)))
       return sw_fail(err, SW_ENOCONV, "a wire is fed too fast for the steps");
     SW_TRY(sw_ledger_open(s, err));
-    const sw_pose_args how = {p->interrupted, SW_SHORTEST_BREAK * p->args->dt,
-                              SHORTEST_PASSING * p->args->dt, between, &p->lost};
+    const sw_pose_args how = {p->interrupted,
+                              SW_SHORTEST_BREAK * p->args->dt,
+                              SHORTEST_PASSING * p->args->dt,
+                              between,
+                              &p->lost,
+                              &p->falls};
     const int passes = sw_passing_any(s);
     SW_TRY(sw_scene_pose(s, part, &how, p->report, err));
     if (p->lost) return SW_OK;
@@ -46,6 +51,15 @@ static sw_status pose_steps(sw_ladder *p, double t, sw_error *err) {
     for (size_t w = 0; w < sw_scene_wire_slots(s); w++) sw_scene_watch_sinking(s, w);
     sw_scene_watch_unkept(s);
   }
+  return SW_OK;
+}
+
+/* The same; where no equilibrium is found, the wires move. */
+static sw_status settle_or_move(sw_ladder *p, double t, sw_error *err) {
+  if (sw_unsettled_moves(p, t)) return sw_unsettled_go(p, t, err);
+  const sw_status status = pose_steps(p, t, err);
+  if (status != SW_OK) return sw_unsettled_begin(p, t, status, err);
+  sw_unsettled_ends(p);
   return SW_OK;
 }
 
@@ -64,7 +78,7 @@ sw_status sw_step_poses(sw_ladder *p, double t1, sw_error *err) {
                    "a hold of a wire turns by %g rad between two poses; they must be closer", turn);
   const int parts = 1 + (int)(turn / SW_WIDEST_TURN);
   for (int part = 1; part <= parts && !p->lost; part++)
-    SW_TRY(pose_steps(p, part < parts ? t0 + (t1 - t0) * part / parts : t1, err));
+    SW_TRY(settle_or_move(p, part < parts ? t0 + (t1 - t0) * part / parts : t1, err));
   p->report->steps++;
   return SW_OK;
 }

@@ -41,6 +41,9 @@ static sw_param run_rows[] = {
     {"quasistatic", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(sw_run_args, quasistatic),
      "true: equilibrium at every step instead of motion; dt is then the time between poses, less "
      "where pads hold a wire"},
+    {"unsettled", SW_PARAM_BOOLEAN, "-", 1, 0, 1, 0, NULL, offsetof(sw_run_args, unsettled),
+     "false: a quasi-static run ends where no equilibrium is found, instead of moving the wires "
+     "until there is one"},
     {"window", SW_PARAM_NUMBER, "s", SW_WINDOW, 0, 1e9, 0, NULL, offsetof(sw_run_args, window),
      "peaks of forces and tensions are those of means over this time; 0: of single steps; see help "
      "'peaks'"},

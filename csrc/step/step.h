@@ -20,6 +20,7 @@ typedef struct sw_run_args {
   int unstable;     /* 1: an explicit method may take steps above its stable step */
   int parts;        /* 1: steps too coarse for the motion of the wires are divided */
   int wear;         /* 1: wear of wires is recorded; passed on when the run begins */
+  int unsettled;    /* 1: in poses, wires move where no equilibrium is found */
 } sw_run_args;
 extern const sw_params sw_run_params;
 
@@ -86,6 +87,7 @@ typedef struct sw_settle_report {
   int relaxed;       /* 1: stiff modes are at rest, even if slow ones are not */
   double residual;   /* largest node shift of the last iteration [m] */
   int jumped;        /* 1: the wires moved much further than their holds and obstacles */
+  int falls;         /* 1: a wire falls without limit */
   sw_error reason;
   double rubbed; /* lost by friction on the way, before the last part of the holds' path [J] */
 } sw_settle_report;

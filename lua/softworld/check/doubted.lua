@@ -34,6 +34,8 @@ local kinds = {
   ["pressed in each other"] = { "wires are in each other where they press: tensions are too small",
     own = true, named = true, always = true, only = "mm in each other where they press" },
   unkept = { "pads press with another force than the wanted one", places = true, always = true },
+  unsettled = { "wires moved where no equilibrium was found: inertia is in peaks", places = true,
+    always = true },
   caught = { "pads hold a mesh by more than their friction: forces are too large", always = true },
   overload = { "a hold overloads a wire: forces are wrong", always = true },
   breaking = { "the wire would have broken; the run went on as if it held", always = true },

@@ -50,7 +50,7 @@ function motion.apply(context, rung, changes)
   changes.quasistatic = rung == 1 or nil
   if rung == 1 then
     changes.dt = (context.args.dt or usual_dt) * POSES
-    changes.each_frame = true
+    changes.each_frame, changes.unsettled = true, false
   end
 end
 
