@@ -33,6 +33,7 @@ typedef struct kept {
   double *x;    /* (freedoms) places of nodes */
   int next;     /* see sw_course */
   sw_outer_start outer;
+  struct kept *motion; /* NULL; or the same, from which wires move if no equilibrium is found */
 } kept;
 
 static void drop(kept *k) {
@@ -71,6 +72,17 @@ static sw_status put_back(sw_scene *s, const kept *k, double t0, sw_error *err) 
   for (size_t i = 0; k->jaws && i < sw_scene_tool_slots(s); i++)
     sw_scene_tool_in(s, i)->jaw = k->jaws[i];
   return sw_live_back(s, &k->live, err);
+}
+
+/* Call when no equilibrium was found: if wires may move then, returns to the start, at t0, with
+ * what contact knew there. Returns the status. */
+static sw_status give_up(sw_scene *s, const kept *start, double t0, sw_status status,
+                         sw_error *err) {
+  sw_contact *contact = sw_scene_contact(s);
+  if (status != SW_ENOCONV || !start->motion) return status;
+  SW_TRY(put_back(s, start->motion, t0, err));
+  if (contact) SW_TRY(sw_contact_began(contact, t0, err));
+  return status;
 }
 
 static sw_status pose(sw_scene *s, double t1, int halvings, const sw_pose_args *how,
@@ -210,7 +222,7 @@ static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_ar
   if (status != SW_OK) {
     sw_scene_set_time(s, t0);
     const int helps = too_far || (squeezes && status == SW_ENOCONV); /* jaws then go less far */
-    if (!helps || !halvings) return status;
+    if (!helps || !halvings) return give_up(s, start, t0, status, err);
     return by_the_middle(s, t1, halvings, how, report, start, err);
   }
   const double part_of_jaws =
@@ -232,15 +244,20 @@ static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_ar
 
 static sw_status pose(sw_scene *s, double t1, int halvings, const sw_pose_args *how,
                       sw_run_report *report, sw_error *err) {
-  kept start = {0};
+  kept start = {0}, motion = {0};
   sw_status status = sw_outer_begin_pose(s, &start.outer, err);
   const int breaks = sw_scene_may_break(s) || sw_passing_any(s) || sw_jaw_ways_matter(s);
   if (status == SW_OK && breaks)
     status = keep(s, &start, err);
   else if (status == SW_OK && sw_grips_frozen(s))
     status = keep_loosely(s, &start, err);
+  if (status == SW_OK && how->unsettled) {
+    status = keep_loosely(s, &motion, err);
+    start.motion = &motion;
+  }
   if (status == SW_OK) status = one_pose(s, t1, halvings, how, report, &start, err);
   drop(&start);
+  drop(&motion);
   return status;
 }
 

@@ -36,12 +36,13 @@ static sw_status pose_steps(sw_ladder *p, double t, sw_error *err) {
     if (!(part > sw_scene_time(s)))
       return sw_fail(err, SW_ENOCONV, "a wire is fed too fast for the steps");
     SW_TRY(sw_ledger_open(s, err));
-    const sw_pose_args how = {p->interrupted,
-                              SW_SHORTEST_BREAK * p->args->dt,
-                              SHORTEST_PASSING * p->args->dt,
-                              between,
-                              &p->lost,
-                              &p->falls};
+    const sw_pose_args how = {.interrupted = p->interrupted,
+                              .shortest = SW_SHORTEST_BREAK * p->args->dt,
+                              .passing = SHORTEST_PASSING * p->args->dt,
+                              .between = between,
+                              .lost = &p->lost,
+                              .unsettled = p->args->unsettled,
+                              .falls = &p->falls};
     const int passes = sw_passing_any(s);
     SW_TRY(sw_scene_pose(s, part, &how, p->report, err));
     if (p->lost) return SW_OK;

@@ -43,6 +43,7 @@ typedef struct sw_pose_args {
   double passing;  /* shortest pose for following a wire past a clip's lips [s] */
   int between;     /* 1: see sw_settle_args.passing */
   int *lost;       /* becomes 1 if a frozen grip would bear too much: the pose ends before */
+  int unsettled;   /* 1: wires move if no equilibrium is found: the state is then as before */
   int *falls;      /* becomes 1 if no equilibrium was found because a wire falls without limit */
 } sw_pose_args;
 /* Finds the equilibrium at time t1, which becomes the scene's time, in smaller parts where needed.

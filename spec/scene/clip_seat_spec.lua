@@ -80,7 +80,7 @@ end
 
 -- Regression: of 120 such scenes a cable left its clips without an event in 12, and 19 searches failed after
 -- 4,000 iterations. Of the 40 scenes here one still fails in this way, with a message: its friction holds it
--- barely, and it creeps along its clips. Of 100 such scenes it is three.
+-- barely, and it creeps along its clips. In poses it moves on, which an event tells. Of 100 such scenes it is three.
 describe("a cable in clips", function()
   for _, how in ipairs{ "settle", "poses" } do
     it("rests in them, with friction alone along them, by " .. how, function()
@@ -88,11 +88,12 @@ describe("a cable in clips", function()
       for seed = 1, 40 do
         local scene, wire, clips, hold = drawn(1000 + seed)
         local result = rest(scene, how)
-        if result.ok then
+        local moves = #t.events(result, "unsettled") > 0
+        if result.ok and not moves then
           holds(scene, wire, clips, hold, ("seed %d, %s"):format(seed, how))
         else
           lost = lost + 1
-          assert.truthy(result.reason:find("not at rest after", 1, true), result.reason)
+          assert.truthy(moves or result.reason:find("not at rest after", 1, true), result.reason)
         end
       end
       t.below(1, lost, "searches without a result")

@@ -46,11 +46,12 @@ function motion.given(context)
 end
 
 function motion.apply(context, rung, changes)
+  changes.unsettled = false -- another model is taken instead
   if context.args.quasistatic ~= nil then return end
   changes.quasistatic = rung == 1 or nil
   if rung == 1 then
     changes.dt = (context.args.dt or usual_dt) * POSES
-    changes.each_frame, changes.unsettled = true, false
+    changes.each_frame = true
   end
 end
 
