@@ -50,9 +50,10 @@ sw_status sw_unsettled_go(sw_ladder *p, double t, sw_error *err) {
   SW_TRY(sw_ladder_method(s, &args, err));
   sw_course_jump(sw_scene_course(s));
   sw_status status = SW_OK;
-  for (double k = 1; status == SW_OK && k <= count && !q.lost; k++) {
+  for (size_t k = 1; status == SW_OK && (double)k <= count && !q.lost; k++) {
     if (q.interrupted && q.interrupted()) status = SW_EINTR;
-    if (status == SW_OK) status = step(&q, k < count ? t0 + span * (k / count) : t, err);
+    if (status == SW_OK)
+      status = step(&q, (double)k < count ? t0 + span * ((double)k / count) : t, err);
   }
   p->v_start = q.v_start, p->lost = q.lost; /* a feed may have made nodes */
   return status;

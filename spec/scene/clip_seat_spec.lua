@@ -80,7 +80,8 @@ end
 
 -- Regression: of 120 such scenes a cable left its clips without an event in 12, and 19 searches failed after
 -- 4,000 iterations. Of the 40 scenes here one still fails in this way, with a message: its friction holds it
--- barely, and it creeps along its clips. In poses it moves on, which an event tells. Of 100 such scenes it is three.
+-- barely, and it creeps along its clips. In poses it moves on, which an event tells. Of 100 such scenes it is
+-- three.
 describe("a cable in clips", function()
   for _, how in ipairs{ "settle", "poses" } do
     it("rests in them, with friction alone along them, by " .. how, function()
