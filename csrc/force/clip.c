@@ -21,6 +21,7 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "force/clip_bent.h"
 #include "force/clip_watch.h"
 #include "force/force.h"
 
@@ -133,6 +134,7 @@ static void commit_friction(const sw_clip *c, const sw_field *f, const sw_clip_p
     h[SW_CLIP_PLACE] = place_of(c, f, i), h[SW_CLIP_MOST] = 0;
   }
   sw_clip_measure_friction(c, f, known, each);
+  sw_clip_bend_friction(c, f, each);
   history[SW_CLIP_RUBS] = 0;
   for (size_t i = 0; i < points; i++) {
     double *h = each + SW_CLIP_EACH * i;

@@ -58,7 +58,12 @@ sw_clip_middle sw_clip_middle_of(const sw_clip *c, const sw_field *f, sw_clip_pu
     m.slope += sum.share * slope(c, f, (size_t)e);
     m.edge = fmax(m.edge, sw_norm(sw_sub(sw_axis_at(f, (size_t)e + 1), sw_axis_at(f, (size_t)e))));
     m.push -= sum.g[0][0] + sum.g[1][0];
-    for (int end = 0; end < 2; end++) m.force = sw_sub(m.force, sw_clip_world(c, sum.g[end]));
+    for (size_t end = 0; end < 2; end++) {
+      const sw_vec push = sw_neg(sw_clip_world(c, sum.g[end]));
+      const double a = sw_dot(c->axis, sw_sub(sw_axis_at(f, (size_t)e + end), c->at));
+      m.force = sw_add(m.force, push);
+      m.couple = sw_madd(m.couple, sw_cross(c->axis, push), a);
+    }
   }
   if (m.share > 0) m.u /= m.share, m.v /= m.share, m.s /= m.share;
   if (m.share > 0) m.along /= m.share, m.slope /= m.share;
@@ -267,16 +272,16 @@ void sw_clip_begin_run(double *history) { history[SW_CLIP_RUN_PEAK] = -1; }
 /* Beside a clip a wire bends by the way that nodes lie in it. The smallest bend radius was off by
  * up to OFF (edge / width)^2: three catalogue cables with a clamp 12 to 40 mm beside a clip of 8
  * mm, at all places of nodes, edges of 2 to 8 mm (spec/scene/clip_edges_spec). It is told from
- * edges of WIDE widths on, if the clip bends the wire by more than BENDS within an edge [-], [-],
- * [rad]. */
+ * edges of WIDE widths on, if the clip bends the wire by more than BENDS within an edge, by its
+ * force or by its couple [-], [-], [rad]. */
 static const double OFF = 0.25, WIDE = 0.6, BENDS = 0.01;
 
 void sw_clip_watch_edges(const sw_clip *c, const sw_clip_middle *m, double EI, double *h) {
   const int in = h[SW_CLIP_STATE] == SW_CLIP_SEATED || h[SW_CLIP_STATE] == SW_CLIP_INSERTING;
   if (h[SW_CLIP_NEWS] != SW_CLIP_NO_NEWS || !in) return;
   if (!(m->edge > WIDE * c->width)) return;
-  if (sw_norm(m->force) * m->edge * m->edge > 2.0 * BENDS * EI)
-    tell(h, SW_CLIP_LONG_EDGES, m->edge, m->s);
+  const double moment = fmax(0.5 * sw_norm(m->force) * m->edge, sw_norm(m->couple));
+  if (moment * m->edge > BENDS * EI) tell(h, SW_CLIP_LONG_EDGES, m->edge, m->s);
 }
 
 static void write_edges(const sw_clip_args *args, double edge, sw_force_news *out) {

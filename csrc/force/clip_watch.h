@@ -84,6 +84,8 @@ typedef struct sw_clip_middle {
   double along;   /* mean cosine of the angle between wire and axis [-] */
   double slope;   /* mean rise of the wire over its way along the axis [-] */
   double edge;    /* length of the longest edge in the clip [m] */
+  sw_vec
+      couple; /* moment of its force about the clip's middle, without that along the axis [N m] */
 } sw_clip_middle;
 
 /* Pushes of lips, floor and walls on the ends of the edges in the clip (sw_clip_sum). With more
