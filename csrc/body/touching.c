@@ -246,7 +246,8 @@ void sw_scene_commit_contact(sw_scene *s, int holds) {
 }
 
 /* Uses copies of contact as it presses now; other wires stay where they are. */
-sw_status sw_scene_linearise(sw_scene *s, const size_t *only, size_t count, sw_error *err) {
+static sw_status linearise(sw_scene *s, const size_t *only, size_t count, int slips,
+                           sw_error *err) {
   sw_contact *const own = s->contact;
   sw_mutual *const pairs = s->pairs;
   sw_mutual *const grains = s->grains;
@@ -257,6 +258,7 @@ sw_status sw_scene_linearise(sw_scene *s, const size_t *only, size_t count, sw_e
   if (grains && status == SW_OK) status = sw_mutual_copy(grains, &s->system, &s->grains);
   if (status != SW_OK) sw_fail(err, status, "out of memory");
   if (own && only && status == SW_OK) sw_contact_keep(s->contact, only, count);
+  if (own && slips && status == SW_OK) sw_contact_slip(s->contact);
   if (own && status == SW_OK) status = sw_contact_begin_look(s->contact, &s->system, s->time, err);
   if (pairs && status == SW_OK) status = sw_mutual_begin_look(s->pairs, &s->system, err);
   if (grains && !pairs && status == SW_OK) status = sw_system_begin_plan(&s->system);
@@ -267,6 +269,14 @@ sw_status sw_scene_linearise(sw_scene *s, const size_t *only, size_t count, sw_e
   sw_mutual_free(s->grains);
   s->contact = own, s->pairs = pairs, s->grains = grains;
   return status;
+}
+
+sw_status sw_scene_linearise(sw_scene *s, const size_t *only, size_t count, sw_error *err) {
+  return linearise(s, only, count, 0, err);
+}
+
+sw_status sw_scene_linearise_slipping(sw_scene *s, sw_error *err) {
+  return linearise(s, NULL, 0, 1, err);
 }
 
 /* Keeps the touches of contact as it presses now, while it has none of a step. */

@@ -44,6 +44,8 @@ void sw_scene_stop_wires(sw_scene *scene);
 /* Computes the built system's stiffness at its state, with contact as it presses now: of these
  * obstacles (count), or of all (NULL). */
 sw_status sw_scene_linearise(sw_scene *scene, const size_t *only, size_t count, sw_error *err);
+/* The same with all obstacles, which have no friction, but for pads that grip. */
+sw_status sw_scene_linearise_slipping(sw_scene *scene, sw_error *err);
 /* After a change there are no touches until the next step: finds those of the present state, with
  * the forces that their memory has. */
 sw_status sw_scene_find_touches(sw_scene *scene, sw_error *err);

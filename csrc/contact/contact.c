@@ -68,6 +68,11 @@ void sw_contact_keep(sw_contact *c, const size_t *ids, size_t count) {
   }
 }
 
+void sw_contact_slip(sw_contact *c) {
+  for (size_t o = 0; o < c->count; o++)
+    if (!(c->obstacles[o].grips > 0)) c->obstacles[o].friction = c->obstacles[o].kinetic = 0;
+}
+
 void sw_contact_free(sw_contact *c) {
   if (!c) return;
   SW_FREE_ALL(c->obstacles, c->loads, c->start, c->now, c->before, c->flat, c->sunk, c->spaced,

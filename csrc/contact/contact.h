@@ -52,6 +52,7 @@ sw_status sw_contact_copy(const sw_contact *contact, sw_contact **out);
 void sw_contact_free(sw_contact *contact);
 /* Keeps only the obstacles with these owner's numbers (count). */
 void sw_contact_keep(sw_contact *contact, const size_t *ids, size_t count);
+void sw_contact_slip(sw_contact *contact); /* takes friction from all but pads that grip */
 
 /* How the coming steps are computed. This decides the normal stiffness. */
 typedef enum sw_contact_regime {

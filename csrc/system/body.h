@@ -32,6 +32,7 @@ typedef struct sw_unbent {
 /* A wire that is bent in a plane, moves, and is pushed along its length, see watch/arched.c. */
 typedef struct sw_arched {
   double growth;     /* logarithm of the growth of a straight piece's bend so far [-] */
+  double straight;   /* that growth while it was straight, but for 1 [-] */
   double time, seen; /* time for which it has been pushed; time of the last check [s] */
   double need;       /* growth at which its motions are looked at again [-] */
   double push, at;   /* now [N], as arc length [m] */

@@ -3,6 +3,7 @@
 #ifndef SW_WATCH_ACROSS_H
 #define SW_WATCH_ACROSS_H
 
+#include "modal/modal.h"
 #include "scene/parts.h"
 #include "system/pushed.h"
 #include "system/system.h"
@@ -10,11 +11,28 @@
 /* 1 if the wire lies in a plane, bent by more than `bent` [-]; fills the plane's normal. */
 int sw_scene_lies_in_plane(const sw_system *system, const sw_body *b, double bent, sw_vec *normal);
 /* Counts the motions across this plane that grow faster than sqrt(slow); *rate: of the fastest
- * [1/s]. The system must be linearised. Status as of sw_modal_solve. */
-sw_status sw_scene_unstable_across(const sw_system *system, size_t w, double slow, sw_vec normal,
-                                   size_t *count, double *rate);
-/* Returns the rate at which a real wire would bend to the side, if it were straight where it is
- * pushed; 0: it would not [1/s]. *most: what is pushed. */
-double sw_scene_bend_rate(const sw_scene *s, const sw_body *b, sw_pushed *most);
+ * [1/s]. The system must be linearised, if `slips` by sw_scene_linearise_slipping: then motions do
+ * not count that friction holds when the bend has grown so far, as a logarithm. Status as of
+ * sw_modal_solve. */
+typedef struct sw_across {
+  sw_vec normal; /* of the plane */
+  double slow;   /* [1/s2] */
+  int slips;
+  double growth; /* [-] */
+} sw_across;
+sw_status sw_scene_unstable_across(const sw_scene *s, size_t w, const sw_across *of, size_t *count,
+                                   double *rate);
+/* 1 if a motion of a wire overcomes the friction of obstacles, see above. */
+int sw_scene_overcomes(const sw_scene *s, size_t w, const sw_modes *modes, size_t k, double growth);
+
+/* How a wire that is pushed would bend to the side, if it were straight where it is pushed. */
+typedef struct sw_bend {
+  sw_pushed piece;
+  double rate;     /* of growth without friction; 0: it does not grow [1/s] */
+  double friction; /* that holds the piece, per length [N/m] */
+} sw_bend;
+void sw_scene_bend_of(const sw_scene *s, const sw_body *b, sw_bend *out);
+/* 1 if the bend of a real wire overcomes friction. growth: its logarithm so far [-]. */
+int sw_bend_grows(const sw_body *b, const sw_bend *bend, double growth);
 
 #endif

@@ -10,6 +10,7 @@
 
 #include "body/join.h"
 #include "body/touching.h"
+#include "contact/contact.h"
 #include "scene/course.h"
 #include "scene/events.h"
 #include "scene/parts.h"
@@ -22,7 +23,8 @@ static const double BENT = 0.02;
 /* After this much growth, as its logarithm, the bend of a real wire out of the plane would be its
  * own length three times over [-]. */
 static const double GROWTH = 8.0;
-/* Growth until the next look, over that at the last one, at least and at most [-]. */
+/* Growth until the next look, over that at the last one, at least and at most; without the growth
+ * before it was bent [-]. */
 static const double SOONER = 1.2, LATER = 2.0;
 
 static int can_be_told(const sw_scene *s, size_t w, const sw_body *b) {
@@ -30,21 +32,25 @@ static int can_be_told(const sw_scene *s, size_t w, const sw_body *b) {
          !b->plan->web && b->pushed < HUGE_VAL && !sw_scene_joined(s, w);
 }
 
-void sw_scene_watch_arched(sw_scene *s, size_t wire) {
+/* A wire that is straight, or bent by rounding, leaves its line to all sides alike: its bend grows
+ * across the plane in which it is bent later, too. */
+void sw_scene_watch_arched(sw_scene *s, size_t wire, const sw_bend *bend) {
   sw_system *system = sw_scene_system(s);
   sw_body *b = &system->bodies[wire];
   sw_arched *a = &b->arched;
   const double time = sw_scene_time(s), since = time - a->seen;
-  sw_pushed most = {0};
-  sw_vec normal;
+  sw_vec normal = {0};
   a->seen = time;
-  const double rate = can_be_told(s, wire, b) ? sw_scene_bend_rate(s, b, &most) : 0;
-  if (!(rate > 0) || !sw_scene_lies_in_plane(system, b, BENT, &normal)) {
+  const int pushed = bend->rate > 0 && can_be_told(s, wire, b);
+  if (!pushed || (!sw_scene_lies_in_plane(system, b, 0, &normal) && sw_norm2(normal) > 0)) {
     *a = (sw_arched){.seen = time};
     return;
   }
-  if (a->pushed) a->growth += rate * since, a->time += since; /* else it began within the step */
-  a->pushed = 1, a->push = most.push, a->at = b->plan->s[most.edge] - b->plan->s[0];
+  if (a->pushed && sw_bend_grows(b, bend, a->growth))
+    a->growth += bend->rate * since, a->time += since; /* else it began within the step */
+  if (!sw_scene_lies_in_plane(system, b, BENT, &normal)) a->straight = fmax(0, a->growth - 1);
+  a->pushed = 1, a->push = bend->piece.push;
+  a->at = b->plan->s[bend->piece.edge] - b->plan->s[0];
   a->normal = normal;
 }
 
@@ -58,36 +64,55 @@ static void tell(sw_scene *s, size_t w) {
                 name, a->push, a->time);
 }
 
-/* Looks at a wire of the linearised system. */
-static sw_status look_at(sw_scene *s, size_t w) {
+static double later(double grown) { return fmin(LATER, fmax(SOONER, GROWTH / fmax(grown, 1.0))); }
+
+/* Looks at a wire of the linearised system. slips: its touches slide, unless friction holds a bend
+ * that has grown that far. */
+static sw_status look_at(sw_scene *s, size_t w, int slips) {
   sw_body *b = &sw_scene_system(s)->bodies[w];
   sw_arched *a = &b->arched;
   const double slow = GROWTH / (LATER * a->time);
+  const sw_across of = {a->normal, slow * slow, slips, a->growth};
   size_t count = 0;
   double rate = 0;
-  const sw_status status =
-      sw_scene_unstable_across(sw_scene_system(s), w, slow * slow, a->normal, &count, &rate);
+  const sw_status status = sw_scene_unstable_across(s, w, &of, &count, &rate);
   if (status == SW_ENOMEM) return status;
   const double grown = status == SW_OK && count > 0 ? rate * a->time : 0;
-  a->need = a->growth * fmin(LATER, fmax(SOONER, GROWTH / fmax(grown, 1.0)));
+  if (slips || grown >= GROWTH || !sw_scene_contact(s))
+    a->need = a->straight + (a->growth - a->straight) * later(grown);
   if (grown < GROWTH) return SW_OK;
   tell(s, w);
   b->pushed = HUGE_VAL; /* once in a run */
   return SW_OK;
 }
 
-sw_status sw_scene_look_across(sw_scene *s, sw_error *err) {
+/* 1 if a real wire may have left its plane by now. While it is nearly straight, watch/unbent.c
+ * tells of it. */
+static int is_due(const sw_scene *s, size_t w) {
+  const sw_body *b = &sw_scene_system(s)->bodies[w];
+  const sw_arched *a = &b->arched;
+  sw_vec normal;
+  return a->growth >= fmax(GROWTH, a->need) && b->pushed < HUGE_VAL && !(b->unbent.due > 0) &&
+         sw_scene_lies_in_plane(sw_scene_system(s), b, BENT, &normal);
+}
+
+static sw_status look_at_all(sw_scene *s, int slips, sw_error *err) {
   sw_system *system = sw_scene_system(s);
   sw_status status = SW_OK;
   int linear = 0;
   for (size_t w = 0; w < system->body_count && status == SW_OK; w++) {
-    const sw_arched *a = &system->bodies[w].arched;
-    if (!(a->growth >= fmax(GROWTH, a->need))) continue;
-    if (!linear) status = sw_scene_linearise(s, NULL, 0, err);
+    if (!is_due(s, w)) continue;
+    if (!linear)
+      status = slips ? sw_scene_linearise_slipping(s, err) : sw_scene_linearise(s, NULL, 0, err);
     linear = 1;
-    if (status == SW_OK) status = look_at(s, w);
+    if (status == SW_OK) status = look_at(s, w, slips);
   }
   if (linear) sw_system_refresh(system);
   const int unsaid = status == SW_EDIVERGED || status == SW_EINVAL || status == SW_ENOCONV;
   return unsaid ? SW_OK : status;
+}
+
+sw_status sw_scene_look_across(sw_scene *s, sw_error *err) {
+  SW_TRY(look_at_all(s, 0, err));
+  return sw_scene_contact(s) ? look_at_all(s, 1, err) : SW_OK;
 }

@@ -15,6 +15,7 @@
 #include "scene/values.h"
 #include "system/axial.h"
 #include "system/system.h"
+#include "watch/across.h"
 #include "watch/wear.h"
 #include "watch/zone.h"
 
@@ -121,6 +122,15 @@ static void tell_news(sw_scene *s) {
   }
 }
 
+static void watch_bends(sw_scene *s) {
+  for (size_t w = 0; w < sw_scene_wire_slots(s); w++) {
+    sw_bend bend;
+    sw_scene_bend_of(s, &sw_scene_system(s)->bodies[w], &bend);
+    sw_scene_watch_unbent(s, w, &bend);
+    sw_scene_watch_arched(s, w, &bend);
+  }
+}
+
 sw_status sw_scene_observe(sw_scene *s, sw_error *err) {
   sw_system *system = sw_scene_system(s);
   SW_EACH(wire, wire, s) wire->untwisted = wire->remade = 0;
@@ -142,8 +152,7 @@ sw_status sw_scene_observe(sw_scene *s, sw_error *err) {
   for (size_t w = 0; w < sw_scene_wire_slots(s); w++) sw_scene_watch_loose(s, w);
   for (size_t w = 0; w < sw_scene_wire_slots(s); w++) sw_scene_watch_undamped(s, w);
   for (size_t w = 0; w < sw_scene_wire_slots(s); w++) sw_scene_watch_pierced(s, w);
-  for (size_t w = 0; w < sw_scene_wire_slots(s); w++) sw_scene_watch_unbent(s, w);
-  for (size_t w = 0; w < sw_scene_wire_slots(s); w++) sw_scene_watch_arched(s, w);
+  watch_bends(s);
   sw_scene_watch_together(s);
   sw_scene_watch_passed(s);
   if (sw_scene_has_contact(s)) SW_TRY(observe_contact(s, err));

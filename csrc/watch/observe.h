@@ -117,10 +117,11 @@ sw_status sw_scene_look_for_buckling(sw_scene *scene, sw_error *err);
 
 /* Reports a wire that stayed straight, or in a plane, under a push that bends real wires, and then
  * buckled. */
-void sw_scene_watch_unbent(sw_scene *scene, size_t wire);
+struct sw_bend;
+void sw_scene_watch_unbent(sw_scene *scene, size_t wire, const struct sw_bend *bend);
 /* Follows a moving wire that is pushed and bent in a plane; between steps it is looked at, and
  * reported if a real wire had left the plane. SW_ENOMEM, SW_ECALLBACK. */
-void sw_scene_watch_arched(sw_scene *scene, size_t wire);
+void sw_scene_watch_arched(sw_scene *scene, size_t wire, const struct sw_bend *bend);
 sw_status sw_scene_look_across(sw_scene *scene, sw_error *err);
 /* Reports friction that brakes lines that go round each other. */
 void sw_scene_watch_together(sw_scene *scene);

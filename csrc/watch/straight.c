@@ -7,6 +7,7 @@
 
 #include "body/join.h"
 #include "body/touching.h"
+#include "contact/contact.h"
 #include "modal/modal.h"
 #include "scene/events.h"
 #include "scene/parts.h"
@@ -92,21 +93,27 @@ int sw_scene_lies_in_plane(const sw_system *system, const sw_body *b, double ben
   return 1;
 }
 
-sw_status sw_scene_unstable_across(const sw_system *system, size_t w, double slow, sw_vec normal,
-                                   size_t *count, double *rate) {
-  const size_t nodes = system->bodies[w].plan->nodes;
+/* Share of a motion's squared shifts that goes along a direction [-]. */
+static double share_along(const sw_modes *modes, size_t k, size_t nodes, sw_vec normal) {
+  const size_t width = modes->unknowns / nodes;
+  double across = 0, all = 0;
+  for (size_t i = 0; i < nodes; i++) {
+    const sw_vec x = sw_load(modes->shapes + k * modes->unknowns + i * width);
+    across += sw_dot(x, normal) * sw_dot(x, normal), all += sw_norm2(x);
+  }
+  return all > 0 ? across / all : 0;
+}
+
+sw_status sw_scene_unstable_across(const sw_scene *s, size_t w, const sw_across *of, size_t *count,
+                                   double *rate) {
+  const sw_system *system = sw_scene_system(s);
   sw_modes modes;
   sw_error ignored;
   *count = 0, *rate = 0;
-  SW_TRY(sw_modal_solve(system, w, 0, slow, NULL, &modes, &ignored));
+  SW_TRY(sw_modal_solve(system, w, 0, of->slow, NULL, &modes, &ignored));
   for (size_t k = 0; k < modes.unstable; k++) {
-    const double *shape = modes.shapes + k * modes.unknowns;
-    double across = 0, all = 0;
-    for (size_t i = 0; i < nodes; i++, shape += modes.unknowns / nodes) {
-      const double aside = sw_dot(sw_load(shape), normal);
-      across += aside * aside, all += sw_norm2(sw_load(shape));
-    }
-    if (!(across > ACROSS * all)) continue;
+    if (!(share_along(&modes, k, system->bodies[w].plan->nodes, of->normal) > ACROSS)) continue;
+    if (of->slips && !sw_scene_overcomes(s, w, &modes, k, of->growth)) continue;
     *count += 1;
     *rate = fmax(*rate, sqrt(-modes.omega2[k]));
   }
@@ -118,24 +125,11 @@ static int cannot_be_said(sw_status status) {
   return status == SW_EDIVERGED || status == SW_EINVAL || status == SW_ENOCONV;
 }
 
-/* Checks a wire of the linearised system. normal: of the plane in which the wire lies; zero: it is
- * straight. */
-static sw_status look_at(sw_scene *s, size_t w, double push, size_t edge, sw_vec normal) {
-  sw_system *system = sw_scene_system(s);
-  const sw_body *b = &system->bodies[w];
-  const double rate = SLOWEST * sqrt(gravity_of(s) / b->plan->length);
-  const int flat = sw_norm2(normal) > 0;
-  size_t count = 0;
-  double fastest;
-  sw_status status = sw_modal_unstable(system, w, rate * rate, &count);
-  if (status == SW_OK && flat && count > 0)
-    status = sw_scene_unstable_across(system, w, rate * rate, normal, &count, &fastest);
-  if (cannot_be_said(status)) return SW_OK;
-  if (status != SW_OK || count == 0) return status;
-  system->bodies[w].pushed = HUGE_VAL;
+static void tell(sw_scene *s, size_t w, double push, size_t edge, size_t count) {
+  const sw_body *b = &sw_scene_system(s)->bodies[w];
   const char *name = sw_scene_wire_in(s, w)->name;
   const double at = b->plan->s[edge] - b->plan->s[0];
-  if (flat)
+  if (!count)
     sw_scene_tell(s, "buckling", name, at, push,
                   "wire '%s' stays in a plane under a push of %.3g N, but is unstable across it: a "
                   "real wire would fall to a side; draw it bent out of the plane by a thousandth "
@@ -147,6 +141,25 @@ static sw_status look_at(sw_scene *s, size_t w, double push, size_t edge, sw_vec
                   "direction%s: a real wire would buckle; draw it bent by a thousandth of its "
                   "length, or add a small force across it",
                   name, push, count, count == 1 ? "" : "s");
+}
+
+/* Checks a wire of the linearised system. normal: of the plane in which the wire lies; zero: it is
+ * straight. slips: its touches slide, unless friction holds a real wire's bend. */
+static sw_status look_at(sw_scene *s, size_t w, double push, size_t edge, sw_vec normal,
+                         int slips) {
+  sw_system *system = sw_scene_system(s);
+  const double rate = SLOWEST * sqrt(gravity_of(s) / system->bodies[w].plan->length);
+  const sw_across of = {normal, rate * rate, slips, 0};
+  const int flat = sw_norm2(normal) > 0;
+  size_t count = 0;
+  double fastest;
+  sw_status status = sw_modal_unstable(system, w, rate * rate, &count);
+  if (status == SW_OK && flat && count > 0)
+    status = sw_scene_unstable_across(s, w, &of, &count, &fastest);
+  if (cannot_be_said(status)) return SW_OK;
+  if (status != SW_OK || count == 0) return status;
+  system->bodies[w].pushed = HUGE_VAL;
+  tell(s, w, push, edge, flat ? 0 : count);
   return SW_OK;
 }
 
@@ -164,27 +177,52 @@ static int is_new_push(const sw_scene *s, size_t w, double *push, size_t *edge, 
           (is_slow(s, system, b) && sw_scene_lies_in_plane(system, b, 0, normal)));
 }
 
-/* Checks all wires. The system is linearised once for all of them. */
+/* How the system is linearised. */
+enum { NOT, STICKING, SLIPPING };
+
+/* Linearises the system, if it is not linear in this way. *can: 0: it cannot be. */
+static sw_status make(sw_scene *s, int how, int *linear, int *can, sw_error *err) {
+  if (*linear != how) {
+    const sw_status made =
+        how == SLIPPING ? sw_scene_linearise_slipping(s, err) : sw_scene_linearise(s, NULL, 0, err);
+    *linear = how, *can = !cannot_be_said(made);
+    if (*can) return made;
+  }
+  return SW_OK;
+}
+
+/* 1 if obstacles touch the wire. */
+static int is_touched(const sw_scene *s, const sw_body *b) {
+  size_t first, end;
+  if (!sw_scene_contact(s)) return 0;
+  sw_contact_touches_of(sw_scene_contact(s), b->first_node, b->first_node + b->plan->nodes, &first,
+                        &end);
+  return end > first;
+}
+
+/* Checks all wires. The system is linearised once for all of them. A wire in a plane that touches
+ * hold is checked with friction that a real wire's bend overcomes, too. */
 static sw_status look_at_all(sw_scene *s, int *linear, sw_error *err) {
   sw_system *system = sw_scene_system(s);
-  sw_status made = SW_OK;
+  int can = 1;
   for (size_t w = 0; w < system->body_count; w++) {
     size_t edge = 0;
     double push;
     sw_vec normal;
+    sw_body *b = &system->bodies[w];
     if (!is_new_push(s, w, &push, &edge, &normal)) continue;
-    system->bodies[w].pushed = push;
-    if (!*linear) made = sw_scene_linearise(s, NULL, 0, err);
-    *linear = 1;
-    if (cannot_be_said(made)) continue;
-    SW_TRY(made);
-    SW_TRY(look_at(s, w, push, edge, normal));
+    b->pushed = push;
+    for (int how = STICKING; how <= SLIPPING && b->pushed < HUGE_VAL; how++) {
+      if (how == SLIPPING && !(sw_norm2(normal) > 0 && is_touched(s, b))) continue;
+      SW_TRY(make(s, how, linear, &can, err));
+      if (can) SW_TRY(look_at(s, w, push, edge, normal, how == SLIPPING));
+    }
   }
   return SW_OK;
 }
 
 sw_status sw_scene_look_for_buckling(sw_scene *s, sw_error *err) {
-  int linear = 0;
+  int linear = NOT;
   sw_scene_enter(s, 1); /* a force may be a user's function */
   const sw_status status = look_at_all(s, &linear, err);
   sw_scene_enter(s, -1);

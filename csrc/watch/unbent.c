@@ -7,13 +7,11 @@
  */
 #include <math.h>
 
-#include "contact/contact.h"
 #include "scene/course.h"
 #include "scene/events.h"
 #include "scene/parts.h"
 #include "scene/wire.h"
 #include "system/axis.h"
-#include "system/pushed.h"
 #include "watch/across.h"
 #include "watch/observe.h"
 
@@ -31,9 +29,6 @@ static const double ABOVE = 1.5;
  * times over. A wire that is bent by a few millionths of its length, as by its weight, has left its
  * line, too [-]. */
 static const double GROWTH = 8.0;
-/* Bend of a real wire over its length [-]. */
-static const double CROOKED = 1e-3;
-
 /* How far a wire has left its line. */
 enum { STRAIGHT_ON, IN_PLANE, LEFT };
 
@@ -87,107 +82,32 @@ static void tell_borne(sw_scene *s, size_t wire, const sw_unbent *u) {
                 u->plane ? "out of that plane " : "");
 }
 
-/* A touch of a piece of a wire. */
-typedef struct touch {
-  size_t edge; /* or slice, counted from the wire's start */
-  sw_contact_push push;
-} touch;
-
-static int touch_of(const sw_scene *s, const sw_body *b, size_t k, touch *out) {
-  if (!sw_contact_push_at(sw_scene_contact(s), sw_scene_system(s), k, &out->push)) return 0;
-  out->edge = sw_axis_of(b, out->push.node - b->first_node);
-  return 1;
-}
-
-/* Touches from edge or slice `from` to before `to`. */
-static void touches_of(const sw_scene *s, const sw_body *b, size_t from, size_t to, size_t *first,
-                       size_t *end) {
-  const size_t last = sw_axis_edges(b) + 1;
-  sw_contact_touches_of(sw_scene_contact(s), b->first_node + sw_axis_first(b, from),
-                        b->first_node + sw_axis_first(b, to < last ? to : last), first, end);
-}
-
-static int faces(const sw_scene *s, const sw_body *b, const touch *one, size_t k) {
-  touch other;
-  return touch_of(s, b, k, &other) && sw_dot(one->push.normal, other.push.normal) < SW_FACING;
-}
-
-/* 1 if touch k and another one at the same place press the wire from two sides, as jaws do. */
-static int is_between(const sw_scene *s, const sw_body *b, size_t k) {
-  size_t first, end;
-  touch one;
-  if (!touch_of(s, b, k, &one)) return 0;
-  touches_of(s, b, one.edge - (one.edge > 0), one.edge + 2, &first, &end);
-  for (size_t i = first; i < end; i++)
-    if (faces(s, b, &one, i)) return 1;
-  return 0;
-}
-
-/* Keeps the longest part of a piece that jaws leave free. Returns the friction that holds it, per
- * length [N/m]. */
-static double friction_on(const sw_scene *s, const sw_body *b, sw_pushed *piece) {
-  size_t first, end, from = piece->from, best = from, most = 0;
-  double sum = 0;
-  if (!sw_scene_contact(s)) return 0;
-  touches_of(s, b, piece->from, piece->to, &first, &end);
-  for (size_t k = first; k <= end; k++) {
-    touch t = {.edge = piece->to};
-    if (k < end && (!is_between(s, b, k) || !touch_of(s, b, k, &t))) continue;
-    if (t.edge > from && t.edge - from > most) best = from, most = t.edge - from;
-    from = t.edge + 1;
-  }
-  for (size_t k = first; k < end; k++) {
-    touch t;
-    if (touch_of(s, b, k, &t) && t.edge >= best && t.edge < best + most)
-      sum += t.push.friction * t.push.normal_force;
-  }
-  piece->length = 0, piece->from = best, piece->to = best + most, piece->edge = best + most / 2;
-  for (size_t e = best; e < best + most; e++) piece->length += sw_axis_rest(b, e);
-  return most ? sum / piece->length : 0;
-}
-
-/* 1 if a real wire slides to the side against friction [N/m]. Bent by a = L/1000 as
- * a/2 (1 - cos(k x)), k = 2 pi/L, it is pushed to the side by (P - EI k^2) k^2 a/2 in its middle.
- * Cables whose rest shape has this bend buckled under 1 to 0.7 times the P of this formula
- * (spec/scene/borne_spec). */
-static int slides(const sw_beam *beam, double friction, const sw_pushed *p) {
-  const double k = 2 * M_PI / p->length;
-  return 0.5 * (p->push - beam->EI * k * k) * k * k * CROOKED * p->length > friction;
-}
-
-double sw_scene_bend_rate(const sw_scene *s, const sw_body *b, sw_pushed *most) {
-  const sw_system *system = sw_scene_system(s);
-  if (!(sw_pushed_rate(system, b, system->x, 0, most) > 0)) return 0;
-  const double friction = friction_on(s, b, most);
-  if (!(most->length > 0) || !slides(&b->plan->beam, friction, most)) return 0;
-  return sw_pushed_rate_of(&b->plan->beam, 0, most);
-}
-
 /* A pose lasts for as long as a bend takes. */
 static double grown_in(const sw_scene *s, double rate, double time) {
   return sw_course_is_still(sw_scene_course(s)) ? GROWTH : rate * time;
 }
 
-void sw_scene_watch_unbent(sw_scene *s, size_t wire) {
+void sw_scene_watch_unbent(sw_scene *s, size_t wire, const sw_bend *bend) {
   sw_system *system = sw_scene_system(s);
   sw_body *b = &system->bodies[wire];
   sw_unbent *u = &b->unbent;
   const double time = sw_scene_time(s), since = time - u->seen;
-  sw_pushed most = {0};
   u->seen = time;
   if (b->waits || !(b->plan->beam.EI > 0)) return;
-  const double rate = sw_scene_bend_rate(s, b, &most);
-  const int shape = (rate > 0 || u->due > 0) && since > 0 ? shape_of(system, b) : LEFT;
+  const int pushed = bend->rate > 0;
+  const int shape = (pushed || u->due > 0) && since > 0 ? shape_of(system, b) : LEFT;
   const int was_straight = u->due > 0 && !u->plane; /* it buckles in a plane */
-  if (rate > 0 && (shape == STRAIGHT_ON || (shape == IN_PLANE && !was_straight))) {
-    u->growth += grown_in(s, rate, since);
+  if (pushed && (shape == STRAIGHT_ON || (shape == IN_PLANE && !was_straight))) {
+    if (sw_bend_grows(b, bend, u->growth)) u->growth += grown_in(s, bend->rate, since);
     u->plane |= shape == IN_PLANE;
     if (u->growth < GROWTH) return;
-    if (!(u->due > 0)) u->due = most.push;
-    if (most.push > u->push) u->push = most.push, u->at = sw_axis_arc(b, most.edge);
+    if (!(u->due > 0)) u->due = bend->piece.push;
+    if (bend->piece.push > u->push)
+      u->push = bend->piece.push, u->at = sw_axis_arc(b, bend->piece.edge);
     return;
   }
-  if (is_too_much(u) && rate > 0)
+  if (is_too_much(u)) b->arched = (sw_arched){.seen = time}; /* told once */
+  if (is_too_much(u) && pushed)
     tell(s, wire, u);
   else if (is_too_much(u) && shape != LEFT)
     tell_borne(s, wire, u);
