@@ -13,7 +13,7 @@
 static const double CROOKED = 1e-3;
 /* Length of an arch as sin^2, over the square of its sum over the sum of its squares [-]. */
 static const double ARCH = 1.5;
-/* Largest growth that is followed, as its logarithm: the bend is a tenth of the wire's length
+/* Largest growth that friction meets, as its logarithm: the bend is a tenth of the wire's length
  * [-]. */
 static const double MOST_GROWTH = 4.6;
 

@@ -54,14 +54,21 @@ void sw_scene_watch_arched(sw_scene *s, size_t wire, const sw_bend *bend) {
   a->normal = normal;
 }
 
-static void tell(sw_scene *s, size_t w) {
+static void tell(sw_scene *s, size_t w, int slips) {
   const sw_arched *a = &sw_scene_system(s)->bodies[w].arched;
   const char *name = sw_scene_wire_in(s, w)->name;
-  sw_scene_tell(s, "buckling", name, a->at, a->push,
-                "wire '%s' stays in a plane under a push of %.3g N for %.3g s, but is unstable "
-                "across it: a real wire has left it by then; draw it bent out of it by a "
-                "thousandth of its length, or add a small force across it",
-                name, a->push, a->time);
+  if (slips)
+    sw_scene_tell(s, "buckling", name, a->at, a->push,
+                  "wire '%s' stays in a plane under a push of %.3g N for %.3g s, held in it by "
+                  "friction only: a real wire may have left it before; draw it bent out of it by a "
+                  "thousandth of its length",
+                  name, a->push, a->time);
+  else
+    sw_scene_tell(s, "buckling", name, a->at, a->push,
+                  "wire '%s' stays in a plane under a push of %.3g N for %.3g s, but is unstable "
+                  "across it: a real wire has left it by then; draw it bent out of it by a "
+                  "thousandth of its length, or add a small force across it",
+                  name, a->push, a->time);
 }
 
 static double later(double grown) { return fmin(LATER, fmax(SOONER, GROWTH / fmax(grown, 1.0))); }
@@ -78,10 +85,10 @@ static sw_status look_at(sw_scene *s, size_t w, int slips) {
   const sw_status status = sw_scene_unstable_across(s, w, &of, &count, &rate);
   if (status == SW_ENOMEM) return status;
   const double grown = status == SW_OK && count > 0 ? rate * a->time : 0;
-  if (slips || grown >= GROWTH || !sw_scene_contact(s))
+  if (slips || count > 0 || !sw_scene_contact(s)) /* friction does not matter */
     a->need = a->straight + (a->growth - a->straight) * later(grown);
   if (grown < GROWTH) return SW_OK;
-  tell(s, w);
+  tell(s, w, slips);
   b->pushed = HUGE_VAL; /* once in a run */
   return SW_OK;
 }

@@ -54,6 +54,12 @@ static const double IN_PLANE = 1e-6;
 /* A wire in a plane is checked only when slower than this, over sqrt(g L) [-]. A faster one may be
  * elsewhere before it buckles. */
 static const double SLOW = 0.01;
+/* Growth of a bend, as a logarithm, that friction of a wire at rest must hold: to a hundredth of
+ * the length. Cables that a hand pushed onto a peg were that far aside when they slid off it, or
+ * less (spec/scene/arched_peg_spec) [-]. */
+static const double LIKELY = 2.3;
+/* A wire that is bent by less is nearly straight, see watch/unbent.c [-]. */
+static const double BENT = 0.02;
 /* A motion goes across the plane if at least this share of its squared shifts does [-]. By symmetry
  * either all of it does or none. */
 static const double ACROSS = 0.5;
@@ -125,11 +131,18 @@ static int cannot_be_said(sw_status status) {
   return status == SW_EDIVERGED || status == SW_EINVAL || status == SW_ENOCONV;
 }
 
-static void tell(sw_scene *s, size_t w, double push, size_t edge, size_t count) {
+static void tell(sw_scene *s, size_t w, double push, size_t edge, size_t count, int slips) {
   const sw_body *b = &sw_scene_system(s)->bodies[w];
   const char *name = sw_scene_wire_in(s, w)->name;
   const double at = b->plan->s[edge] - b->plan->s[0];
-  if (!count)
+  if (slips)
+    sw_scene_tell(
+        s, "buckling", name, at, push,
+        "wire '%s' stays in a plane under a push of %.3g N, held in it by friction only: a "
+        "real wire may slide off to a side; draw it bent out of the plane by a thousandth "
+        "of its length",
+        name, push);
+  else if (!count)
     sw_scene_tell(s, "buckling", name, at, push,
                   "wire '%s' stays in a plane under a push of %.3g N, but is unstable across it: a "
                   "real wire would fall to a side; draw it bent out of the plane by a thousandth "
@@ -149,7 +162,7 @@ static sw_status look_at(sw_scene *s, size_t w, double push, size_t edge, sw_vec
                          int slips) {
   sw_system *system = sw_scene_system(s);
   const double rate = SLOWEST * sqrt(gravity_of(s) / system->bodies[w].plan->length);
-  const sw_across of = {normal, rate * rate, slips, 0};
+  const sw_across of = {normal, rate * rate, slips, fmin(LIKELY, system->bodies[w].arched.growth)};
   const int flat = sw_norm2(normal) > 0;
   size_t count = 0;
   double fastest;
@@ -159,7 +172,7 @@ static sw_status look_at(sw_scene *s, size_t w, double push, size_t edge, sw_vec
   if (cannot_be_said(status)) return SW_OK;
   if (status != SW_OK || count == 0) return status;
   system->bodies[w].pushed = HUGE_VAL;
-  tell(s, w, push, edge, flat ? 0 : count);
+  tell(s, w, push, edge, flat ? 0 : count, slips);
   return SW_OK;
 }
 
@@ -191,10 +204,13 @@ static sw_status make(sw_scene *s, int how, int *linear, int *can, sw_error *err
   return SW_OK;
 }
 
-/* 1 if obstacles touch the wire. */
-static int is_touched(const sw_scene *s, const sw_body *b) {
+/* 1 if obstacles touch the wire and it is bent in a plane. watch/unbent.c tells of friction on
+ * wires that are nearly straight. */
+static int may_slip(const sw_scene *s, const sw_body *b) {
   size_t first, end;
-  if (!sw_scene_contact(s)) return 0;
+  sw_vec normal;
+  if (!sw_scene_contact(s) || !sw_scene_lies_in_plane(sw_scene_system(s), b, BENT, &normal))
+    return 0;
   sw_contact_touches_of(sw_scene_contact(s), b->first_node, b->first_node + b->plan->nodes, &first,
                         &end);
   return end > first;
@@ -213,7 +229,7 @@ static sw_status look_at_all(sw_scene *s, int *linear, sw_error *err) {
     if (!is_new_push(s, w, &push, &edge, &normal)) continue;
     b->pushed = push;
     for (int how = STICKING; how <= SLIPPING && b->pushed < HUGE_VAL; how++) {
-      if (how == SLIPPING && !(sw_norm2(normal) > 0 && is_touched(s, b))) continue;
+      if (how == SLIPPING && !may_slip(s, b)) continue;
       SW_TRY(make(s, how, linear, &can, err));
       if (can) SW_TRY(look_at(s, w, push, edge, normal, how == SLIPPING));
     }
