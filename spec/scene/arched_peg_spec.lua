@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Cables whose end a hand pushes, so that they buckle in a plane onto a peg with friction. A real cable is bent
--- by a thousandth of its length L across the plane. This bend grows like exp(r t) before the peg is touched, and
--- the push P on a bend a is about a (P - EI k^2) k^2 L/8, k = 2 pi/L. When this is above mu N the cable
+-- Cables whose end a hand pushes, so that they buckle in a plane onto a peg with friction. A real cable is
+-- bent by a thousandth of its length L across the plane. This bend grows like exp(r t) before the peg is
+-- touched, and the push P on a bend a is about a (P - EI k^2) k^2 L/8, k = 2 pi/L. When this is above mu N the cable
 -- slides off to the side, and bears half as much: a strut whose middle is free bears 4 pi^2 EI/L^2, one whose
 -- middle is held 8.18 pi^2 EI/L^2.
 package.path = "./?.lua;" .. package.path
@@ -11,8 +11,8 @@ local t = require "spec.physics.tools"
 local L = 0.24
 local cables = { "GXL 1.5", "FLRY-B 0.5", "H07V-K 4" }
 
--- o.across: bend out of the plane [m]; o.way of the hand [m]; o.back: it goes back; o.turn: of the scene [rad];
--- o.swap: ends swapped. Returns the hand's force at the end [N], the way out of the plane [m], the events.
+-- o.across: bend out of the plane [m]; o.way of the hand [m]; o.back: it goes back; o.turn: of the scene
+-- [rad]; o.swap: ends swapped. Returns the hand's force at the end [N], the way out of the plane [m], the events.
 local function push(cable, o)
   local turn, points, sign = o.turn or 0, {}, o.swap and -1 or 1
   local scene = sw.scene{ gravity = t.turned({ 0, 0, -9.81 }, turn) }
