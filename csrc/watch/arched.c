@@ -4,6 +4,9 @@
  * two hands that bring a cable's ends together over a peg bend it in the plane of its drawing.
  * watch/straight.c looks at slow wires, watch/unbent.c at nearly straight ones.
  *
+ * In poses only wires that friction holds are looked at: other unstable states are left by
+ * themselves.
+ *
  * A step takes the rate of a straight piece under this push. Only when a real wire had left the
  * plane at this rate, the motions of the bent wire itself are computed. */
 #include <math.h>
@@ -28,8 +31,18 @@ static const double GROWTH = 8.0;
 static const double SOONER = 1.2, LATER = 2.0;
 
 static int can_be_told(const sw_scene *s, size_t w, const sw_body *b) {
-  return !sw_course_is_still(sw_scene_course(s)) && !b->waits && b->plan->beam.EI > 0 &&
-         !b->plan->web && b->pushed < HUGE_VAL && !sw_scene_joined(s, w);
+  return !b->waits && b->plan->beam.EI > 0 && !b->plan->web && b->pushed < HUGE_VAL &&
+         !sw_scene_joined(s, w);
+}
+
+static int is_still(const sw_scene *s) { return sw_course_is_still(sw_scene_course(s)); }
+
+/* A pose lasts for as long as a bend takes, at least this long [s]. */
+static const double LONG = 1.0;
+
+static void grow(const sw_scene *s, sw_arched *a, double rate, double time) {
+  a->growth += is_still(s) ? GROWTH : rate * time;
+  a->time += is_still(s) ? fmax(time, LONG) : time;
 }
 
 /* A wire that is straight, or bent by rounding, leaves its line to all sides alike: its bend grows
@@ -47,7 +60,7 @@ void sw_scene_watch_arched(sw_scene *s, size_t wire, const sw_bend *bend) {
     return;
   }
   if (a->pushed && sw_bend_grows(b, bend, a->growth))
-    a->growth += bend->rate * since, a->time += since; /* else it began within the step */
+    grow(s, a, bend->rate, since); /* else it began within the step */
   if (!sw_scene_lies_in_plane(system, b, BENT, &normal)) a->straight = fmax(0, a->growth - 1);
   a->pushed = 1, a->push = bend->piece.push;
   a->at = b->plan->s[bend->piece.edge] - b->plan->s[0];
@@ -57,7 +70,14 @@ void sw_scene_watch_arched(sw_scene *s, size_t wire, const sw_bend *bend) {
 static void tell(sw_scene *s, size_t w, int slips) {
   const sw_arched *a = &sw_scene_system(s)->bodies[w].arched;
   const char *name = sw_scene_wire_in(s, w)->name;
-  if (slips)
+  if (is_still(s))
+    sw_scene_tell(
+        s, "buckling", name, a->at, a->push,
+        "wire '%s' stays in a plane under a push of %.3g N, held in it by friction only: a "
+        "real wire may slide off to a side; draw it bent out of the plane by a thousandth "
+        "of its length",
+        name, a->push);
+  else if (slips)
     sw_scene_tell(s, "buckling", name, a->at, a->push,
                   "wire '%s' stays in a plane under a push of %.3g N for %.3g s, held in it by "
                   "friction only: a real wire may have left it before; draw it bent out of it by a "
@@ -120,6 +140,6 @@ static sw_status look_at_all(sw_scene *s, int slips, sw_error *err) {
 }
 
 sw_status sw_scene_look_across(sw_scene *s, sw_error *err) {
-  SW_TRY(look_at_all(s, 0, err));
+  if (!is_still(s)) SW_TRY(look_at_all(s, 0, err)); /* poses leave states that are unstable */
   return sw_scene_contact(s) ? look_at_all(s, 1, err) : SW_OK;
 }
