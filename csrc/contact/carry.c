@@ -11,11 +11,13 @@
 #include "contact/contact.h"
 #include "contact/touch.h"
 
-/* Returns the number of the pad that a remembered touch pressed on, or -1. */
+/* Returns the number of the pad, or of the moving obstacle on which it stuck, that a remembered
+ * touch pressed on, or -1. */
 static int holds(const sw_contact *c, const sw_memory *m) {
   if (!(m->kept.normal_force > 0)) return -1;
   const size_t o = sw_contact_index(c, m->obstacle);
-  return o < c->count && c->obstacles[o].grips > 0 ? (int)o : -1;
+  if (o == c->count) return -1;
+  return c->obstacles[o].grips > 0 || (c->broad.moves[o] && !m->kept.sliding) ? (int)o : -1;
 }
 
 /* Nodes at such touches, from low to high; low > high: there are none. */
@@ -44,6 +46,21 @@ static void add(const sw_contact *c, int o, const double *x, goal *to) {
   to->sum[0] += p.x, to->sum[1] += p.y, to->sum[2] += p.z, to->count += 1;
 }
 
+/* Nodes that lie open between two that stick on one moving obstacle go with it as well, as those on
+ * its facets between two corners. */
+static void fill(const sw_contact *c, const sw_system *s, const double *x, reach r, goal *goals) {
+  const sw_memory *before = NULL;
+  SW_ITEMS(const sw_memory, m, c->memory, c->memory_count) {
+    const int o = holds(c, m);
+    if (o < 0 || c->obstacles[o].grips > 0) continue;
+    const int same = before && before->obstacle == m->obstacle &&
+                     sw_system_body_of(s, before->node) == sw_system_body_of(s, m->node);
+    for (size_t i = same ? before->node : m->node; i < m->node; i++)
+      if (!(goals[i - r.low].count > 0)) add(c, o, x + 3 * i, &goals[i - r.low]);
+    before = m;
+  }
+}
+
 /* Leaves out held nodes, and meshes: only their surface touches the pads. */
 static void leave_out(const sw_system *s, reach r, goal *goals) {
   SW_ITEMS(const sw_held_node, h, s->held, s->held_count) {
@@ -57,7 +74,7 @@ static void leave_out(const sw_system *s, reach r, goal *goals) {
 
 sw_status sw_contact_carry(sw_contact *c, const sw_system *s, double time, double *x,
                            sw_error *err) {
-  if (!c->pad_count || !s->poses) return SW_OK;
+  if (!(c->pad_count || c->broad.mover_count) || !s->poses) return SW_OK;
   const reach r = reach_of(c);
   if (r.low > r.high) return SW_OK;
   SW_TRY(sw_broad_place(c, time, c->now, err));
@@ -71,6 +88,7 @@ sw_status sw_contact_carry(sw_contact *c, const sw_system *s, double time, doubl
     for (size_t i = m->node; i <= m->node + (m->segment > 0); i++)
       add(c, o, x + 3 * i, &goals[i - r.low]);
   }
+  fill(c, s, x, r, goals);
   leave_out(s, r, goals);
   for (size_t k = 0; k < n; k++)
     for (size_t i = 0; i < 3 && goals[k].count > 0; i++)

@@ -209,11 +209,23 @@ static int has_meshes(const sw_scene *s) {
 /* 1 if the equilibrium does not depend on the history of the wires. */
 static int forgets(const sw_scene *s) { return !has_friction(s) && !has_meshes(s); }
 
+/* 1 if an obstacle that moves by itself may take wires along. In a part of a pose only the holds
+ * are on their way, and such an obstacle is at its end: a wire that is wound on a drum slid on it,
+ * and had up to 2.5 times the pull of its brake (spec/contact/wound_poses_spec). */
+static int takes_along(const sw_scene *s) {
+  SW_EACH(obstacle, o, s) {
+    const int goes = o->alive && !o->off && !o->drive.tool && fmax(o->friction, o->kinetic) > 0;
+    if (goes && !sw_drive_stands(&o->drive, sw_scene_time(s))) return 1;
+  }
+  return 0;
+}
+
 sw_status sw_scene_cut_rubbing(sw_scene *s, double *h, sw_error *err) {
   const sw_system *system = sw_scene_system(s);
   const double now = sw_scene_time(s), edge = LONGEST_PART * shortest_edge(system);
   size_t parts = 1;
-  if (!sw_scene_wears(s) || !has_friction(s) || !system->hold_count) return SW_OK;
+  if (!(sw_scene_wears(s) || takes_along(s)) || !has_friction(s) || !system->hold_count)
+    return SW_OK;
   sw_pose *poses SW_LOCAL = sw_alloc(system->hold_count, sizeof *poses);
   if (!poses) return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", sw_scene_name(s));
   sw_statics p = {.s = s, .from_poses = poses, .touched = now};

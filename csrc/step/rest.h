@@ -35,7 +35,7 @@ void sw_yield_tell(sw_scene *scene);
 /* Makes t1 earlier (cut: 1) if wires between pads could not follow the pads to it. */
 sw_status sw_scene_cut_pose(sw_scene *scene, double *t1, int *cut, sw_error *err);
 /* Shortens a pose step h so that no hold goes further than wires with friction are followed at
- * once: what they rub off is booked pose by pose [s]. */
+ * once: what they rub off is booked pose by pose, and obstacles that move go with them [s]. */
 sw_status sw_scene_cut_rubbing(sw_scene *scene, double *h, sw_error *err);
 typedef struct sw_pose_args {
   int (*interrupted)(void);
