@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Statics: a first guess for wires that a gripper's pads hold. The iteration starts with the part
- * between the pads where they carry it. From the place of the pose before, pads that move across
- * the wire press on it from one side only, by many times their depth, and the iteration loses their
- * friction; then the wire falls out of them. */
+/* Statics: a first guess for wires that a gripper's pads hold, or that stick on a moving obstacle.
+ * The iteration starts with this part of a wire where they carry it. From the place of the pose
+ * before, pads that move across the wire press on it from one side only, by many times their depth,
+ * and the iteration loses their friction; then the wire falls out of them. On a turning drum with
+ * facets it found no rest, and the wire slid on the drum (spec/contact/wound_poses_spec). */
 #include <stdint.h>
 #include <string.h>
 

@@ -144,7 +144,8 @@ void sw_contact_brake(sw_contact *contact);
  * size are stiffened as in whole steps. adaptive: 1: steps follow their error. */
 void sw_contact_ask(sw_contact *contact, double part, int adaptive);
 
-/* First guess of a pose: nodes (x) go with the pads that hold them, from the step's start. */
+/* First guess of a pose: nodes (x) go with the pads that hold them, or with moving obstacles on
+ * which they stick, from the step's start. */
 sw_status sw_contact_carry(sw_contact *contact, const sw_system *system, double time, double *x,
                            sw_error *err);
 /* Reviews a static solution x1. Segments that passed an obstacle are kept on their side from now

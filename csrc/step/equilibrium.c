@@ -327,6 +327,7 @@ sw_status sw_rest_find(sw_statics *p, sw_error *err) {
     *p->too_far = 1;
     return sw_fail(err, SW_ENOCONV, "a wire may spring past a clip");
   }
+  /* continuation may let a wire slide on an obstacle that goes with its hold */
   if (p->too_far && status == SW_ENOCONV && sw_rest_dragged(p) > 0 && sw_rest_driven(p) > 0) {
     *p->too_far = 1;
     return sw_fail(err, SW_ENOCONV, "an obstacle drags a wire too far");
