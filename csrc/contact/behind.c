@@ -57,12 +57,15 @@ void sw_contact_note_inside(sw_contact *c, const sw_system *s, const sw_candidat
     note(c, s, k, near->at, -near->gap);
 }
 
-sw_behind sw_contact_behind(const sw_contact *c, const sw_system *s, size_t body) {
+sw_behind sw_contact_behind(sw_contact *c, const sw_system *s, size_t body) {
   sw_behind found = {.found = 0};
   const sw_body *b = &s->bodies[body];
   size_t k, end;
   if (!c->open_count) return found;
-  if (c->behind.found && c->behind.body == body) return c->behind;
+  if (c->behind.found && c->behind.body == body) {
+    found = c->behind, c->behind.found = 0;
+    return found;
+  }
   sw_contact_touches_of(c, b->first_node, b->first_node + b->plan->nodes, &k, &end);
   for (; k < end && k < c->touch_count; k++) {
     const sw_touch *t = &c->touches[k];

@@ -22,7 +22,7 @@ void sw_contact_note_crossing(sw_contact *contact, const sw_system *system,
 /* Notes a place that is left out because it is inside without memory. */
 void sw_contact_note_inside(sw_contact *contact, const sw_system *system,
                             const struct sw_candidate *candidate, const sw_closest *near);
-/* What a body did in the last step. */
-sw_behind sw_contact_behind(const sw_contact *contact, const sw_system *system, size_t body);
+/* What a body did in the last step, or since the last call in poses. */
+sw_behind sw_contact_behind(sw_contact *contact, const sw_system *system, size_t body);
 
 #endif

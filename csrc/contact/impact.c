@@ -57,7 +57,7 @@ sw_status sw_contact_calm(sw_contact *c, size_t nodes) {
   }
   for (size_t i = 0; i < c->barrier_count; i++) c->barrier_at[c->barriers[i].node] = 0;
   c->barrier_count = c->impact_count = 0;
-  c->behind.found = 0;
+  if (c->regime != SW_CONTACT_STATIC) c->behind.found = 0; /* a pose has many solves */
   if (nodes <= c->places) return SW_OK;
   c->places = 0;
   SW_TRY(SW_GROW(c->impact_at, c->place_capacity, 4 * nodes));

@@ -10,7 +10,7 @@
 #include "watch/observe.h"
 
 void sw_scene_watch_sheets(sw_scene *s, size_t wire) {
-  const sw_contact *contact = sw_scene_contact(s);
+  sw_contact *contact = sw_scene_contact(s);
   if (!contact) return;
   const sw_behind at = sw_contact_behind(contact, sw_scene_system(s), wire);
   if (!at.found || at.obstacle < 0 || (size_t)at.obstacle >= sw_scene_obstacle_slots(s)) return;

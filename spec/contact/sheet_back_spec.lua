@@ -63,6 +63,20 @@ describe("a wire at the back of an open mesh", function()
     end)
   end
 
+  -- The search for the first pose takes it through the sheet, at once or in part.
+  it("is told in poses, too", function()
+    for _, o in ipairs { { height = 0.0013 }, { height = 0.01, turn = 0.7, swapped = true },
+      { height = 0.03, n = 20 } } do
+      for _, dt in ipairs { 0.04, 0.005 } do
+        o.down = true
+        local scene, wire = scene_with(o)
+        scene:pin(wire, { s = 0 })
+        local run = scene:run { duration = 0.2, dt = dt, quasistatic = true }
+        assert.is_truthy(told(run), ("from %g m, poses of %g s"):format(o.height, dt))
+      end
+    end
+  end)
+
   it("is told if a clamp takes it there slowly, in motion and in poses", function()
     for _, quasistatic in ipairs{ false, true } do
       local scene, wire = scene_with{ down = true, height = 0.01 }
@@ -87,6 +101,10 @@ describe("a wire at the back of an open mesh", function()
         if act then act(scene, wire) end
         local run = scene:run{ duration = 0.5, dt = dt }
         assert.is_nil(told(run), ("%s, steps of %g s"):format(what, dt))
+        scene, wire = scene_with(o)
+        if act then act(scene, wire) end
+        run = scene:run{ duration = 0.5, dt = dt, quasistatic = true }
+        assert.is_nil(told(run), ("%s, poses of %g s"):format(what, dt))
       end
     end
     local near, far = { 0.05, 0.013, 0.002 }, { -0.1, 0.013, 0.002 }
