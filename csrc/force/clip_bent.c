@@ -4,7 +4,7 @@
  * pressed in at other places than a bent wire: with edges of W N was up to 16 % off, by where nodes
  * lie, with edges of W/2 5 %. Their force F and moment M on the wire are right within 1 % there.
  *
- * So N is computed from F and M: a beam of ELEMENTS cubic elements over the clip's width bears the
+ * So N is computed from F and M: a beam of cubic elements over the clip's width bears the
  * potential of the seat, loaded at its two ends by the wire outside. Shear and moment of the wire
  * at its nodes outside say how F and M are shared between the two ends. Between lips, floor and
  * walls of a seated wire the potential is a function of u plus one of v: a beam for each. Tension
@@ -18,9 +18,10 @@
 #include <string.h>
 
 enum {
-  ELEMENTS = 16,               /* N is within 0.1 % of that of 32, of 8 within 0.6 % [-] */
-  PLACES = 3 * ELEMENTS,       /* of the quadrature */
-  UNKNOWNS = 2 * ELEMENTS + 2, /* deflection and slope at the elements' ends */
+  ELEMENTS = 16,               /* N is within 0.1 % of that of 32, of FEW within 0.6 % [-] */
+  FEW = 8,                     /* for edges above LONG, with which N is less accurate than that */
+  PLACES = 3 * ELEMENTS,       /* of the quadrature, at most */
+  UNKNOWNS = 2 * ELEMENTS + 2, /* deflection and slope at the elements' ends, at most */
   BAND = 4,
   PATIENT = 12, /* iterations after which they go half the way */
   MOST_ITERATIONS = 40
@@ -28,6 +29,8 @@ enum {
 
 /* Edges below this share of the width are not corrected: they are within 1 % [-]. */
 static const double SHORT = 0.125;
+/* Edges above this share take fewer elements, in half the time [-]. */
+static const double LONG = 0.34;
 /* Largest u of an edge's middle over the inner flank, and depth over the reach of floor and walls:
  * both push hardest at 0.5. The beam's ends may go further, up to where the push ends [-]. */
 static const double DEEP = 0.45, ENDS = 1.0;
@@ -83,6 +86,7 @@ typedef struct part {
   double moment[2];    /* its moment about the clip's middle [N m] */
   double push, window; /* sum of the edges' pushes [N]; share of the window that is filled [-] */
   double tension;      /* mean of the edges [N] */
+  int elements;        /* of the beam [-] */
 } part;
 
 static double along(const sw_clip *c, const sw_field *f, size_t i) {
@@ -128,6 +132,7 @@ static int find_part(const sw_clip *c, const sw_field *f, part *p) {
   for (long e = first; e >= 0; last = e, e = sw_clip_find(c, f, e + 1))
     if (e != last + 1 || !add_edge(c, f, (size_t)e, &longest, p)) return 0;
   if (first < 0 || longest < SHORT * c->width || !(p->push > 0) || !(p->window > 0)) return 0;
+  p->elements = longest > LONG * c->width ? FEW : ELEMENTS;
   p->tension = fmax(p->tension / p->window, -f->plan->beam.EI / (c->width * c->width));
   p->step = along(c, f, (size_t)last + 1) > along(c, f, (size_t)first) ? 1 : -1;
   p->ends[p->step > 0 ? 0 : 1] = (size_t)first;
@@ -189,6 +194,7 @@ static void complete(const sw_clip *c, const part *p, int plane, double climb, l
 
 /* Equations of a beam: bands of the matrix, right side, and the unknowns. */
 typedef struct beam {
+  int elements, places, unknowns;
   double EI, tension, element;           /* [N m2], [N], length of an element [m] */
   double weight[PLACES];                 /* of the places of the quadrature [-] */
   double shape[3][BAND];                 /* of an element's unknowns at its places [-], [m] */
@@ -202,18 +208,19 @@ static const double WEIGHT[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
 /* Sets shapes and weights. The seat does not push beyond an end of the wire. */
 static void begin(const sw_clip *c, const sw_field *f, const part *p, beam *o) {
   const double low = along(c, f, p->ends[0]), high = along(c, f, p->ends[1]);
-  o->EI = f->plan->beam.EI, o->tension = p->tension, o->element = c->width / ELEMENTS;
+  o->elements = p->elements, o->places = 3 * p->elements, o->unknowns = 2 * p->elements + 2;
+  o->EI = f->plan->beam.EI, o->tension = p->tension, o->element = c->width / p->elements;
   for (int g = 0; g < 3; g++) {
     const double t = GAUSS[g], h = o->element, s = 1.0 - t;
     const double shape[BAND] = {s * s * (1.0 + 2.0 * t), h * t * s * s, t * t * (3.0 - 2.0 * t),
                                 -h * t * t * s};
     memcpy(o->shape[g], shape, sizeof shape);
   }
-  for (int k = 0; k < PLACES; k++) {
+  for (int k = 0; k < o->places; k++) {
     const int element = k / 3;
-    const double a = ((element + GAUSS[k % 3]) / ELEMENTS - 0.5) * c->width;
+    const double a = ((element + GAUSS[k % 3]) / o->elements - 0.5) * c->width;
     const double chi = 1.0 + cos(2.0 * M_PI * a / c->width);
-    o->weight[k] = a < low || a > high ? 0.0 : WEIGHT[k % 3] / ELEMENTS * chi;
+    o->weight[k] = a < low || a > high ? 0.0 : WEIGHT[k % 3] / o->elements * chi;
   }
 }
 
@@ -242,8 +249,9 @@ static void add_element(beam *o, int e) {
 }
 
 static void add_seat(const sw_clip_law *l, int plane, beam *o) {
-  const double least = ADDED * o->EI / pow(ELEMENTS * o->element, 3);
-  for (int k = 0; k < PLACES; k++) {
+  const double least = ADDED * o->EI / pow(o->elements * o->element, 3);
+  for (int k = 0; k < o->places; k++) {
+    if (!(o->weight[k] > 0)) continue; /* beyond an end of the wire */
     const slope s = seat(l, plane, deflection(o, k));
     const double stiff = o->weight[k] * fmax(s.dd, least), *const n = o->shape[k % 3];
     const int first = 2 * (k / 3);
@@ -256,15 +264,15 @@ static void add_seat(const sw_clip_law *l, int plane, beam *o) {
 
 /* Solves a d = b in place of both. */
 static void solve(beam *o) {
-  for (int i = 0; i < UNKNOWNS; i++)
-    for (int j = 1; j < BAND && i + j < UNKNOWNS; j++) {
+  for (int i = 0; i < o->unknowns; i++)
+    for (int j = 1; j < BAND && i + j < o->unknowns; j++) {
       const double m = o->a[i][j] / o->a[i][0];
       for (int k = j; k < BAND; k++) o->a[i + j][k - j] -= m * o->a[i][k];
       o->b[i + j] -= m * o->b[i], o->a[i][j] = m;
     }
-  for (int i = UNKNOWNS - 1; i >= 0; i--) {
+  for (int i = o->unknowns - 1; i >= 0; i--) {
     o->b[i] /= o->a[i][0];
-    for (int j = 1; j < BAND && i + j < UNKNOWNS; j++) o->b[i] -= o->a[i][j] * o->b[i + j];
+    for (int j = 1; j < BAND && i + j < o->unknowns; j++) o->b[i] -= o->a[i][j] * o->b[i + j];
   }
 }
 
@@ -272,33 +280,40 @@ static void solve(beam *o) {
 static double iterate(const sw_clip *c, int plane, const load ends[2], double go, beam *o) {
   double most = 0;
   memset(o->a, 0, sizeof o->a), memset(o->b, 0, sizeof o->b);
-  for (int e = 0; e < ELEMENTS; e++) add_element(o, e);
+  for (int e = 0; e < o->elements; e++) add_element(o, e);
   add_seat(&c->law, plane, o);
   for (int k = 0; k < 2; k++) {
-    o->b[k ? UNKNOWNS - 2 : 0] -= ends[k].shear;
-    o->b[k ? UNKNOWNS - 1 : 1] -= ends[k].moment;
+    o->b[k ? o->unknowns - 2 : 0] -= ends[k].shear;
+    o->b[k ? o->unknowns - 1 : 1] -= ends[k].moment;
   }
   solve(o);
-  for (int i = 0; i < UNKNOWNS; i += 2) most = fmax(most, fabs(o->b[i]));
+  for (int i = 0; i < o->unknowns; i += 2) most = fmax(most, fabs(o->b[i]));
   const double limit = FAR * c->law.out + c->law.clearance, share = go * fmin(1.0, limit / most);
-  for (int i = 0; i < UNKNOWNS; i++) o->x[i] -= share * o->b[i];
+  for (int i = 0; i < o->unknowns; i++) o->x[i] -= share * o->b[i];
   return most;
+}
+
+/* 0: nothing acts on the beam in this plane, as where a wire is drawn and bent in the other one. */
+static int is_loaded(const part *p, int plane, const load ends[2]) {
+  double sum = fabs(p->force[plane]) + fabs(p->moment[plane]);
+  for (int k = 0; k < 2; k++) sum += fabs(ends[k].shear) + fabs(ends[k].moment);
+  return sum != 0;
 }
 
 /* Fills the push at each place in one plane [N]; 0: the seat does not bear the beam. */
 static int push_in(const sw_clip *c, const part *p, int plane, const load outside[2], beam *o,
                    double push[PLACES]) {
-  double move = HUGE_VAL;
+  double move = is_loaded(p, plane, outside) ? HUGE_VAL : 0.0;
   memset(o->x, 0, sizeof o->x);
   for (int k = 0; move > DONE * c->law.out; k++) {
     load ends[2] = {outside[0], outside[1]};
     if (k == MOST_ITERATIONS) return 0;
-    complete(c, p, plane, o->x[UNKNOWNS - 2] - o->x[0], ends);
+    complete(c, p, plane, o->x[o->unknowns - 2] - o->x[0], ends);
     move = iterate(c, plane, ends, k < PATIENT ? 1.0 : 0.5, o);
   }
-  for (int k = 0; k < PLACES; k++) {
+  for (int k = 0; k < o->places; k++) {
     const double x = deflection(o, k);
-    if (o->weight[k] > THIN / ELEMENTS && !bears(&c->law, plane, x, ENDS)) return 0;
+    if (o->weight[k] > THIN / o->elements && !bears(&c->law, plane, x, ENDS)) return 0;
     push[k] = seat(&c->law, plane, x).d;
   }
   return 1;
@@ -307,14 +322,14 @@ static int push_in(const sw_clip *c, const part *p, int plane, const load outsid
 /* Returns the push on the bent wire, or that of its edges [N]. */
 static double push_of(const sw_clip *c, const sw_field *f, const part *p) {
   const sw_vec d[2] = {c->direction, c->across};
-  double push[2][PLACES], sum = 0;
+  double push[2][PLACES] = {{0}}, sum = 0;
   beam o;
   begin(c, f, p, &o);
   for (int plane = 0; plane < 2; plane++) {
     const load outside[2] = {load_of(c, f, p, 0, d[plane]), load_of(c, f, p, 1, d[plane])};
     if (!push_in(c, p, plane, outside, &o, push[plane])) return p->push;
   }
-  for (int k = 0; k < PLACES; k++) sum += o.weight[k] * hypot(push[0][k], push[1][k]);
+  for (int k = 0; k < o.places; k++) sum += o.weight[k] * hypot(push[0][k], push[1][k]);
   return sum;
 }
 
