@@ -33,7 +33,8 @@ typedef struct kept {
   double *x;    /* (freedoms) places of nodes */
   int next;     /* see sw_course */
   sw_outer_start outer;
-  struct kept *motion; /* NULL; or the same, from which wires move if no equilibrium is found */
+  struct kept *motion; /* NULL; or a start, maybe this one, from which wires move if no
+                          equilibrium is found */
 } kept;
 
 static void drop(kept *k) {
@@ -252,8 +253,8 @@ static sw_status pose(sw_scene *s, double t1, int halvings, const sw_pose_args *
   else if (status == SW_OK && sw_grips_frozen(s))
     status = keep_loosely(s, &start, err);
   if (status == SW_OK && how->unsettled) {
-    status = keep_loosely(s, &motion, err);
-    start.motion = &motion;
+    if (!start.jaws) status = keep_loosely(s, &motion, err);
+    start.motion = start.jaws ? &start : &motion;
   }
   if (status == SW_OK) status = one_pose(s, t1, halvings, how, report, &start, err);
   drop(&start);

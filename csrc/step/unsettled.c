@@ -2,8 +2,8 @@
 /* Slow handling where no equilibrium is found. The search for one goes from touch to touch, and may
  * go in circles where a wire snaps under friction, or where it has none at all, as one that swings
  * in the wind. Motion has no such trouble: the wires move until the pose's end, and rest is looked
- * for there again. Of 40 drawn processes of handling 7 ended in such a pose; none does now
- * (spec/physics/unsettled_spec). */
+ * for there again. Of 40 drawn processes of handling 7 ended in such a pose, and none does now;
+ * spec/physics/unsettled_spec has one of them. */
 #include "step/unsettled.h"
 
 #include <math.h>
