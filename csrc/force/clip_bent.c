@@ -52,22 +52,10 @@ typedef struct slope {
   double d, dd;
 } slope;
 
-static slope slope_of(const sw_clip_hump *h, double x) {
-  const double s = sin(h->rate * x), c = cos(h->rate * x);
-  return (slope){h->slope * s * c, h->curve * (c * c - s * s)};
-}
-
+/* In the seat, where the potential is a sum of one along u and one along v. */
 static slope seat(const sw_clip_law *l, int plane, double x) {
-  if (plane == 0 && x > l->out + l->in) return (slope){0, 0};
-  if (plane == 0 && x > l->out) {
-    const slope s = slope_of(&l->outer, l->out + l->in - x);
-    return (slope){-s.d, s.dd};
-  }
-  if (plane == 0 && x > 0) return slope_of(&l->inner, x);
-  const double depth = fabs(x) - l->clearance;
-  if (!(depth > 0)) return (slope){0, 0};
-  const slope s = slope_of(&l->side, depth);
-  return (slope){x < 0 ? -s.d : s.d, s.dd};
+  const sw_clip_point p = sw_clip_at(l, plane == 0 ? x : 0.0, plane == 0 ? 0.0 : x);
+  return plane == 0 ? (slope){p.u, p.uu} : (slope){p.v, p.vv};
 }
 
 /* 1 if the seat bears the wire here. */
