@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Random bent wires at rest on which a hold comes or goes, or that get other edges: the sharpest bend one
 -- step later must be that before. Holds that do not move change nothing of a wire at rest, and a hold that
--- goes only lets it straighten. With --measured this prints the figures of limits.md.
+-- goes only lets it straighten. With --measured this prints the figures of limits_holds.md.
 local sw = require "softworld"
 local core = require "softworld.core"
 local t = require "physics.tools"
