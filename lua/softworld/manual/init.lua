@@ -16,10 +16,10 @@ manual.groups = {
   { "Choose", { "models", "auto", "choosing", "wire_mesh", "sections", "cable", "springback", "damping",
     "integrators", "vibration", "calibrate", "remodel", "units" } },
   { "Trust", { "accuracy", "tolerance", "limits", "limits_holds", "limits_friction", "limits_meshes",
-    "speed", "peaks", "energy", "events", "changes", "changed_contact", "changed_forces", "changed_holds",
-    "changed_grips", "changed_runs", "changed_calls" } },
-  { "What runs tell", { "results", "check", "change", "compare", "refused", "remarks", "crashes", "breaking",
-    "kinks", "files" } },
+    "speed", "peaks", "peak_steps", "energy", "events", "changes", "changed_contact", "changed_forces",
+    "changed_holds", "changed_grips", "changed_runs", "changed_calls" } },
+  { "What runs tell", { "results", "check", "doubts", "wear", "zones", "change", "compare", "refused",
+    "remarks", "crashes", "breaking", "kinks", "files" } },
   { "Grippers' methods", { "gripper" } },
   { "Inside", { "glossary", "day", "parts" } },
 }
@@ -35,7 +35,7 @@ manual.also = { manual = "start", contact = "touches", meshes = "wire_mesh", har
   sweep = "study", optimise = "study", workers = "study", journal = "study",
   minimise = "search", bobyqa = "search", cobyla = "search", simplex = "search", pareto = "search",
   slurm = "cluster", nodes = "cluster",
-  verdict = "check", margin = "check", sensitivity = "change",
+  verdict = "check", margin = "check", fatigue = "wear", abrasion = "wear", sensitivity = "change",
   identify = "fit", intervals = "fit", sag = "calibration", measure = "calibration",
   report = "player", page = "player", html = "player", film = "player", frames = "player",
   changed = "changes", modes = "vibration", stress = "vibration" }

@@ -303,7 +303,7 @@ function topics.overview()
   for _, group in ipairs(manual.groups) do
     lines[#lines + 1] = group[1]
     for _, name in ipairs(group[2]) do
-      lines[#lines + 1] = ("  %-12s %s"):format(name, manual.title(name))
+      lines[#lines + 1] = ("  %-15s %s"):format(name, manual.title(name))
     end
   end
   lines[#lines + 1] = "Parameters"

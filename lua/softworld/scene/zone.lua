@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- scene:zone{ shape =, at =, ... }: a part of space in which wires are watched. See help "check".
+--- scene:zone{ shape =, at =, ... }: a part of space in which wires are watched. See help "zones".
 -- @module softworld.scene.zone
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
