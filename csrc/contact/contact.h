@@ -182,6 +182,7 @@ typedef struct sw_contact_push {
 size_t sw_contact_touches(const sw_contact *contact);
 int sw_contact_pusher(const sw_contact *contact, size_t k);
 int sw_contact_slides(const sw_contact *contact, size_t k, double least);
+double sw_contact_slid(const sw_contact *contact); /* the largest `slid`, also after a rebuild */
 /* Touches of nodes from node to before end_node: from *first to before *end. */
 void sw_contact_touches_of(const sw_contact *contact, size_t node, size_t end_node, size_t *first,
                            size_t *end);
@@ -193,8 +194,7 @@ int sw_contact_may_press(const sw_contact *contact, size_t body, double force);
 /* Largest radius of round obstacles that press on a wire within one edge of a node; 0: none [m]. */
 double sw_contact_round_beside(const sw_contact *contact, const sw_system *system, size_t node);
 
-/* Call after a step. Returns 1 if the obstacles' forces at its end come from a shock; the next step
- * must not begin with them. */
+/* After a step: 1 if the obstacles' forces come from a shock; the next may not begin with them. */
 int sw_contact_shaken(const sw_contact *contact, const sw_system *system);
 /* Two obstacles face each other if the cosine between their normals is below this [-]. */
 #define SW_FACING (-0.7)

@@ -96,6 +96,12 @@ void sw_contact_commit(sw_contact *c, sw_system *s, int holds) {
   c->memory_count = c->next_count;
 }
 
+double sw_contact_slid(const sw_contact *c) {
+  double most = 0;
+  for (size_t i = 0; i < c->memory_count; i++) most = fmax(most, c->memory[i].slid);
+  return most;
+}
+
 const void *sw_contact_memory(const sw_contact *c, size_t *bytes) {
   *bytes = c->memory_count * sizeof *c->memory;
   return c->memory;

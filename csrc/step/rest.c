@@ -33,7 +33,8 @@ static const double MOST_PARTS = 2000;
  * it had in the swing: a cable drawn through a channel had 12 % less pull in poses of 3.5 mm
  * (spec/contact/channel_poses_spec). Shifts below SLID of an edge are no sliding. A wire that
  * sticks must not be divided: the tip of a wire that buckles against a floor would slip while it
- * should stick (spec/physics/pushed_tip_spec) [-]. */
+ * should stick (spec/physics/pushed_tip_spec). A feed goes at once, not in parts: its pose is
+ * halved instead [-]. */
 enum { MOST_DIVIDED = 8 };
 static const double SLID = 1e-4;
 /* Accuracy of the equilibria before the last part: largest shift of a node, over an edge [-]. */
@@ -101,16 +102,11 @@ static sw_status count_parts(sw_statics *p, double lever, double longest_shift, 
   return SW_OK;
 }
 
-/* 1 if a place of a wire slid along an obstacle since it began to press on it. */
+/* 1 if a place of a wire slid along an obstacle since it began to press on it. The touches
+ * themselves are unknown where a feed has just made a node. */
 static int has_slid(const sw_statics *p) {
   const sw_contact *contact = sw_scene_contact(p->s);
-  const size_t count = contact ? sw_contact_touches(contact) : 0;
-  sw_contact_push push;
-  for (size_t k = 0; k < count; k++)
-    if (sw_contact_push_at(contact, sw_scene_system(p->s), k, &push) && push.normal_force > 0 &&
-        push.slid > SLID * p->edge)
-      return 1;
-  return 0;
+  return contact && sw_contact_slid(contact) > SLID * p->edge;
 }
 
 /* Returns the holds' largest shift; a turn counts as the shift of half a wire by it [m]. */
@@ -167,7 +163,7 @@ static sw_status follow_in(sw_statics *p, size_t parts, sw_error *err) {
   const size_t most = MOST_DIVIDED * parts;
   p->rubs = rubs(sw_scene_pairs(p->s)) || rubs(sw_scene_grains(p->s));
   const int drawn = p->rubs || p->slides;
-  const double way = drawn ? sw_rest_driven(p) : 0, fed_way = drawn ? fed(p) : 0;
+  const double way = drawn ? sw_rest_driven(p) : 0, fed_way = drawn ? p->fed : 0;
   p->report->rubbed = 0, p->divides = 0, p->leapt = 0;
   p->left_alone = !is_driven(p);
   for (size_t i = 1; status == SW_OK && i <= parts; i++) {
@@ -177,7 +173,8 @@ static sw_status follow_in(sw_statics *p, size_t parts, sw_error *err) {
     p->drawn = fmax(way / (double)parts, fed_way);
     p->leads = p->rubs ? p->drawn : 0;
     const int slid = p->divides ? p->may_divide : has_slid(p);
-    p->may_divide = p->slides && slid && parts < most, p->divides = 0;
+    p->may_divide = p->slides && slid && parts < most && (p->too_far || !(p->fed > 0));
+    p->divides = 0;
     status = find_part(p, err);
     if (p->divides) {
       status = SW_OK, i = 2 * (i - 1), parts *= 2;
@@ -278,7 +275,8 @@ static sw_status follow_holds(sw_statics *p, sw_error *err) {
   SW_TRY(count_parts(p, 0.0, edge, &parts, err));
   p->fall = FALLEN * sw_rest_longest(p->s) + sw_rest_driven(p);
   const int poses = p->touched != sw_scene_time(p->s);
-  if (poses && !forgets(p->s) && sw_rest_driven(p) > 0) p->most_far = FAR_IN_POSES;
+  p->fed = fed(p);
+  if (poses && !forgets(p->s) && (sw_rest_driven(p) > 0 || p->fed > 0)) p->most_far = FAR_IN_POSES;
   p->slides = p->most_far > 0 && !has_meshes(p->s);
   SW_TRY(count_parts(p, 0.0, fmax(edge, LONG_PART * sw_rest_longest(p->s)), &fewer, err));
   if (fewer < parts && forgets(p->s)) SW_TRY(follow_fast(p, fewer, &done, err));

@@ -15,11 +15,13 @@ typedef struct sw_statics {
   int (*interrupted)(void);
   int rests;      /* 1: the search began in equilibrium, except for the motions of this pose */
   int most_far;   /* see sw_newton */
-  int slides;     /* 1: holds draw wires that something rubs */
-  int may_divide; /* 1: a part of the holds' path is divided if no equilibrium follows directly */
+  int slides;     /* 1: holds or feeds draw wires that something rubs */
+  int may_divide; /* 1: a part of the holds' path, or a feed's pose, is divided if no stable
+                     equilibrium follows directly */
   int divides;    /* 1: this part must be divided */
   int rubs;       /* 1: wires may drag each other along */
   int left_alone; /* 1: in this part no hold, feed or jaw moves a wire */
+  double fed;     /* longest way of fed wire in this pose [m] */
   double drawn;   /* in this part, shift of holds that draw wires which something rubs [m] */
   double leads;   /* shift of the holds by which wires may drag each other along; 0 from the first
                      accepted step on [m] */
