@@ -334,7 +334,7 @@ sw_status sw_rest_find(sw_statics *p, sw_error *err) {
     *p->too_far = 1;
     return sw_fail(err, SW_ENOCONV, "an obstacle drags a wire too far");
   }
-  if (p->may_divide && p->fed > 0 && status == SW_ENOCONV) {
+  if (p->may_divide && p->fed > 0 && p->too_far && status == SW_ENOCONV) {
     *p->too_far = 1;
     return sw_fail(err, SW_ENOCONV, "a feed pushes a wire too far in one pose");
   }
