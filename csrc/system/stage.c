@@ -57,13 +57,15 @@ static double mass_rate(const sw_stage *stage) {
   return isfinite(stage->hbar) ? inertia_of(stage) * (1.0 / (stage->hbar * stage->hbar)) : 0.0;
 }
 
+/* Wire in a guide has the speed of the feed. In a search for rest it stands there as the others do,
+ * or dashpots would pull at the first edge: by 400 N (spec/contact/pushed_hole_spec). */
 static void stage_velocity(const sw_system *s, const sw_stage *stage, int statics) {
   const double rate = statics ? 0.0 : 1.0 / stage->hbar;
   SW_PART_EACH(s, b) {
     const size_t first = 3 * s->bodies[b].first_node, end = first + 3 * s->bodies[b].plan->nodes;
     for (size_t i = first; i < end; i++) s->velocity[i] = (stage->y[i] - stage->xhat[i]) * rate;
     for (size_t k = statics ? 0 : s->bodies[b].held; k; k = s->held[k - 1].next)
-      if (s->held[k - 1].slides)
+      if (s->held[k - 1].slides && !s->still)
         sw_system_held_velocity(s, &s->held[k - 1], s->velocity + 3 * s->held[k - 1].node);
   }
   if (!statics) sw_strain_show_held(s, stage->y, rate, s->velocity);
