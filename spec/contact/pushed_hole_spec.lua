@@ -30,8 +30,8 @@ local function push(cable, segments, stiffness, dt, angle)
   scene:force{ kind = "damping", on = wire, mass = 5, stiffness = stiffness }
   local feed = scene:feed(wire, { s = 0 })
   scene:process(function(p)
-    for _, length in ipairs(mm{ 0.8, 0.3, 0.4, 0.5 }) do
-      p:feed(feed, { length = length, speed = 0.02 })
+    for _, more in ipairs(mm{ 0.8, 0.3, 0.4, 0.5 }) do
+      p:feed(feed, { length = more, speed = 0.02 })
       p:wait(0.1)
     end
   end)
