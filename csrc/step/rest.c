@@ -161,9 +161,8 @@ static sw_status find_part(sw_statics *p, sw_error *err) {
 static sw_status follow_in(sw_statics *p, size_t parts, sw_error *err) {
   sw_status status = SW_OK;
   const size_t most = MOST_DIVIDED * parts;
-  p->rubs = rubs(sw_scene_pairs(p->s)) || rubs(sw_scene_grains(p->s));
   const int drawn = p->rubs || p->slides;
-  const double way = drawn ? sw_rest_driven(p) : 0, fed_way = drawn ? p->fed : 0;
+  const double way = drawn ? sw_rest_driven(p) : 0, fed_way = drawn ? fed(p) : 0;
   p->report->rubbed = 0, p->divides = 0, p->leapt = 0;
   p->left_alone = !is_driven(p);
   for (size_t i = 1; status == SW_OK && i <= parts; i++) {
@@ -275,7 +274,8 @@ static sw_status follow_holds(sw_statics *p, sw_error *err) {
   SW_TRY(count_parts(p, 0.0, edge, &parts, err));
   p->fall = FALLEN * sw_rest_longest(p->s) + sw_rest_driven(p);
   const int poses = p->touched != sw_scene_time(p->s);
-  p->fed = fed(p);
+  p->rubs = rubs(sw_scene_pairs(p->s)) || rubs(sw_scene_grains(p->s));
+  p->fed = p->rubs ? 0.0 : fed(p);
   if (poses && !forgets(p->s) && (sw_rest_driven(p) > 0 || p->fed > 0)) p->most_far = FAR_IN_POSES;
   p->slides = p->most_far > 0 && !has_meshes(p->s);
   SW_TRY(count_parts(p, 0.0, fmax(edge, LONG_PART * sw_rest_longest(p->s)), &fewer, err));

@@ -21,7 +21,7 @@ typedef struct sw_statics {
   int divides;    /* 1: this part must be divided */
   int rubs;       /* 1: wires may drag each other along */
   int left_alone; /* 1: in this part no hold, feed or jaw moves a wire */
-  double fed;     /* longest way of fed wire in this pose [m] */
+  double fed;     /* longest way of fed wire in this pose; 0 where wires may drag each other [m] */
   double drawn;   /* in this part, shift of holds that draw wires which something rubs [m] */
   double leads;   /* shift of the holds by which wires may drag each other along; 0 from the first
                      accepted step on [m] */
