@@ -15,6 +15,7 @@
 #include "body/join.h"
 #include "body/spin.h"
 #include "body/touching.h"
+#include "body/twist.h"
 #include "link/hold.h"
 #include "scene/drive.h"
 #include "scene/forces.h"
@@ -82,97 +83,13 @@ static sw_status keep_contact(sw_scene *s) {
   return SW_OK;
 }
 
-/* Arc lengths of a span's ends, shifted by the give of its clamps: it twists as evenly as a wire
- * from one to the other [m]. */
-typedef struct reach {
-  double from, to;
-} reach;
-
-static reach reach_of(const sw_plan *p, const sw_span *span) {
-  return (reach){p->s[span->first] - p->clamps[span->left].twist,
-                 p->s[span->last + 1] + p->clamps[span->right].twist};
-}
-
-/* Keeps twist by stretches of wire, for the spans of the next system. */
-static sw_status keep_twist(sw_scene *s) {
-  for (size_t k = 0; k < s->system.hold_count; k++) {
-    const double *q = s->system.turn + 4 * k;
-    s->holds[s->hold_slot[k]].turn = (sw_quat){q[0], q[1], q[2], q[3]};
-  }
-  for (size_t w = 0; w < s->wire_count; w++) {
-    const sw_body *b = &s->system.bodies[w];
-    sw_scene_wire *wire = &s->wires[w];
-    if (wire->untwisted) continue; /* nothing has moved yet */
-    const size_t count = b->has_twist ? b->plan->span_count : 0;
-    sw_twisted *list = sw_alloc(count, sizeof *list);
-    if (!list) return SW_ENOMEM;
-    for (size_t k = 0; k < count; k++) {
-      const sw_span *span = &b->plan->spans[k];
-      const reach at = reach_of(b->plan, span);
-      list[k] = (sw_twisted){at.from, at.to, s->system.twist[b->first_span + k]};
-    }
-    sw_free(wire->twisted);
-    wire->twisted = list;
-    wire->twisted_count = count;
-  }
-  return SW_OK;
-}
-
-sw_status sw_scene_draw_untwisted(sw_scene_wire *w) {
-  sw_twisted *list = sw_alloc(1, sizeof *list);
-  if (!list) return SW_ENOMEM;
-  *list = (sw_twisted){w->mesh.s[0], w->mesh.s[w->mesh.n - 1], 0};
-  sw_free(w->twisted);
-  w->twisted = list;
-  w->twisted_count = 1;
-  w->untwisted = 1;
-  return SW_OK;
-}
-
-static void store_turn(double *out, sw_quat q) {
-  out[0] = q.w, out[1] = q.x, out[2] = q.y, out[3] = q.z;
-}
-
-/* Returns the length of an old stretch that belongs to a span from s1 to s2, which reaches further
- * by the give of its clamps. Without it an imposed grip on a wire that a frozen one holds had a
- * torque of a sixth of the wire's (spec/physics/untwisted_release_spec). */
-static double common_of(const sw_twisted *old, double s1, double s2, reach at) {
-  const double from = old->s1 < s1 ? fmax(old->s1, fmin(s1, at.from)) : old->s1;
-  const double to = old->s2 > s2 ? fmin(old->s2, fmax(s2, at.to)) : old->s2;
-  return to - from;
-}
-
-/* Gives a new span the twist of the stretches that it covers. Wire outside all stretches has
- * unwound through a free end to its unloaded twist. */
-static void inherit_twist(sw_scene *s) {
-  for (size_t k = 0; k < s->system.hold_count; k++)
-    store_turn(s->system.turn + 4 * k, s->holds[s->hold_slot[k]].turn);
-  for (size_t w = 0; w < s->wire_count; w++) {
-    const sw_body *b = &s->system.bodies[w];
-    const sw_scene_wire *wire = &s->wires[w];
-    for (size_t k = 0; b->has_twist && k < b->plan->span_count; k++) {
-      const sw_span *span = &b->plan->spans[k];
-      const double s1 = b->plan->s[span->first], s2 = b->plan->s[span->last + 1];
-      const reach at = reach_of(b->plan, span);
-      double *twist = &s->system.twist[b->first_span + k], unwound = s2 - s1;
-      SW_ITEMS(const sw_twisted, old, wire->twisted, wire->twisted_count) {
-        const double covered = fmin(s2, old->s2) - fmax(s1, old->s1);
-        if (!(covered > 0)) continue;
-        *twist += old->twist * common_of(old, s1, s2, at) / (old->s2 - old->s1);
-        unwound -= covered;
-      }
-      *twist += b->plan->beam.rest_twist * unwound;
-    }
-  }
-}
-
 sw_status sw_scene_unbuild(sw_scene *s) {
   if (!s->built) return SW_OK;
   sw_scene_undo_holds(s);
   SW_TRY(keep_contact(s));
   SW_TRY(sw_scene_keep_histories(s));
   for (size_t w = 0; w < s->wire_count; w++) SW_TRY(sw_body_class_of(&s->wires[w])->take(s, w));
-  SW_TRY(keep_twist(s));
+  SW_TRY(sw_scene_keep_twist(s));
   drop(s);
   sw_course_jump(&s->course);
   return SW_OK;
@@ -377,7 +294,7 @@ sw_status sw_scene_build(sw_scene *s, sw_error *err) {
       return status;
     }
     sw_system_held_from_velocity(&s->system);
-    inherit_twist(s);
+    sw_scene_inherit_twist(s);
     sw_scene_frame_in(s);
     s->built = 1;
     s->build = ++s->builds;
