@@ -85,9 +85,10 @@ static double missed_gap(const sw_pairs *p, const sw_system *s, const double *x1
 
 int sw_pairs_widen(sw_mutual *m, sw_system *s, const double *x1, double h SW_UNUSED) {
   sw_pairs *p = sw_pairs_of(m);
-  if (2.0 * sw_pairs_largest_move(p->listed_at, x1, s->nodes) > p->listed_reach &&
-      sw_pairs_list(p, s, 2.0 * sw_pairs_largest_move(s->x, x1, s->nodes)) != SW_OK)
-    return -1;
+  if (2.0 * sw_pairs_largest_move(p->listed_at, x1, s->nodes) > p->listed_reach) {
+    if (sw_pairs_list(p, s, 2.0 * sw_pairs_largest_move(s->x, x1, s->nodes)) != SW_OK) return -1;
+    p->least_left = 0; /* it knows nothing of pairs that were further away than the list reached */
+  }
   const double gap = missed_gap(p, s, x1);
   if (gap < 0) return 0;
   m->least_reserve = 1.01 * gap;

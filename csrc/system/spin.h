@@ -74,6 +74,10 @@ void sw_spin_react(sw_held_node *held, const sw_body *body);
 void sw_spin_take(sw_system *system, sw_body *body, const double *x);
 void sw_spin_follow(sw_system *system, sw_body *body, const double *x);
 
+/* 0 if the iterates have led frames between two clamps through other turns than the straight way
+ * from the state to the stage's end y. */
+int sw_spins_are_whole(const sw_system *system, const double *y, int iterations);
+
 /* Sets the field's frames to the state's. */
 void sw_spin_show(sw_system *system, sw_body *body);
 

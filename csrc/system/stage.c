@@ -381,6 +381,8 @@ static sw_status solve(sw_system *s, const sw_stage *stage, const sw_newton *new
     SW_TRY(iterate_parts(s, stage, newton, report, err));
   else if (!all_waits(s))
     SW_TRY(iterate(s, stage, newton, report, err));
+  if (!sw_spins_are_whole(s, stage->y, report->iterations))
+    return sw_fail(err, SW_ENOCONV, "a wire would be thrown through itself");
   finish(s, stage, newton->statics);
   return SW_OK;
 }
