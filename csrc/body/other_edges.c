@@ -59,6 +59,32 @@ void sw_scene_correct_twist(sw_scene *s, size_t wire, const sw_mesh *old) {
   }
 }
 
+/* Carries a vector from s1 to s2; across the ends of a hold in between, if there is one. */
+static sw_vec carry_past(const sw_mesh *m, const sw_hold *h, double s1, double s2, sw_vec u,
+                         sw_vec from, sw_vec to) {
+  if (!h) return carry(m, sw_mesh_node(m, s1), sw_mesh_node(m, s2), u, from, to);
+  const sw_vec in = sw_rotate(h->turn, h->director[0]), out = sw_rotate(h->turn, h->director[1]);
+  u = carry(m, sw_mesh_node(m, s1), sw_mesh_node(m, h->s1), u, from, in);
+  u = sw_carry_unit(u, in, out);
+  return carry(m, sw_mesh_node(m, h->s2), sw_mesh_node(m, s2), u, out, to);
+}
+
+void sw_scene_correct_hold(const sw_scene *s, const sw_hold *h, const sw_mesh *old, int comes) {
+  const sw_scene_wire *w = sw_scene_wire_in(s, h->wire);
+  sw_twisted *first = NULL, *last = NULL;
+  SW_ITEMS(sw_twisted, t, w->twisted, w->twisted_count) {
+    if (comes ? t->s1 <= h->s1 && h->s2 <= t->s2 : t->s2 == h->s1 && t->s1 < t->s2) first = t;
+    if (comes ? t == first : t->s1 == h->s2 && t->s1 < t->s2) last = t;
+  }
+  if (!first || !last) return;
+  const sw_vec from = held_direction(s, h->wire, first->s1, 1);
+  const sw_vec to = held_direction(s, h->wire, last->s2, 0), start = sw_perpendicular(from);
+  if (!(sw_norm(from) > 0) || !(sw_norm(to) > 0)) return;
+  const sw_vec u = carry_past(old, comes ? NULL : h, first->s1, last->s2, start, from, to);
+  const sw_vec v = carry_past(&w->mesh, comes ? h : NULL, first->s1, last->s2, start, from, to);
+  last->twist -= atan2(sw_dot(sw_cross(u, v), to), sw_dot(u, v));
+}
+
 /* --- a scene that is built ------------------------------------------------------------ */
 
 /* Returns the director of a span's end, a clamp or a joint, at the last places. */

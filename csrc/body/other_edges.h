@@ -9,6 +9,10 @@
  * Changes its twist between holds and joints so that these keep their turns. */
 void sw_scene_correct_twist(sw_scene *scene, size_t wire, const sw_mesh *old);
 
+/* The same when a hold has come between two others (it is not in the list yet), or has let go. */
+void sw_scene_correct_hold(const sw_scene *scene, const sw_hold *hold, const sw_mesh *old,
+                           int comes);
+
 /* The ends of a wire's spans, with its mesh. */
 typedef struct sw_span_ends {
   sw_mesh mesh; /* arc lengths and places only */

@@ -11,6 +11,7 @@
 #include "body/build.h"
 #include "body/hold.h"
 #include "body/join.h"
+#include "body/other_edges.h"
 #include "edit/edit.h"
 #include "edit/links.h"
 #include "link/joint.h"
@@ -78,6 +79,23 @@ static sw_status check_axis(const sw_scene_wire *w, const sw_link_class *cls, co
                  what, w->name);
 }
 
+/* Keeps the mesh of a twisted wire, on which a hold of its direction comes or goes. SW_ENOMEM. */
+static sw_status keep_mesh(const sw_scene *s, const sw_hold *h, sw_mesh *out) {
+  const sw_scene_wire *w = sw_scene_wire_in(s, h->wire);
+  if (!w->twisted_count || !h->cls->hold->direction) return SW_OK;
+  return sw_mesh_copy(&w->mesh, out);
+}
+
+/* Takes the places of a hold that comes; other holds keep their turn. SW_ENOMEM. */
+static sw_status take_new_places(sw_scene *s, sw_hold *h, const sw_hold_args *a) {
+  sw_mesh before = {0};
+  SW_TRY(keep_mesh(s, h, &before));
+  const sw_status status = take_places(s, h, a, !a->formed);
+  if (status == SW_OK && before.n) sw_scene_correct_hold(s, h, &before, 1);
+  sw_mesh_free(&before);
+  return status;
+}
+
 sw_status sw_scene_add_hold(sw_scene *s, const sw_link_class *cls, sw_handle wire,
                             const sw_hold_args *given, sw_handle *out, sw_error *err) {
   sw_hold_args own = *given;
@@ -100,7 +118,7 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_link_class *cls, sw_handle wir
   h.args = *args, h.scale = sw_scene_wire_in(s, wire.slot)->mesh.scale;
   sw_scene_give_name(h.name, args->name, cls->name, sw_scene_hold_slots(s));
   take_directions(&sw_scene_wire_in(s, wire.slot)->mesh, &h, args);
-  sw_status status = take_places(s, &h, args, !args->formed);
+  sw_status status = take_new_places(s, &h, args);
   if (status == SW_OK && acts->begin) {
     const sw_link_wire of = sw_scene_link_wire(s, wire.slot);
     status = acts->begin(&h, &of);
@@ -231,6 +249,19 @@ sw_status sw_scene_retake_hold(sw_scene *s, sw_hold *h) {
   return become(s, h, &new, h->turn);
 }
 
+/* Lets the wire go: it keeps its bends, and the other holds their turn. SW_ENOMEM. */
+static sw_status let_go(sw_scene *s, sw_hold *h) {
+  const sw_body_class *body = sw_body_class_of(sw_scene_wire_in(s, h->wire));
+  sw_mesh before = {0};
+  h->alive = 0; /* its own places may move */
+  if (!body->let_go) return SW_OK;
+  SW_TRY(keep_mesh(s, h, &before));
+  const sw_status status = body->let_go(s, h);
+  if (status == SW_OK && before.n) sw_scene_correct_hold(s, h, &before, 0);
+  sw_mesh_free(&before);
+  return status;
+}
+
 sw_status sw_scene_release_hold(sw_scene *s, sw_handle hold, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   SW_FIND(sw_hold, h, sw_scene_find_hold(s, hold, err));
@@ -239,9 +270,7 @@ sw_status sw_scene_release_hold(sw_scene *s, sw_handle hold, sw_error *err) {
   SW_TRY(sw_drive_eval(s, &h->drive, sw_scene_time(s), &now, err));
   SW_TRY(sw_scene_unbuild(s));
   if (h->watch.crashing) sw_scene_let_out(s); /* as a wire that begins inside an obstacle */
-  h->alive = 0;                               /* its own places may move */
-  const sw_body_class *body = sw_body_class_of(sw_scene_wire_in(s, h->wire));
-  if (body->let_go && body->let_go(s, h) != SW_OK)
+  if (let_go(s, h) != SW_OK)
     return h->alive = 1, sw_fail(err, SW_ENOMEM, "%s: out of memory", h->name);
   h->last_pose = now.pose;
   sw_drive_free(&h->drive);

@@ -39,8 +39,7 @@ typedef struct drift {
   int alike;     /* steps alike in a row [-] */
 } drift;
 
-/* Shifts the state by `times` the last step. */
-static void go_on(sw_statics *p, double times) {
+void sw_rest_go_on(sw_statics *p, double times) {
   sw_system *s = sw_scene_system(p->s);
   for (size_t i = 0; i < s->freedoms; i++) p->y[i] = s->x[i] + times * p->way[i];
   sw_system_follow(s, p->y);
@@ -67,7 +66,7 @@ static void hurry(sw_statics *p, drift *d) {
   d->most = fmin(d->most, longest);
   d->before = d->size, d->alike = 0;
   const double left = share < 1 ? share / (1.0 - share) : HUGE_VAL;
-  go_on(p, fmin(left, d->most / fmax(p->report->residual, 1e-300)));
+  sw_rest_go_on(p, fmin(left, d->most / fmax(p->report->residual, 1e-300)));
 }
 
 static const sw_newton CONTINUE = {

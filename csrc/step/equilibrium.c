@@ -106,7 +106,7 @@ static void nudge(sw_statics *p, int number) {
       shift[2] = size * sin(4.7 * u + 1.3 + across);
     }
   }
-  for (size_t i = 0; i < 3 * s->nodes; i++) s->x[i] += p->way[i];
+  sw_rest_go_on(p, 1.0);
 }
 
 /* Loads of held nodes and rails, from the last solve. They are not part of the live state, so they

@@ -70,6 +70,8 @@ sw_status sw_rest_solve(sw_statics *p, double hbar, const sw_newton *newton, sw_
 double sw_rest_shift(const sw_statics *p);
 /* Makes y the state; contact commits it unless trial is 1. Returns the largest shift [m]. */
 double sw_rest_take(sw_statics *p, int trial);
+/* Shifts the state by `times` p->way; its twist and frames go along. */
+void sw_rest_go_on(sw_statics *p, double times);
 /* Continuation until the wires rest. */
 sw_status sw_rest_transient(sw_statics *p, sw_error *err);
 /* Returns the length of the longest wire [m]. */

@@ -60,6 +60,17 @@ describe("a coil that is pulled straight in poses", function()
     end
   end)
 
+  -- Where no equilibrium is stable, poses push wires aside. Their twist stayed as it was meanwhile: 2.643
+  -- turns, right: 2.632 (FLRY-B 0.5), 2.697, right: 2.687 (GXL 1.5).
+  it("keeps them where poses push it out of an unstable place", function()
+    for _, o in ipairs{ { cable = "FLRY-B 0.5", segments = 40, dt = 0.2 },
+      { cable = "GXL 1.5", segments = 50, dt = 0.05 } } do
+      o.turns = 3
+      local left, writhe = pulled(o)
+      t.near(writhe, left, 1e-6, "turns of twist")
+    end
+  end)
+
   -- Frames went along with the iterates of a search, through the wire itself: one or two turns less, with 12
   -- of 24 coils of three turns.
   it("keeps them too if it has material frames", function()
