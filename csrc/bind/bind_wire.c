@@ -275,10 +275,11 @@ static int meth_max_torsion(lua_State *L) {
   const sw_extreme x = read_extremes(L, "wire:max_torsion").torsion;
   if (isfinite(x.value)) return push_extreme(L, x.value, &x);
   sw_scene_asks_other_model(w.scene);
-  return luaL_error(L,
-                    "wire:max_torsion: wire '%s' is a %s without GJ or without sections, so its "
-                    "torsion is not known",
-                    sw_scene_wire_name(w.scene, w.id), sw_scene_wire_model(w.scene, w.id));
+  return luaL_error(
+      L,
+      "wire:max_torsion: wire '%s' is a %s, which bears no twist or has no GJ, so its "
+      "torsion is not known; it is for rods and meshes",
+      sw_scene_wire_name(w.scene, w.id), sw_scene_wire_model(w.scene, w.id));
 }
 
 /* Largest ovalisation of a section while the wire was a mesh [-], where [m], when [s]. */

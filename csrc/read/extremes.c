@@ -161,6 +161,15 @@ static void strain_extreme(const sw_system *s, const sw_body *b, const sw_extrem
   keep_largest(out, strained);
 }
 
+/* Of a string it is not known: it bears no twist (a free rod has none, which is known). */
+static void torsion_extreme(const sw_scene *s, size_t w, sw_extreme *out) {
+  const sw_scene_wire *wire = sw_scene_wire_in(s, w);
+  sw_recipe recipe;
+  wire->cls->recipe(&wire->beam, &recipe);
+  sw_scene_torsion(sw_scene_system(s), &sw_scene_system(s)->bodies[w], out);
+  if (!recipe.twist) out->value = -HUGE_VAL;
+}
+
 /* above: see curvature_extreme [1/m]. */
 static void wire_now(sw_scene *s, size_t w, double *tension, double above, sw_wire_extremes *now) {
   sw_system *system = sw_scene_system(s);
@@ -177,7 +186,7 @@ static void wire_now(sw_scene *s, size_t w, double *tension, double above, sw_wi
   largest_tension(b, sw_system_pull(system, b), &now->tension);
   strain_extreme(system, &system->bodies[w], &strained, &now->strain);
   now->ovalisation = now->folding = (sw_extreme){.value = -HUGE_VAL};
-  sw_scene_torsion(system, b, &now->torsion);
+  torsion_extreme(s, w, &now->torsion);
   now->curvature.time = now->tension.time = now->strain.time = now->torsion.time = sw_scene_time(s);
 }
 

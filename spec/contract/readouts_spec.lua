@@ -131,3 +131,46 @@ describe("bend_energy", function()
     t.share(0.5 * yield ^ 2 / EI * L, wire:bend_energy(), 0.02, "stored")
   end)
 end)
+
+describe("max_torsion", function()
+  -- one end turns by ANGLE: a rod and a mesh have ANGLE / L (a mesh within 0.1 %), a string bears no twist
+  local function turned(model)
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = scene:wire{ name = "w", model = model, EA = 1e4, EI = EI, GJ = GJ, mass_per_length = 0.05,
+      radius = 0.005, from = { 0, 0, 0 }, to = { L, 0, 0 } }
+    scene:clamp(wire, { s = 0 })
+    scene:clamp(wire, { s = L }):follow{ duration = 0.2, func = function(time)
+      return { L, 0, 0 }, { axis = { 1, 0, 0 }, angle = 5 * ANGLE * time }
+    end }
+    return wire, t.fine(scene:run{ duration = 0.2, dt = 0.1, quasistatic = true })
+  end
+
+  for _, model in ipairs{ "rod", "radial" } do
+    it("is the turn per metre of a " .. model, function()
+      local wire, run = turned(model)
+      t.share(ANGLE / L, (wire:max_torsion()), 1e-3, "torsion")
+      assert.equal("FAIL", run:check{ limits = { max_torsion = 0.9 * ANGLE / L } }:row "max_torsion".verdict)
+      assert.equal("PASS", run:check{ limits = { max_torsion = 1.1 * ANGLE / L } }:row "max_torsion".verdict)
+    end)
+  end
+
+  it("is refused for a string, and passes no check", function()
+    local wire, run = turned "string"
+    assert.error_matches(function() wire:max_torsion() end, "'w' is a string, which bears no twist")
+    assert.error_matches(function() wire:max_torsion{ now = true } end, "which bears no twist")
+    local row = run:check{ limits = { max_torsion = 100 } }:row "max_torsion"
+    assert.equal("FAIL", row.verdict)
+    assert.truthy(row.note:find("a string bears no twist", 1, true), row.note)
+    assert.error_matches(function() run:check{}:row "max_torsion" end, "no row") -- nobody asked
+  end)
+
+  it("of a free rod is 0, and of a rod that becomes a string that of its time as a rod", function()
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = scene:wire{ EA = 1e4, EI = EI, GJ = GJ, mass_per_length = 0.05, radius = 0.005,
+      from = { 0, 0, 0 }, to = { L, 0, 0 } }
+    assert.equal(0, (wire:max_torsion{ now = true }))
+    local held = turned "rod"
+    held:remodel{ model = "string" }
+    t.share(ANGLE / L, (held:max_torsion()), 1e-3, "torsion")
+  end)
+end)

@@ -8,6 +8,7 @@
 -- bending to and fro is one cycle of the whole range, and rolling a bent wire counts as bending. Without it
 -- only the tensions of the stored frames count, and no bending, because curvature is stored without its sign.
 -- @module softworld.check.fatigue
+local checks = require "softworld.checks"
 local core = require "softworld.core"
 local counted = require "softworld.output.number".count
 local rainflow = require "softworld.check.rainflow"
@@ -193,7 +194,9 @@ local OVER_BEND = 0.5 -- this share of the largest range of bending [-]
 local function add_torsion(best, entry)
   local wire = entry.object
   if not (wire.beam.GJ and wire.beam.GJ > 0) then return end
-  local torsion = wire:max_torsion()
+  local known, torsion = pcall(wire.max_torsion, wire)
+  if not known and checks.is_interrupt(torsion) then error(torsion, 0) end
+  if not known then return end -- it has been a string, which bears none
   if torsion * wire.radius <= TWISTED or torsion <= OVER_BEND * (best.bend or 0) then return end
   worn.at_least(best, ("torsion of up to %.3g rad/m is not counted"):format(torsion))
 end
