@@ -12,7 +12,8 @@ local told = require "softworld.run.told"
 local replaced = {}
 
 local SAME_TIME = 1e-12 -- relative rounding of times in the core [-]
-local orders = setmetatable({}, { __mode = "k" }) -- hold or obstacle -> its last order
+-- Hold or obstacle -> its last order, of each kind: a feed pays out while its guide follows a motion.
+local orders = { follow = setmetatable({}, { __mode = "k" }), feed = setmetatable({}, { __mode = "k" }) }
 
 -- True if the call at this moment was not made by a reaction or an observer, which replaces on purpose.
 local function counts(scene) return process.current() or not build.data(scene).running end
@@ -38,16 +39,21 @@ local function scene_of(object) return (select(4, core.number(object))) end
 --- Returns the last orders of a scene's holds and obstacles, for replaced.back.
 function replaced.image(scene)
   local kept = {}
-  for object, order in pairs(orders) do
-    if scene_of(object) == scene then kept[object] = order end
+  for name, last in pairs(orders) do
+    kept[name] = {}
+    for object, order in pairs(last) do
+      if scene_of(object) == scene then kept[name][object] = order end
+    end
   end
   return kept
 end
 
 --- Puts them back, after a return to the moment at which they were the last ones.
 function replaced.back(scene, kept)
-  for object in pairs(replaced.image(scene)) do orders[object] = nil end
-  for object, order in pairs(kept) do orders[object] = order end
+  for name, last in pairs(replaced.image(scene)) do
+    for object in pairs(last) do orders[name][object] = nil end
+    for object, order in pairs(kept[name]) do orders[name][object] = order end
+  end
 end
 
 -- True if a gripper has this hold: then gripper:move has told.
@@ -66,8 +72,8 @@ local function watched(kind, name, always)
   local method = core.class[kind][name]
   -- Keeps the new order in mind and passes the results on.
   local function done(object, scene, begun, seconds, ...)
-    local data, last, now = build.data(scene), orders[object], scene.time
-    orders[object] = begun and { from = now, restores = data.restores,
+    local data, last, now = build.data(scene), orders[name][object], scene.time
+    orders[name][object] = begun and { from = now, restores = data.restores,
       to = type(seconds) == "number" and now + seconds or -math.huge } or nil
     local counted = begun and last and last.restores == data.restores and (always or last.from == now)
     if counted and not is_gripped(scene, object) then
