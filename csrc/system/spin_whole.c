@@ -13,6 +13,8 @@
 /* Stages that converge in fewer iterations throw nothing far [-]. */
 enum { FEW = 4 };
 
+static const double HALF_TURN = 3.14159265358979323846; /* [rad] */
+
 static sw_vec edge_of(const double *x, size_t e) {
   return sw_unit_or(sw_sub(sw_vec_at(x, e + 1), sw_vec_at(x, e)), sw_v(1, 0, 0));
 }
@@ -44,12 +46,13 @@ static double followed_change(const sw_system *s, const sw_body *b, const sw_spa
 }
 
 int sw_spins_are_whole(const sw_system *s, const double *y, int iterations) {
+  if (iterations < FEW) return 1;
   SW_ITEMS(const sw_body, b, s->bodies, s->body_count) {
-    if (!b->spin_block || b->waits || iterations < FEW) continue;
+    if (!b->spin_block || b->waits) continue;
     SW_ITEMS(const sw_span, span, b->plan->spans, b->plan->span_count) {
       if (span->left >= b->plan->clamp_count || span->right >= b->plan->clamp_count) continue;
       const double straight = straight_change(s, b, span, y + 3 * b->first_node);
-      if (fabs(straight - followed_change(s, b, span)) > 3.14159265358979324) return 0;
+      if (fabs(straight - followed_change(s, b, span)) > HALF_TURN) return 0;
     }
   }
   return 1;

@@ -47,40 +47,38 @@ local function pulled(o)
   return hand:moment().x * wire.length / (2 * math.pi * wire.beam.GJ), writhe
 end
 
+-- Each coil keeps its turns. rolls: with material frames.
+local function keep_turns(coils, rolls)
+  for _, o in ipairs(coils) do
+    o.rolls = rolls
+    local left, writhe = pulled(o)
+    t.near(writhe, left, 1e-6, "turns of twist")
+  end
+end
+
 describe("a coil that is pulled straight in poses", function()
   -- Far apart as drawn, its loops were not looked at when a search threw them through each other: -0.18 turns
   -- of 1.82 with GXL 1.5, 0.55 and a kink beyond the cable's strength with FLRY-B 0.5.
   it("does not pass through itself, and keeps its turns", function()
-    for _, o in ipairs{ { cable = "GXL 1.5", segments = 40, dt = 0.1 },
-      { cable = "GXL 1.5", segments = 40, dt = 0.2 }, { cable = "FLRY-B 0.5", segments = 40, dt = 0.1 },
-      { cable = "FLRY-B 0.5", segments = 50, dt = 0.2 } } do
-      o.turns = 2
-      local left, writhe = pulled(o)
-      t.near(writhe, left, 1e-6, "turns of twist")
-    end
+    keep_turns{ { cable = "GXL 1.5", turns = 2, segments = 40, dt = 0.1 },
+      { cable = "GXL 1.5", turns = 2, segments = 40, dt = 0.2 },
+      { cable = "FLRY-B 0.5", turns = 2, segments = 40, dt = 0.1 },
+      { cable = "FLRY-B 0.5", turns = 2, segments = 50, dt = 0.2 } }
   end)
 
   -- Where no equilibrium is stable, poses push wires aside. Their twist stayed as it was meanwhile: 2.643
   -- turns, right: 2.632 (FLRY-B 0.5), 2.697, right: 2.687 (GXL 1.5).
   it("keeps them where poses push it out of an unstable place", function()
-    for _, o in ipairs{ { cable = "FLRY-B 0.5", segments = 40, dt = 0.2 },
-      { cable = "GXL 1.5", segments = 50, dt = 0.05 } } do
-      o.turns = 3
-      local left, writhe = pulled(o)
-      t.near(writhe, left, 1e-6, "turns of twist")
-    end
+    keep_turns{ { cable = "FLRY-B 0.5", turns = 3, segments = 40, dt = 0.2 },
+      { cable = "GXL 1.5", turns = 3, segments = 50, dt = 0.05 } }
   end)
 
   -- Frames went along with the iterates of a search, through the wire itself: one or two turns less, with 12
   -- of 24 coils of three turns.
   it("keeps them too if it has material frames", function()
-    for _, o in ipairs{ { cable = "GXL 1.5", turns = 2, segments = 50, dt = 0.1 },
+    keep_turns({ { cable = "GXL 1.5", turns = 2, segments = 50, dt = 0.1 },
       { cable = "GXL 1.5", turns = 3, segments = 40, dt = 0.2 },
       { cable = "GXL 1.5", turns = 3, segments = 50, dt = 0.2 },
-      { cable = "FLRY-B 0.5", turns = 3, segments = 50, dt = 0.05 } } do
-      o.rolls = true
-      local left, writhe = pulled(o)
-      t.near(writhe, left, 1e-6, "turns of twist")
-    end
+      { cable = "FLRY-B 0.5", turns = 3, segments = 50, dt = 0.05 } }, true)
   end)
 end)
