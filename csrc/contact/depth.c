@@ -15,7 +15,7 @@ static const double LIMP = 500.0;
 
 /* Statics leave less than the usual depth to a touch from this share of the squeezing force on,
  * which is three weights. From a hundred on, a cable that is pushed through a channel with corners
- * was 46 um deep in walls that leave it 0.7 mm, so that it was bent less: its push was 7 to 13 %
+ * was 46 um deep in walls that leave it 0.7 mm, so that it was bent less: its push was 6 to 11 %
  * too small (spec/contact/pushed_channel_spec). Ends do not bend a wire by their depth, and one
  * that sticks slipped 0.5 mm while its touch was stiffened (spec/physics/pushed_tip_spec) [-]. */
 static const double AT_REST = 0.03;

@@ -2,7 +2,7 @@
 -- A feed pushes a cable through a channel with two corners, whose walls leave it 0.7 mm on each side. They
 -- bend it by about a millimetre, so that each micrometre of depth in them counts. Poses have the push of slow
 -- motion. Regression: statics left the usual depth of 50 um to touches with less than a hundred weights (here
--- 80). The cable was bent less, and the push was 6 to 13 % too small at any way between poses and with any
+-- 80). The cable was bent less, and the push was 6 to 11 % too small at any way between poses and with any
 -- edges, without an event.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
