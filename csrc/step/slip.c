@@ -151,15 +151,18 @@ static int correct(sw_scene *s, double h, int first) {
 
 /* Deviations that are reported. JUMPED: deviation of the force that the drive obeys, over the
  * precision of the search. READ: deviation of the force that is read out, over the scale of forces.
- * The two differ in a blow. The first step of a run begins abruptly and does not count [-]. */
-static const double JUMPED = 100.0, READ = 0.01;
+ * The two differ in a blow. The first step of a run begins abruptly and does not count for READ;
+ * LEFT: what it may still have to even out, for a search for rest stops at 1e-5 of the force, and
+ * touches at the limit of friction multiply that: 2.3e-5 were seen round a peg [-]. */
+static const double JUMPED = 100.0, READ = 0.01, LEFT = 1e-4;
 
 /* Returns the deviation of the force after a step of size h if it has to be reported; else 0
  * [N]. */
 static double disobeys(const sw_scene *s, const sw_hold *h, const sw_slip *f, double want,
                        double step) {
   const double drive = h->feed.guide.drive, scale = sw_slip_scale(s, h, want);
-  const double most = JUMPED * allowed(s, h, sw_scene_system(s)->x, want, step);
+  const double left = f->anew ? LEFT * scale : 0.0;
+  const double most = fmax(left, JUMPED * allowed(s, h, sw_scene_system(s)->x, want, step));
   const double read = isfinite(f->push) ? drive - want : fmax(0.0, fabs(drive) - f->limit);
   if (fabs(f->off) > most) return f->off;
   return !f->anew && fabs(read) > fmax(most, READ * scale) ? read : 0.0;
