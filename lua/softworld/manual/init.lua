@@ -9,10 +9,10 @@ local manual = {}
 
 --- Groups of pages: a title and the names of the group's pages.
 manual.groups = {
-  { "How to", { "start", "lay", "grip", "handling", "mixed", "clip", "insert", "tie", "channel", "slider",
-    "feed", "winding", "join", "touches", "particles", "process", "waiting", "observe", "view", "tuning",
-    "study", "search", "fit", "calibration", "cluster", "player", "plotting", "save", "snapshot", "remove",
-    "mistakes" } },
+  { "How to", { "start", "lay", "grip", "pads", "handling", "mixed", "clip", "insert", "tie", "channel",
+    "slider", "feed", "winding", "join", "touches", "particles", "process", "waiting", "observe", "view",
+    "tuning", "study", "search", "fit", "calibration", "cluster", "player", "plotting", "save", "snapshot",
+    "remove", "mistakes" } },
   { "Choose", { "models", "auto", "choosing", "wire_mesh", "sections", "cable", "springback", "damping",
     "integrators", "vibration", "calibrate", "remodel", "units" } },
   { "Trust", { "accuracy", "tolerance", "limits", "limits_holds", "limits_friction", "limits_meshes",
