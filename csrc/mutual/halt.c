@@ -123,6 +123,14 @@ void sw_mutual_along(const sw_mutual *m, const sw_system *s, size_t body, sw_alo
   }
 }
 
+int sw_mutual_drags(const sw_mutual *m) {
+  for (size_t i = 0; i < m->touch_count; i++)
+    if (most_of(m, &m->touches[i]) > 0) return 1;
+  for (size_t i = 0; i < m->still.count; i++)
+    if (most_of(m, &m->still.list[i]) > 0) return 1;
+  return 0;
+}
+
 int sw_mutual_rubs(const sw_mutual *m) {
   for (size_t i = 0; i < m->bodies * m->bodies; i++)
     if (m->rules[i].on && m->rules[i].friction > 0) return 1;

@@ -39,6 +39,8 @@ void sw_mutual_free(sw_mutual *mutual); /* NULL is allowed */
 
 /* 1 if something that touches rubs. */
 int sw_mutual_rubs(const sw_mutual *mutual);
+/* 1 if something touches now and rubs. */
+int sw_mutual_drags(const sw_mutual *mutual);
 
 /* 1: nothing can touch in this step. */
 int sw_mutual_idle(const sw_mutual *mutual);

@@ -118,6 +118,7 @@ double sw_rest_driven(const sw_statics *p) {
 }
 
 static int rubs(const sw_mutual *m) { return m && sw_mutual_rubs(m); }
+static int drags(const sw_mutual *m) { return m && sw_mutual_drags(m); }
 
 /* Returns the longest way of fed wire since the state [m]. */
 static double fed(const sw_statics *p) {
@@ -275,7 +276,7 @@ static sw_status follow_holds(sw_statics *p, sw_error *err) {
   p->fall = FALLEN * sw_rest_longest(p->s) + sw_rest_driven(p);
   const int poses = p->touched != sw_scene_time(p->s);
   p->rubs = rubs(sw_scene_pairs(p->s)) || rubs(sw_scene_grains(p->s));
-  p->fed = p->rubs ? 0.0 : fed(p);
+  p->fed = drags(sw_scene_pairs(p->s)) || drags(sw_scene_grains(p->s)) ? 0.0 : fed(p);
   if (poses && !forgets(p->s) && (sw_rest_driven(p) > 0 || p->fed > 0)) p->most_far = FAR_IN_POSES;
   p->slides = p->most_far > 0 && !has_meshes(p->s);
   SW_TRY(count_parts(p, 0.0, fmax(edge, LONG_PART * sw_rest_longest(p->s)), &fewer, err));
