@@ -17,6 +17,7 @@ local released = require "softworld.check.released"
 local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
 local stages = require "softworld.run.stages"
+local unjudged = require "softworld.check.unjudged"
 local unread = require "softworld.unread"
 local wanted = require "softworld.check.wanted"
 local writing = require "softworld.check.writing"
@@ -246,44 +247,6 @@ local function judge_own(self, one)
   add_note(row, "limit is missing: give max or min")
 end
 
--- Adds an open row for each limit that applies to nothing in the scene.
-local function judge_unused(self, list)
-  for _, member in ipairs(registry.list) do
-    if list[member.name] and not self.made[member.name] then
-      local row = start_row(self, member.name, nil, member.label, member.unit, {})
-      row.verdict, row.note = "OPEN", "nothing in this run has this value; limits = { " .. member.name
-        .. " = false } leaves it out"
-    end
-  end
-end
-
--- Adds an open row for each wire that has changed since the run, instead of its values.
-local function judge_changed(self, context)
-  for _, entry in ipairs(context.wires) do
-    if entry.changed then
-      local row = start_row(self, "changed", entry.name, "changed after the run", "-", {})
-      row.verdict, row.note = "OPEN", entry.changed .. "; check the run before"
-    end
-  end
-end
-
--- Adds an open row for a run without a step: it shows the start only.
-local function judge_nothing(self)
-  if self.time > self.start then return end
-  local row = start_row(self, "run", nil, "the run", "-", {})
-  row.verdict, row.note = "OPEN", "its duration is 0 s: nothing was computed"
-end
-
--- Adds an open row for each wire that was removed during the run.
-local function judge_gone(self)
-  for _, g in ipairs(build.data(self.scene).gone or {}) do
-    if g.kind == "wire" and g.time > self.start then
-      local row = start_row(self, "removed", g.label, "removed during the run", "-", { time = g.time })
-      row.verdict, row.note = "OPEN", "its values were lost with it; check the run before you remove it"
-    end
-  end
-end
-
 -- --- the whole -------------------------------------------------------------------------------------
 
 local function refuse(self, why)
@@ -357,16 +320,7 @@ local function make(run, args, several)
       if not entry.changed then judge_one(self, member, entry, context, list) end
     end
   end
-  judge_unused(self, list)
-  judge_changed(self, context)
-  judge_nothing(self)
-  judge_gone(self)
-  if #context.wires == 0 and #own_list == 0 then
-    local row = start_row(self, "wires", nil, "there is no wire", "-", {})
-    local left = #(build.data(self.scene).gone or {}) > 0 and " any more" or ""
-    row.verdict, row.note = "OPEN",
-      ("nothing of the scene can be judged: it has no wire%s; give checks of your own"):format(left)
-  end
+  unjudged.add(self, context, list, #own_list == 0, function(...) return start_row(self, ...) end)
   for _, one in ipairs(own_list) do
     judge_own(self, one)
     check_there(run)

@@ -119,7 +119,10 @@ local function begin(scene, args)
   total.settings = now
   observe.begin(scene, args, total.start)
   total.drawn = document.wires(scene)
-  if not going then released.begin(data, total.start) end -- else the file has what was released
+  if not going then -- else the file has what was released, and when it settled
+    released.begin(data, total.start)
+    data.settled = nil
+  end
   return data, total
 end
 
@@ -178,7 +181,7 @@ function go.once(scene, args, level, hindrance)
   total.reason, total.scene, total.name = reason, scene, scene.name
   ledger.close(total)
   if not total.ok and not level then total.reason = advice.added(total.reason, args, scene) end
-  total.restores, total.cut = data.restores, cut
+  total.restores, total.cut, total.settled = data.restores, cut, data.settled
   data.runs = (data.runs or 0) + 1
   total.number, total.present, total.holding = data.runs, present(data), holding.now(scene)
   return total

@@ -7,6 +7,7 @@ local build = require "softworld.scene.build"
 local fixing = require "softworld.link.fixing"
 local ledger = require "softworld.run.ledger"
 local number = require "softworld.output.number"
+local sealed = require "softworld.sealed"
 local window = require "softworld.run.window"
 
 local summary = {}
@@ -78,6 +79,8 @@ function summary.of(self)
     rows[#rows + 1] = { label = label, value = value, unit = unit, where = where, when = t }
   end
   sum_up_grippers(self, data, add)
+  local settled = sealed.fields(self).settled
+  if settled then add("scene:settle: peaks of wires are of the time after", settled, "s") end
   sum_up_wires(self, data, add)
   if #data.obstacles > 0 then
     local depth, s, t = self.scene:penetration()

@@ -23,6 +23,7 @@ local function settle(scene, args, wanted, level)
   unread.used(data)
   kept.begin(scene)
   data.runs = (data.runs or 0) + 1 -- peaks start again, as in a run
+  if data.running and scene.time > data.began then data.settled = scene.time end -- the run has lost peaks
   local line <close> = working.settles(wanted, scene, level)
   local result = build.call(3, core_settle, scene, args, line.show)
   if wanted then
