@@ -1,14 +1,15 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Landing error: the largest distance of the wire's centre line from a wanted path, at the end of the run.
 -- Path and wire are polylines; the distance is measured at the wire's nodes and at the ends of its part that
--- must lie there. A path may go on beyond the wire; the row says how far.
+-- must lie there. A path may go on beyond the wire; the row says how far. A detour of the path that the wire
+-- leaves out makes a range.
 -- @module softworld.check.landing
+local detour = require "softworld.check.detour"
 local number = require "softworld.output.number"
 local terms = require "softworld.check.terms"
 local vec = require "softworld.vec"
 
 local SLACK = 1e-9 -- rounding of arc lengths [m]
-local SAMPLES = 100 -- points of each piece of a path at which it is compared with the wire [-]
 local MOST_OFF = 0.5 -- share of the path's length that may lie beyond the wire [-]
 
 -- Returns the distance of a point from the piece between a and b.
@@ -63,32 +64,30 @@ local function farthest(points, line)
   return most, which
 end
 
--- Returns which share of a path's length is farther than `far` from a line, by samples.
-local function share_beyond(path, line, far)
-  local whole, off = 0, 0
-  for i = 2, #path do
-    local way = vec.sub(path[i], path[i - 1])
-    local long, count = vec.norm(way), 0
-    for k = 1, SAMPLES do
-      local p = vec.add(path[i - 1], vec.scale(way, (k - 0.5) / SAMPLES))
-      if from_path(p, line) > far then count = count + 1 end
-    end
-    whole, off = whole + long, off + long * count / SAMPLES
-  end
-  return whole > 0 and off / whole or 0
-end
-
 -- Returns a note if the wire as a whole does not reach all of the path; and a doubt if it reaches less than
 -- half of it: a path in mm passes close to the wire, too.
-local function uncovered(wanted, points, far, radius)
+local function uncovered(wanted, beyond, corner, points, reach)
   if wanted.from or wanted.to then return nil end
-  local beyond, corner = farthest(wanted.path, points)
-  if beyond <= far + radius then return nil end
   local note = ("point %d of the path is %s from the wire, which is not counted"):format(corner,
     number.text(beyond, "m"))
-  local share = share_beyond(wanted.path, points, far + radius)
+  local share = detour.share_beyond(points, wanted.path, reach)
   return note, share > MOST_OFF and ("%.3g %% of the path's length is not counted; is its unit right (m)?")
     :format(100 * share) or nil
+end
+
+-- Says which part of the path the wire does not reach. A part between others that the wire reaches is a
+-- detour which the wire leaves out: the error is then known between the value and the detour's distance.
+local function add_rest(best, wanted, points, radius)
+  local beyond, corner = farthest(wanted.path, points)
+  local reach = best.value + radius
+  if beyond <= reach or #wanted.path < 2 then return best end
+  best.note, best.doubt = uncovered(wanted, beyond, corner, points, reach)
+  local off, gap = detour.distance(points, wanted.path, radius)
+  if off > reach + gap then
+    best.low, best.high = best.value, off
+    best.note = ("the wire leaves out a detour of the path, %s aside"):format(number.text(off, "m"))
+  end
+  return best
 end
 
 local function value(entry, context)
@@ -108,8 +107,7 @@ local function value(entry, context)
   end
   local points, places = part_of(x, math.min(from, long - SLACK), wanted.to or math.huge)
   local far, which = farthest(points, wanted.path)
-  local note, doubt = uncovered(wanted, points, far, wire.radius)
-  return { value = far, s = places[which], time = context.run.time, note = note, doubt = doubt }
+  return add_rest({ value = far, s = places[which], time = context.run.time }, wanted, points, wire.radius)
 end
 
 return { name = "landing_error", unit = "m", side = "max", places = true, on = "wire", asked = true,
