@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- landing_error of wires that leave out a part of the wanted path. Each place of the wire is on the path then.
+-- landing_error of wires that leave out a part of the wanted path. Each place of the wire is then on it.
 local sw = require "softworld"
 
 local R = 0.1 -- of circles [m]
