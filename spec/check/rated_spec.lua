@@ -94,6 +94,28 @@ describe("a gripper's rating", function()
     assert.has_error(function() lift({ force = 20 }, pads):check{}:row "hand.opening" end)
   end)
 
+  -- Jaws of 30 mm begin to close with the first step, at 0.2 m/s: at its end, 20 ms later, they are 26 mm
+  -- wide. The pads were made 30 mm wide. A later run begins with what they are then.
+  it("counts the opening with which the pads were made, in steps of any size", function()
+    for _, options in ipairs{ { dt = 0.02 }, { dt = 0.002 }, { dt = 0.1, quasistatic = true } } do
+      local scene = sw.scene{ gravity = { 0, 0, 0 } }
+      local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.12, 0, 0 },
+        segments = 24 }
+      scene:clamp(wire, { s = 0 })
+      scene:force{ kind = "damping", mass = 20, stiffness = 0.003, on = wire }
+      local hand = scene:gripper{ name = "hand", at = { 0.06, 0, 0 }, rating = { stroke = 0.029 },
+        pads = { width = 0.02, friction = 0.4, opening = 0.03 } }
+      scene:process(function()
+        hand:grasp(wire, { s = 0.06, approach = "plates", force = 2, speed = 0.2 })
+      end)
+      local row = scene:run(options):check{}:row "hand.opening"
+      assert.same({ 0.03, "FAIL" }, { row.value, row.verdict })
+      options.duration = 0.1
+      row = scene:run(options):check{}:row "hand.opening"
+      assert.is_true(row.value < 2 * wire.radius + 1e-9)
+    end
+  end)
+
   it("is kept by files, scripts and descriptions", function()
     local run, hand = lift{ force = 20, moment = false, source = "sheet" }
     local folder = program.folder()
