@@ -41,7 +41,7 @@ rules.ROOMS = {
   read = { "base", "state", "force", "system", "modal", "touch", "contact", "mutual", "link", "record",
     "strand", "scene", "body", "grip" },
   -- recording and reporting of every accepted state
-  watch = { "base", "shape", "state", "system", "modal", "contact", "link", "record", "strand", "scene",
+  watch = { "base", "shape", "state", "system", "modal", "contact", "mutual", "link", "record", "strand", "scene",
     "body", "grip", "edit", "read" },
   -- the scene as a whole: its life, snapshots, files
   save = { "base", "motion", "shape", "state", "wire", "force", "system", "integrate", "contact", "mutual",
@@ -64,7 +64,8 @@ rules.ROOMS = {
 -- state and solve have no single header, because their parts have different users.
 rules.OPEN = { base = true, bind = true,
   contact = { "behind.h", "contact.h", "halt.h", "jolt.h", "resample.h" },
-  mutual = { "crowd.h", "halt.h", "jolt.h", "mutual.h", "relief.h", "resample.h" },
+  mutual = { "crowd.h", "halt.h", "jolt.h", "mutual.h", "relief.h", "resample.h",
+    "through.h" },
   touch = true,
   film = { "film.h", "pack.h", "skin.h" }, view = { "server.h" },
   read = { "frames.h" },

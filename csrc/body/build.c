@@ -17,6 +17,7 @@
 #include "body/touching.h"
 #include "body/twist.h"
 #include "link/hold.h"
+#include "mutual/through.h"
 #include "scene/drive.h"
 #include "scene/forces.h"
 #include "scene/gripper.h"
@@ -292,6 +293,11 @@ sw_status sw_scene_build(sw_scene *s, sw_error *err) {
     if (status != SW_OK) {
       drop(s);
       return status;
+    }
+    status = sw_through_begin(&s->through, &s->system, s->pairs, s->time);
+    if (status != SW_OK) {
+      drop(s);
+      return sw_fail(err, status, "scene '%s': %s", s->name, sw_status_text(status));
     }
     sw_system_held_from_velocity(&s->system);
     sw_scene_inherit_twist(s);

@@ -26,7 +26,8 @@ static void blank_scene(sw_scene *s) {
   s->frames.list = NULL, s->events.list = NULL, s->watches.list = NULL;
   s->frames.memory = 0;
   memset(&s->why, 0, sizeof s->why);
-  s->contact = NULL, s->pairs = NULL, s->grains = NULL, s->crowd = NULL, s->hold_loads = NULL;
+  s->contact = NULL, s->pairs = NULL, s->grains = NULL, s->crowd = NULL, s->through = NULL;
+  s->hold_loads = NULL;
   sw_books *b = &s->books; /* these fields are computed again */
   memset(&b->now, 0, sizeof b->now);
   memset(&b->powers, 0, sizeof b->powers);

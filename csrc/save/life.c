@@ -11,6 +11,7 @@
 #include "body/touching.h"
 #include "edit/edit.h"
 #include "grip/jaws.h"
+#include "mutual/through.h"
 #include "read/kept_frames.h"
 #include "save/save.h"
 #include "scene/forces.h"
@@ -56,6 +57,7 @@ void sw_scene_free(sw_scene *s) {
   sw_mutual_free(s->pairs);
   sw_mutual_free(s->grains);
   sw_crowd_free(s->crowd);
+  sw_through_free(s->through);
   sw_scene_drop_rules(s, 0);
   sw_free(s->rules.list);
   sw_system_free(&s->system);

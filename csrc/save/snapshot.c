@@ -6,6 +6,7 @@
 #include "body/build.h"
 #include "body/hold.h"
 #include "link/joint.h"
+#include "mutual/through.h"
 #include "read/kept_frames.h"
 #include "record/wear.h"
 #include "save/life.h"
@@ -157,6 +158,7 @@ static sw_status put_back(sw_scene *s, const sw_snapshot *p, sw_error *err) {
   if (status == SW_OK) status = sw_live_put(s, &live, err);
   s->restoring = NULL;
   s->course.next = next;
+  if (status == SW_OK) status = sw_through_begin(&s->through, &s->system, s->pairs, s->time);
   return status;
 }
 

@@ -36,6 +36,7 @@ sw_contact *sw_scene_contact(const sw_scene *s) { return s->contact; }
 sw_mutual *sw_scene_pairs(const sw_scene *s) { return s->pairs; }
 sw_mutual *sw_scene_grains(const sw_scene *s) { return s->grains; }
 sw_crowd *sw_scene_crowd(const sw_scene *s) { return s->crowd; }
+sw_through *sw_scene_through(const sw_scene *s) { return s->through; }
 int sw_scene_is_built(const sw_scene *s) { return s->built && !s->waiting; }
 int sw_scene_is_placed(const sw_scene *s) { return s->built; }
 int sw_scene_wears(const sw_scene *s) { return s->wears; }

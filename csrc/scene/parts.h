@@ -31,6 +31,7 @@ typedef struct sw_system sw_system;
 typedef struct sw_contact sw_contact;
 typedef struct sw_mutual sw_mutual;
 typedef struct sw_crowd sw_crowd;
+typedef struct sw_through sw_through;
 typedef struct sw_hold_load sw_hold_load;
 typedef struct sw_log sw_log;
 
@@ -77,6 +78,7 @@ sw_contact *sw_scene_contact(const sw_scene *scene);
 sw_mutual *sw_scene_pairs(const sw_scene *scene);
 sw_mutual *sw_scene_grains(const sw_scene *scene);
 sw_crowd *sw_scene_crowd(const sw_scene *scene);
+sw_through *sw_scene_through(const sw_scene *scene); /* passes of lines; NULL before it is built */
 int sw_scene_is_built(const sw_scene *scene); /* 1: the system is valid and holds the state */
 /* The same, but forces may be missing in it: nodes are where they are. */
 int sw_scene_is_placed(const sw_scene *scene);

@@ -54,6 +54,7 @@ struct sw_scene {
   sw_mutual *pairs;         /* between wires, or NULL */
   sw_mutual *grains;        /* between objects of particles and their neighbours, or NULL */
   sw_crowd *crowd;          /* between particles that repel each other, or NULL */
+  sw_through *through;      /* passes of lines that have no contact, or NULL */
   sw_rules rules;
   sw_kept_contact kept;
   sw_histories histories;

@@ -155,6 +155,7 @@ sw_status sw_scene_observe(sw_scene *s, sw_error *err) {
   watch_bends(s);
   sw_scene_watch_together(s);
   sw_scene_watch_passed(s);
+  SW_TRY(sw_scene_watch_through(s, err));
   if (sw_scene_has_contact(s)) SW_TRY(observe_contact(s, err));
   return sw_tool_observe(s, err);
 }
