@@ -10,14 +10,16 @@
 #include "base/alloc.h"
 #include "base/each.h"
 #include "base/halving.h"
+#include "base/simd.h"
 #include "mutual/cells.h"
 #include "mutual/crossing.h"
 #include "mutual/pair.h"
 #include "system/join.h"
 
-/* The list's spare is this share of the longest edge, so that it has few neighbours along a
- * straight line, or this multiple of the nodes' way in the step, whichever is more [-]. */
-static const double SPARE = 0.8, SPARE_WAYS = 4.0;
+/* The list's spare is this multiple of the longest edge: a longer list lasts longer, but has more
+ * neighbours along a straight line. Or this multiple of the nodes' way in the step, if that is more
+ * [-]. */
+static const double SPARE = 2.0, SPARE_WAYS = 4.0;
 /* Axes that have crossed are clear beyond this share of the sum of radii [-]. */
 static const double CLEAR = 0.5;
 /* Segments on each side in which a crossing is searched after a step; most crossings that are
@@ -47,8 +49,8 @@ struct sw_through {
   double time;  /* of the state [s] */
   size_t steps; /* followed so far */
   size_t nodes, bodies;
-  double *x0; /* (nodes x 3) the state [m] */
-  box *boxes; /* (bodies) of the state */
+  double *x0;         /* (nodes x 3) the state [m] */
+  box *boxes, *swept; /* (bodies) of the state, and of the way to it; not of a lone line */
   size_t x0_capacity, box_capacity;
   listed *list;
   size_t count, capacity;
@@ -81,12 +83,13 @@ static int any_watched(const sw_system *s, const sw_mutual *contact) {
 /* --- boxes ------------------------------------------------------------------------------------ */
 
 static sw_vec lower(sw_vec a, sw_vec b) {
-  return sw_v(fmin(a.x, b.x), fmin(a.y, b.y), fmin(a.z, b.z));
+  return sw_v(a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z);
 }
 static sw_vec upper(sw_vec a, sw_vec b) {
-  return sw_v(fmax(a.x, b.x), fmax(a.y, b.y), fmax(a.z, b.z));
+  return sw_v(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z);
 }
 
+SW_HOT
 static box box_of(const sw_body *b, const double *x) {
   sw_vec low = sw_vec_at(x, b->first_node), high = low;
   for (size_t i = 1; i < b->plan->nodes; i++) {
@@ -94,6 +97,19 @@ static box box_of(const sw_body *b, const double *x) {
     low = lower(low, p), high = upper(high, p);
   }
   return (box){low, high};
+}
+
+/* Takes the boxes of the present state, and of the way to it. A lone line needs none. */
+static void take_boxes(sw_through *t, const sw_system *s, int anew) {
+  for (size_t k = 0; t->bodies > 1 && k < t->bodies; k++) {
+    const sw_body *b = &s->bodies[k];
+    if (!is_line(b) || (b->waits && !anew)) continue;
+    const box before = t->boxes[k], now = box_of(b, s->x);
+    t->boxes[k] = t->swept[k] = now;
+    if (anew) continue;
+    t->swept[k].low = lower(before.low, now.low);
+    t->swept[k].high = upper(before.high, now.high);
+  }
 }
 
 static int overlap(const box *a, const box *b, double room) {
@@ -109,21 +125,15 @@ static int goes_forward(const sw_body *b, const double *x, sw_vec along) {
   return 1;
 }
 
-/* 1 if lines may have met since the last state. Widens the boxes by the new state. */
+/* 1 if lines may have met since the last state. */
 static int may_meet(sw_through *t, const sw_system *s, const sw_mutual *contact) {
-  for (size_t k = 0; k < t->bodies; k++) {
-    const sw_body *b = &s->bodies[k];
-    if (b->waits || !is_line(b)) continue;
-    const box now = box_of(b, s->x);
-    t->boxes[k].low = lower(t->boxes[k].low, now.low);
-    t->boxes[k].high = upper(t->boxes[k].high, now.high);
-  }
+  take_boxes(t, s, 0);
   for (size_t k = 0; k < t->bodies; k++) {
     const sw_body *b = &s->bodies[k];
     if (!is_line(b)) continue;
     for (size_t m = k + 1; m < t->bodies; m++) {
       const double room = b->plan->beam.radius + s->bodies[m].plan->beam.radius;
-      if ((b->waits && s->bodies[m].waits) || !overlap(&t->boxes[k], &t->boxes[m], room)) continue;
+      if ((b->waits && s->bodies[m].waits) || !overlap(&t->swept[k], &t->swept[m], room)) continue;
       if (is_watched(s, contact, k, m)) return 1;
     }
     if (b->waits || !is_watched(s, contact, k, k)) continue;
@@ -288,7 +298,6 @@ static void take(sw_through *t, const sw_system *s, double time) {
     const size_t first = 3 * b->first_node;
     if (b->waits || !is_line(b)) continue;
     memcpy(t->x0 + first, s->x + first, 3 * b->plan->nodes * sizeof *t->x0);
-    t->boxes[k] = box_of(b, s->x);
   }
   t->time = time;
 }
@@ -362,9 +371,9 @@ sw_status sw_through_begin(sw_through **out, const sw_system *s, const sw_mutual
   t->nodes = s->nodes, t->bodies = s->body_count, t->time = time;
   if (!t->looks) return SW_OK;
   SW_TRY(SW_FILL(t->x0, t->x0_capacity, s->x, 3 * t->nodes));
-  SW_TRY(SW_GROW_EMPTY(t->boxes, t->box_capacity, t->bodies));
-  for (size_t k = 0; k < t->bodies; k++)
-    if (is_line(&s->bodies[k])) t->boxes[k] = box_of(&s->bodies[k], s->x);
+  SW_TRY(SW_GROW_EMPTY(t->boxes, t->box_capacity, 2 * t->bodies));
+  t->swept = t->boxes + t->bodies;
+  take_boxes(t, s, 1);
   return SW_OK;
 }
 

@@ -54,6 +54,8 @@ local kinds = {
     named = true, places = true, always = true, only = "has rolled in the pads" },
   passed = { "a wire slipped over a grip that has no body: real fingers would stop it", own = true,
     places = true, always = true },
+  through = { "wires passed through each other, which contact would prevent: scene:wire_contact{}",
+    own = true, named = true, places = true, always = true },
   undamped = { "damping of solid elements is missing", own = true, always = true },
   pierced = { "something is inside an element of an object, whose faces do not touch", own = true,
     named = true, places = true, always = true },
