@@ -41,8 +41,8 @@ rules.ROOMS = {
   read = { "base", "state", "force", "system", "modal", "touch", "contact", "mutual", "link", "record",
     "strand", "scene", "body", "grip" },
   -- recording and reporting of every accepted state
-  watch = { "base", "shape", "state", "system", "modal", "contact", "mutual", "link", "record", "strand", "scene",
-    "body", "grip", "edit", "read" },
+  watch = { "base", "shape", "state", "system", "modal", "contact", "mutual", "link", "record", "strand",
+    "scene", "body", "grip", "edit", "read" },
   -- the scene as a whole: its life, snapshots, files
   save = { "base", "motion", "shape", "state", "wire", "force", "system", "integrate", "contact", "mutual",
     "link", "record", "strand", "scene", "body", "grip", "edit", "read", "watch" },

@@ -47,6 +47,10 @@ int sw_mutual_takes_part(const sw_mutual *m, size_t body) {
   return 0;
 }
 
+int sw_mutual_keeps_apart(const sw_mutual *m, size_t one, size_t two) {
+  return m->rules[m->bodies * one + two].on;
+}
+
 /* --- two things ------------------------------------------------------------------ */
 
 static int by_number(uint32_t p, uint32_t q) { return p < q ? -1 : p > q; }

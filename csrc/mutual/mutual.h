@@ -42,6 +42,8 @@ int sw_mutual_rubs(const sw_mutual *mutual);
 /* 1 if something touches now and rubs. */
 int sw_mutual_drags(const sw_mutual *mutual);
 
+/* 1 if there is a rule that these bodies touch, or this body touches itself. */
+int sw_mutual_keeps_apart(const sw_mutual *mutual, size_t one, size_t two);
 /* 1: nothing can touch in this step. */
 int sw_mutual_idle(const sw_mutual *mutual);
 

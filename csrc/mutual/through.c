@@ -51,7 +51,8 @@ struct sw_through {
   size_t nodes, bodies;
   double *x0;         /* (nodes x 3) the state [m] */
   box *boxes, *swept; /* (bodies) of the state, and of the way to it; not of a lone line */
-  size_t x0_capacity, box_capacity;
+  double *twist0;     /* (spans) of the state [rad] */
+  size_t x0_capacity, box_capacity, twist_capacity, spans;
   listed *list;
   size_t count, capacity;
   listed *flat; /* of the list before: pairs in a plane, whose side only the list knows */
@@ -70,7 +71,7 @@ static int is_line(const sw_body *b) { return !b->plan->web && b->plan->edges > 
 
 static int is_watched(const sw_system *s, const sw_mutual *contact, size_t a, size_t b) {
   if (!is_line(&s->bodies[a]) || !is_line(&s->bodies[b])) return 0;
-  return !contact || !sw_mutual_rule(contact, (uint32_t[2]){(uint32_t)a, (uint32_t)b})->on;
+  return !contact || !sw_mutual_keeps_apart(contact, a, b);
 }
 
 static int any_watched(const sw_system *s, const sw_mutual *contact) {
@@ -299,6 +300,7 @@ static void take(sw_through *t, const sw_system *s, double time) {
     if (b->waits || !is_line(b)) continue;
     memcpy(t->x0 + first, s->x + first, 3 * b->plan->nodes * sizeof *t->x0);
   }
+  if (t->spans) memcpy(t->twist0, s->twist, t->spans * sizeof *t->twist0);
   t->time = time;
 }
 
@@ -371,12 +373,21 @@ sw_status sw_through_begin(sw_through **out, const sw_system *s, const sw_mutual
   t->nodes = s->nodes, t->bodies = s->body_count, t->time = time;
   if (!t->looks) return SW_OK;
   SW_TRY(SW_FILL(t->x0, t->x0_capacity, s->x, 3 * t->nodes));
+  t->spans = s->span_count;
+  SW_TRY(SW_FILL(t->twist0, t->twist_capacity, s->twist, t->spans));
   SW_TRY(SW_GROW_EMPTY(t->boxes, t->box_capacity, 2 * t->bodies));
   t->swept = t->boxes + t->bodies;
   take_boxes(t, s, 1);
   return SW_OK;
 }
 
+int sw_through_last(const sw_through *t, const sw_system *s, sw_through_state *out) {
+  if (!t || !t->looks || t->nodes != s->nodes || t->spans != s->span_count) return 0;
+  *out = (sw_through_state){t->x0, t->twist0, t->time};
+  return 1;
+}
+
 void sw_through_free(sw_through *t) {
-  if (t) SW_FREE_ALL(t->x0, t->boxes, t->list, t->flat, t->listed_at, t->travel, t->grid, t);
+  if (t)
+    SW_FREE_ALL(t->x0, t->twist0, t->boxes, t->list, t->flat, t->listed_at, t->travel, t->grid, t);
 }

@@ -24,6 +24,13 @@ void sw_through_free(sw_through *through); /* NULL is allowed */
 /* Follows the lines to the system's state. SW_ENOMEM. */
 sw_status sw_through_follow(sw_through *through, const sw_system *system, const sw_mutual *contact,
                             double time);
+/* The state followed last: places of nodes [m] and twist of spans [rad], with the time [s]. 0: the
+ * system has other nodes now. */
+typedef struct sw_through_state {
+  const double *x, *twist;
+  double time;
+} sw_through_state;
+int sw_through_last(const sw_through *through, const sw_system *system, sw_through_state *out);
 /* Takes the next pass that is over. 0: there is none. */
 int sw_through_next(sw_through *through, const sw_system *system, sw_pass *out);
 

@@ -44,10 +44,12 @@ static sw_status pose_steps(sw_ladder *p, double t, sw_error *err) {
                               .unsettled = p->args->unsettled,
                               .falls = &p->falls};
     const int passes = sw_passing_any(s);
+    const size_t jumps = p->report->jumps;
     SW_TRY(sw_scene_pose(s, part, &how, p->report, err));
     if (p->lost) return SW_OK;
     most = passes ? fmax(how.passing, 2 * (sw_scene_time(s) - t0)) : HUGE_VAL;
     sw_scene_course(s)->span = 0;
+    if (p->report->jumps > jumps) SW_TRY(sw_scene_watch_leap(s, err));
     SW_TRY(sw_step_observe(s, err));
     for (size_t w = 0; w < sw_scene_wire_slots(s); w++) sw_scene_watch_sinking(s, w);
     sw_scene_watch_unkept(s);

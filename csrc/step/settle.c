@@ -139,6 +139,7 @@ sw_status sw_scene_settle(sw_scene *s, const sw_settle_args *args, int (*interru
   if (status == SW_OK) status = settle_tight(s, args, interrupted, report, &why);
   sw_scene_reset_extremes(s);
   sw_scene_course(s)->span = 0;
+  if (status == SW_OK && report->jumped) status = sw_scene_watch_leap(s, &why);
   if (status == SW_OK) status = sw_step_observe(s, &why);
   if (status == SW_OK) sw_yield_tell(s);
   if (status == SW_OK) status = sw_scene_watch_sunk(s, &why);

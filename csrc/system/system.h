@@ -187,6 +187,10 @@ void sw_system_held_velocity(const sw_system *system, const sw_held_node *held, 
  * not filled. */
 int sw_system_turns(const sw_system *system, const sw_body *body, const double *x, double *turn);
 
+/* Returns the change of a span's twist on the straight path from the state to positions x (of the
+ * system), with the holds as last placed [rad]. */
+double sw_system_twist_change(const sw_system *system, const sw_body *body, size_t span,
+                              const double *x);
 /* Makes work space for a body whose wire resists twist. SW_ENOMEM. */
 sw_status sw_system_enable_twist(sw_system *system, size_t body);
 

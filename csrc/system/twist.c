@@ -144,6 +144,10 @@ double sw_twist_change(const sw_system *s, const sw_body *b, size_t span, const 
   return span_change(s, b, &b->plan->spans[span], x + 3 * b->first_node);
 }
 
+double sw_system_twist_change(const sw_system *s, const sw_body *b, size_t span, const double *x) {
+  return sw_twist_change(s, b, span, x);
+}
+
 void sw_twist_measure(sw_system *s, sw_body *b) {
   for (size_t k = 0; k < b->plan->span_count; k++) {
     b->field.twist_stiffness[k] = 0;

@@ -46,6 +46,9 @@ void sw_scene_watch_passed(sw_scene *scene);
 /* Reports lines that pass through each other, or through themselves, since no contact keeps them
  * apart. SW_ENOMEM. */
 sw_status sw_scene_watch_through(sw_scene *scene, sw_error *err);
+/* A search for rest made wires jump: reports lines that passed through themselves on its way. Call
+ * before the equilibrium is observed. */
+sw_status sw_scene_watch_leap(sw_scene *scene, sw_error *err);
 /* Reports joints that pass no twist where this may count. Call at the end of a run. */
 void sw_scene_end_joints(sw_scene *scene);
 /* Reports joints that have rolled about a wire that a hold keeps from rolling. judges = 0: only
