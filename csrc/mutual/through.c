@@ -25,6 +25,8 @@ static const double CLEAR = 0.5;
 /* Segments on each side in which a crossing is searched after a step; most crossings that are
  * followed; with more near pairs than this, nothing is watched [-]. */
 enum { WINDOW = 4, MOST_UNDER_WAY = 16, MOST_LISTED = 4000000 };
+/* With more bodies than this the list is cheaper than comparing all boxes [-]. */
+enum { MANY = 512 };
 
 typedef struct listed {
   uint32_t one, two, body[2];
@@ -102,7 +104,7 @@ static box box_of(const sw_body *b, const double *x) {
 
 /* Takes the boxes of the present state, and of the way to it. A lone line needs none. */
 static void take_boxes(sw_through *t, const sw_system *s, int anew) {
-  for (size_t k = 0; t->bodies > 1 && k < t->bodies; k++) {
+  for (size_t k = 0; t->bodies > 1 && t->bodies <= MANY && k < t->bodies; k++) {
     const sw_body *b = &s->bodies[k];
     if (!is_line(b) || (b->waits && !anew)) continue;
     const box before = t->boxes[k], now = box_of(b, s->x);
@@ -128,6 +130,7 @@ static int goes_forward(const sw_body *b, const double *x, sw_vec along) {
 
 /* 1 if lines may have met since the last state. */
 static int may_meet(sw_through *t, const sw_system *s, const sw_mutual *contact) {
+  if (t->bodies > MANY) return 1;
   take_boxes(t, s, 0);
   for (size_t k = 0; k < t->bodies; k++) {
     const sw_body *b = &s->bodies[k];
