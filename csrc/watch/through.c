@@ -4,6 +4,8 @@
 #include "mutual/through.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 #include "scene/events.h"
 #include "scene/parts.h"
@@ -15,10 +17,24 @@ static double place_on(const sw_system *s, const sw_pass *p, int k) {
   return p->s[k] - s->bodies[p->body[k]].plan->s[0];
 }
 
+/* Returns the wire that the event of this pair names: the second one, or the first one if the
+ * second has passed through another wire. Repeats keep one text, so each pair needs its own event.
+ */
+static const char *object_of(const sw_scene *s, const char *one, const char *two) {
+  char quoted[SW_NAME_SIZE + 2];
+  const sw_event *e;
+  snprintf(quoted, sizeof quoted, "'%s'", one);
+  for (size_t k = 0; (e = sw_scene_event(s, k)); k++)
+    if (!strcmp(e->kind, "through") && !strcmp(e->object, two) && !strstr(e->text, quoted))
+      return one;
+  return two;
+}
+
 static void tell(sw_scene *s, const sw_pass *p) {
   const sw_system *system = sw_scene_system(s);
   const char *one = sw_scene_wire_in(s, p->body[0])->name;
   const char *two = sw_scene_wire_in(s, p->body[1])->name;
+  const char *object = object_of(s, one, two);
   const double here = place_on(system, p, 0), there = place_on(system, p, 1);
   if (p->body[0] == p->body[1])
     sw_scene_tell(s, "through", one, here, NAN,
@@ -27,7 +43,7 @@ static void tell(sw_scene *s, const sw_pass *p) {
                   "scene:wire_contact{}",
                   one, here, there);
   else
-    sw_scene_tell(s, "through", two, there, NAN,
+    sw_scene_tell(s, "through", object, object == two ? there : here, NAN,
                   "wires '%s' and '%s' passed through each other at s = %.4g and %.4g m: no "
                   "contact keeps them apart. They touch after scene:wire_contact{}",
                   one, two, here, there);

@@ -70,6 +70,19 @@ describe("wires that meet without contact", function()
     assert.equal(1, #lowered{ edit = edit })
   end)
 
+  it("are told of one by one where a wire passes several at once", function()
+    local function edit(scene)
+      local more = scene:wire{ name = "more", E = 50e6, density = 1500, radius = RADIUS, segments = 40,
+        from = { -0.2, 0.05, 0 }, to = { 0.2, 0.05, 0 } }
+      for _, s in ipairs{ 0, more.length } do scene:clamp(more, { s = s }) end
+    end
+    local told = lowered{ edit = edit }
+    assert.equal(2, #told)
+    for k, name in ipairs{ "'below'", "'more'" } do
+      assert.truthy(told[k].text:find(name, 1, true) or told[3 - k].text:find(name, 1, true))
+    end
+  end)
+
   it("make peaks of both wires OPEN", function()
     local _, run = lowered{}
     local check = run:check{ limits = { max_tension = { max = 1e9, sure = true } } }
