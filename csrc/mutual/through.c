@@ -24,7 +24,7 @@ static const double SPARE = 2.0, SPARE_WAYS = 4.0;
 static const double CLEAR = 0.5;
 /* Segments on each side in which a crossing is searched after a step; most crossings that are
  * followed; with more near pairs than this, nothing is watched [-]. */
-enum { WINDOW = 4, MOST_UNDER_WAY = 16, MOST_LISTED = 4000000 };
+enum { WINDOW = 4, MOST_UNDER_WAY = 16, MOST_LISTED = 1000000 };
 /* With more bodies than this the list is cheaper than comparing all boxes [-]. */
 enum { MANY = 512 };
 
