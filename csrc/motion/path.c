@@ -67,7 +67,8 @@ static void locate(const sw_path *path, const sw_run *run, double s, place *out)
     on_corner(g - 1, g, x, out);
     return;
   }
-  if (k + 1 < run->first + run->count && g->time - x < g[1].blend) {
+  /* without a blend there is no corner, even if rounding puts s behind the leg's end */
+  if (k + 1 < run->first + run->count && g[1].blend > 0 && g->time - x < g[1].blend) {
     on_corner(g, g + 1, s - g[1].s, out);
     return;
   }

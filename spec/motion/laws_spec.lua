@@ -30,6 +30,32 @@ describe("linear", function()
   end)
 end)
 
+-- Legs end where the sum of their times says, rounded. A time just before that end may lie behind the leg's
+-- own end by a rounding; with corners of no width this was a corner of 0/0.
+describe("way-points without a blend", function()
+  it("are passed at any time", function()
+    for _, o in ipairs{ { law = "linear" }, { law = "trapezoidal", blend = 0 },
+      { law = "linear", blend = 0.001 } } do
+      for count = 2, 60 do
+        local points = {}
+        for k = 0, count do
+          points[k + 1] = { 0.25, 0.052 * math.sin(k / count), -0.052 * math.cos(k / count) }
+        end
+        local m = make{ points = points, duration = 1, law = o.law, blend = o.blend,
+          turn = { axis = { 1, 0, 0 }, angle = 1 } }
+        for k = 0, count do
+          for ulp = -3, 3 do
+            local p = m:position(k / count * (1 + ulp * 2 ^ -53))
+            local far = (p[2] ^ 2 + p[3] ^ 2) ^ 0.5
+            assert.is_true(far > 0.04 and far < 0.0521, ("%s, %d legs, at %d: %g"):format(o.law,
+              count, k, far))
+          end
+        end
+      end
+    end
+  end)
+end)
+
 describe("trapezoidal", function()
   it("speeds up, cruises and brakes", function()
     local m = make { points = straight, speed = 0.2, acceleration = 0.1, law = "trapezoidal" }
