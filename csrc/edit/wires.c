@@ -209,6 +209,7 @@ void sw_scene_clear_body(sw_scene_wire *w) {
   sw_free(w->twisted);
   sw_window_free(&w->window);
   sw_wear_free(&w->wear);
+  sw_spun_free(&w->spun);
   sw_zones_forget(&w->zones);
 }
 

@@ -43,6 +43,7 @@ static void blank_wire(sw_scene_wire *w) {
   if (!w->window.marks) memset(&w->window, 0, sizeof w->window);
   w->zones.past = NULL, w->zones.gaps = w->zones.x = NULL;
   w->wear.places = NULL, w->wear.cycles = NULL, w->wear.across = NULL;
+  w->spun.places = NULL, w->spun.across = NULL;
   w->strand.rate = NULL, w->twisted = NULL;
 }
 

@@ -27,7 +27,7 @@ typedef struct head {
 } head;
 
 static const char MAGIC[16] = "SoftWorld scene";
-enum { VERSION = 32, ORDER = 0x01020304 };
+enum { VERSION = 33, ORDER = 0x01020304 };
 
 /* --- writing --------------------------------------------------------------------------- */
 

@@ -8,6 +8,7 @@
 #include "link/joint.h"
 #include "read/frames.h"
 #include "read/kept_frames.h"
+#include "record/spun.h"
 #include "record/wear.h"
 #include "record/zone.h"
 #include "save/save.h"
@@ -77,7 +78,7 @@ static void tape_poke(sw_tape *t, sw_poke *x) {
 }
 
 void sw_tape_wire(sw_tape *t, sw_scene_wire *x, int placed) {
-  SW_TAPE_STRUCT(t, sw_scene_wire, 1408);
+  SW_TAPE_STRUCT(t, sw_scene_wire, 1440);
   SW_TAPE_STRUCT(t, sw_twisted, 24);
   UINT32(generation), SIZE(number), NAME(name);
   SW_TAPE_CLASS(t, x->cls, sw_scene_body_class);
@@ -88,6 +89,7 @@ void sw_tape_wire(sw_tape *t, sw_scene_wire *x, int placed) {
   tape_extremes(t, &x->extremes);
   sw_tape_window(t, &x->window);
   sw_tape_wear(t, &x->wear);
+  sw_tape_spun(t, &x->spun);
   sw_tape_zone_watch(t, &x->zones);
   for (int end = 0; end < 2; end++) tape_poke(t, &x->pokes[end]);
   DOUBLE(blow), DOUBLE(grown), INT(untwisted), INT(remade);

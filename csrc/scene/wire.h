@@ -4,6 +4,7 @@
 #define SW_SCENE_WIRE_H
 
 #include "link/hold.h"
+#include "record/spun.h"
 #include "record/wear.h"
 #include "record/window.h"
 #include "record/zone.h"
@@ -68,6 +69,7 @@ typedef struct sw_scene_wire {
   sw_wire_extremes extremes;
   sw_window window; /* of the tension */
   sw_wear wear;     /* recorded while the scene records wear */
+  sw_spun spun;     /* turns about its axis where it touches obstacles */
   sw_zone_watch zones;
   sw_poke pokes[2]; /* by its start and by its end */
   sw_twisted *twisted;

@@ -28,6 +28,7 @@ static sw_status observe_wire(sw_scene *s, size_t w, sw_error *err) {
   sw_scene_watch_breaking(s, w, &now);
   sw_scene_watch_edges(s, w, &now);
   sw_scene_watch_between(s, w, &now);
+  SW_TRY(sw_scene_watch_spun(s, w, &now, err));
   if (sw_scene_wears(s)) SW_TRY(sw_wear_note(s, w, 1, err));
   SW_TRY(sw_zones_note(s, w, err));
   return sw_watch_wire(s, w, &now, err);

@@ -26,6 +26,10 @@ void sw_scene_watch_kink(sw_scene *scene, size_t wire, const sw_wire_extremes *n
 
 /* Reports a rod whose edges are too long for its sharpest bend. */
 void sw_scene_watch_edges(sw_scene *scene, size_t wire, const sw_wire_extremes *now);
+/* Reports a rod that turns about its axis on obstacles, where friction does not resist.
+ * SW_ENOMEM. */
+sw_status sw_scene_watch_spun(sw_scene *scene, size_t wire, const sw_wire_extremes *now,
+                              sw_error *err);
 /* Reports a rod whose largest tension lies between two holds that are too near for its edges. */
 void sw_scene_watch_between(sw_scene *scene, size_t wire, const sw_wire_extremes *now);
 /* Reports rods whose sharpest bend of the run is a corner of the path they were drawn along. Call

@@ -53,5 +53,7 @@ sw_extreme sw_wear_sidewall(const sw_scene *scene, const sw_wear *wear);
 /* Finds the wire's directions across its edges (edges), carried from its holds [-]. first: the
  * first edge's direction if no hold gives one. */
 void sw_wear_axes(const sw_system *system, const sw_body *body, sw_vec first, sw_vec *across);
+/* Returns a number that tells which holds fix a line's direction, and where. */
+uint64_t sw_wear_holds(const sw_body *body);
 
 #endif

@@ -10,8 +10,7 @@
 #include "state/hinge.h"
 #include "watch/wear.h"
 
-/* Returns a number that tells which holds fix the wire's direction, and where. */
-static uint64_t holds_of(const sw_body *b) {
+uint64_t sw_wear_holds(const sw_body *b) {
   uint64_t sum = sw_sum(SW_SUM_START, &b->plan->clamp_count, sizeof b->plan->clamp_count);
   SW_ITEMS(const sw_clamp_hinge, h, b->plan->clamps, b->plan->clamp_count) {
     const size_t own[3] = {h->node, (size_t)h->hold, (size_t)(h->side + 1)};
@@ -63,7 +62,7 @@ void sw_wear_count_line(const sw_system *s, const sw_body *b, const sw_bent_side
   const sw_vec first =
       start->seen ? sw_carry_unit(start->across, start->tangent, t0) : sw_perpendicular(t0);
   sw_wear_axes(s, b, first, across);
-  const uint64_t holds = holds_of(b);
+  const uint64_t holds = sw_wear_holds(b);
   const int free_start = !p->clamp_count && !b->spin_block; /* directions start at the first edge */
   if (free_start) start->turn = 0;
   for (size_t k = 0; k < wear->count; k++) {

@@ -125,7 +125,7 @@ describe("a file of a scene", function()
       local path, scene = ("spec/scene/old/version_%d.sws"):format(version), small()
       local before = saving.all(scene)
       for _, read in ipairs{ sw.load, function(name) return scene:resume(name) end } do
-        fails({ path, ("version %d of the file format, and this SoftWorld reads version 32"):format(version),
+        fails({ path, ("version %d of the file format, and this SoftWorld reads version 33"):format(version),
           "write it again with the scene's script", "the SoftWorld that wrote it" }, read, path)
       end
       same(before, saving.all(scene))

@@ -50,6 +50,8 @@ local kinds = {
     own = true, named = true, always = true },
   untwisted = { "pads do not twist a rod: its torsion and moments about its axis are missing", own = true,
     named = true, always = true, members = checks.set "max_torsion peak_moment peak_margin" },
+  spun = { "friction does not resist a turn of a rod about its axis: torsion and moments about it may be off",
+    own = true, named = true, always = true, members = checks.set "max_torsion peak_moment peak_margin" },
   ["untwisted rolled"] = { "a wire has rolled in pads, which friction would keep from it", own = true,
     named = true, places = true, always = true, only = "has rolled in the pads" },
   passed = { "a wire slipped over a grip that has no body: real fingers would stop it", own = true,
