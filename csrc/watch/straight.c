@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Finds unstable wires that cannot buckle in the simulation. A perfectly straight wire stays
- * straight under any push along it, and a wire in a plane stays in the plane: nothing bends it to a
- * side, not even rounding. Real wires buckle, and the run reports this. */
+ * straight under any push along it and any torsion, and a wire in a plane stays in the plane:
+ * nothing bends it to a side, not even rounding. Real wires buckle, and the run reports this. */
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 
 #include "body/join.h"
+#include "body/spin.h"
 #include "body/touching.h"
 #include "contact/contact.h"
 #include "modal/modal.h"
@@ -39,13 +41,26 @@ static double rounding_of(const sw_system *system, const sw_body *b) {
   return ROUNDED * DBL_EPSILON * (far + b->plan->length) / edge * beam->EA;
 }
 
-/* Returns the largest push in an edge, and which edge; 0: none [N]. */
-static double largest_push(const sw_system *system, const sw_body *b, size_t *edge) {
-  double push = 0;
+/* Torsion M bends a wire as a push of M^2/(4 EI) does: a long rod is stable if its tension is
+ * larger (Greenhill). */
+typedef struct load {
+  double push;   /* largest in an edge; below 0: all are taut [N] */
+  double moment; /* largest torsion [N m] */
+  double both;   /* push that bends as both do [N] */
+  size_t edge;   /* of the largest push */
+} load;
+
+static load load_of(const sw_system *system, const sw_body *b) {
+  load l = {.push = -HUGE_VAL};
+  sw_extreme torsion = {0};
   for (size_t e = 0; e < b->plan->edges; e++)
-    if (-system->tension[b->first_edge + e] > push)
-      push = -system->tension[b->first_edge + e], *edge = e;
-  return push;
+    if (-system->tension[b->first_edge + e] > l.push)
+      l.push = -system->tension[b->first_edge + e], l.edge = e;
+  if (b->plan->beam.GJ > 0 && b->plan->beam.EI > 0) sw_scene_torsion(system, b, &torsion);
+  l.moment = torsion.value * b->plan->beam.GJ;
+  l.both = l.push;
+  if (l.moment > 0) l.both += l.moment * l.moment / (4 * b->plan->beam.EI);
+  return l;
 }
 
 /* Tangents of a wire in a plane are out of the plane by at most this [-]. Rounding in a rotated
@@ -131,35 +146,44 @@ static int cannot_be_said(sw_status status) {
   return status == SW_EDIVERGED || status == SW_EINVAL || status == SW_ENOCONV;
 }
 
-static void tell(sw_scene *s, size_t w, double push, size_t edge, size_t count, int slips) {
+/* Writes what bends the wire: its push, or its torsion if that does more. Returns the value. */
+static double name_load(const load *l, char *out, size_t size) {
+  const int twisted = l->both > 2 * l->push;
+  const double value = twisted ? l->moment : l->push;
+  snprintf(out, size, twisted ? "torsion of %.3g N m" : "push of %.3g N", value);
+  return value;
+}
+
+static void tell(sw_scene *s, size_t w, const load *l, size_t count, int slips) {
   const sw_body *b = &sw_scene_system(s)->bodies[w];
   const char *name = sw_scene_wire_in(s, w)->name;
-  const double at = b->plan->s[edge] - b->plan->s[0];
+  const double at = b->plan->s[l->edge] - b->plan->s[0];
+  char text[48];
+  const double value = name_load(l, text, sizeof text);
   if (slips)
     sw_scene_tell(
-        s, "buckling", name, at, push,
-        "wire '%s' stays in a plane under a push of %.3g N, held in it by friction only: a "
+        s, "buckling", name, at, value,
+        "wire '%s' stays in a plane under a %s, held in it by friction only: a "
         "real wire may slide off to a side; draw it bent out of the plane by a thousandth "
         "of its length",
-        name, push);
+        name, text);
   else if (!count)
-    sw_scene_tell(s, "buckling", name, at, push,
-                  "wire '%s' stays in a plane under a push of %.3g N, but is unstable across it: a "
+    sw_scene_tell(s, "buckling", name, at, value,
+                  "wire '%s' stays in a plane under a %s, but is unstable across it: a "
                   "real wire would fall to a side; draw it bent out of the plane by a thousandth "
                   "of its length, or add a small force across it",
-                  name, push);
+                  name, text);
   else
-    sw_scene_tell(s, "buckling", name, at, push,
-                  "wire '%s' stays straight under a push of %.3g N, but is unstable in %zu "
+    sw_scene_tell(s, "buckling", name, at, value,
+                  "wire '%s' stays straight under a %s, but is unstable in %zu "
                   "direction%s: a real wire would buckle; draw it bent by a thousandth of its "
                   "length, or add a small force across it",
-                  name, push, count, count == 1 ? "" : "s");
+                  name, text, count, count == 1 ? "" : "s");
 }
 
 /* Checks a wire of the linearised system. normal: of the plane in which the wire lies; zero: it is
  * straight. slips: its touches slide, unless friction holds a real wire's bend. */
-static sw_status look_at(sw_scene *s, size_t w, double push, size_t edge, sw_vec normal,
-                         int slips) {
+static sw_status look_at(sw_scene *s, size_t w, const load *l, sw_vec normal, int slips) {
   sw_system *system = sw_scene_system(s);
   const double rate = SLOWEST * sqrt(gravity_of(s) / system->bodies[w].plan->length);
   const sw_across of = {normal, rate * rate, slips, fmin(LIKELY, system->bodies[w].arched.growth)};
@@ -172,20 +196,21 @@ static sw_status look_at(sw_scene *s, size_t w, double push, size_t edge, sw_vec
   if (cannot_be_said(status)) return SW_OK;
   if (status != SW_OK || count == 0) return status;
   system->bodies[w].pushed = HUGE_VAL;
-  tell(s, w, push, edge, flat ? 0 : count, slips);
+  tell(s, w, l, flat ? 0 : count, slips);
   return SW_OK;
 }
 
-/* 1 if the wire is straight or in a plane, and pushed by enough more than at its last check. */
-static int is_new_push(const sw_scene *s, size_t w, double *push, size_t *edge, sw_vec *normal) {
+/* 1 if the wire is straight or in a plane, and pushed or twisted by enough more than at its last
+ * check. */
+static int is_new_load(const sw_scene *s, size_t w, load *l, sw_vec *normal) {
   sw_system *system = sw_scene_system(s);
   const sw_body *b = &system->bodies[w];
   if (b->plan->web || sw_scene_joined(s, w)) return 0;
-  *push = largest_push(system, b, edge);
-  if (!(*push * b->plan->length * b->plan->length > LEAST_PUSH * b->plan->beam.EI)) return 0;
-  if (!(*push > rounding_of(system, b))) return 0;
+  *l = load_of(system, b);
+  if (!(l->both * b->plan->length * b->plan->length > LEAST_PUSH * b->plan->beam.EI)) return 0;
+  if (!(l->both > rounding_of(system, b))) return 0;
   *normal = sw_v(0, 0, 0);
-  return *push > GROWN * b->pushed &&
+  return l->both > GROWN * b->pushed &&
          (is_straight(system, b) ||
           (is_slow(s, system, b) && sw_scene_lies_in_plane(system, b, 0, normal)));
 }
@@ -222,16 +247,15 @@ static sw_status look_at_all(sw_scene *s, int *linear, sw_error *err) {
   sw_system *system = sw_scene_system(s);
   int can = 1;
   for (size_t w = 0; w < system->body_count; w++) {
-    size_t edge = 0;
-    double push;
+    load l;
     sw_vec normal;
     sw_body *b = &system->bodies[w];
-    if (!is_new_push(s, w, &push, &edge, &normal)) continue;
-    b->pushed = push;
+    if (!is_new_load(s, w, &l, &normal)) continue;
+    b->pushed = l.both;
     for (int how = STICKING; how <= SLIPPING && b->pushed < HUGE_VAL; how++) {
       if (how == SLIPPING && !may_slip(s, b)) continue;
       SW_TRY(make(s, how, linear, &can, err));
-      if (can) SW_TRY(look_at(s, w, push, edge, normal, how == SLIPPING));
+      if (can) SW_TRY(look_at(s, w, &l, normal, how == SLIPPING));
     }
   }
   return SW_OK;

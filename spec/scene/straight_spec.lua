@@ -158,3 +158,40 @@ describe("an arch in a plane", function()
     end)
   end
 end)
+
+-- A straight cable between two clamps, turned to a torsion of `times` EI/L and pulled by o.pull EI/L^2.
+-- Returns the events and the torsion [N m].
+local function twisted(cable, times, o)
+  local scene = sw.scene{ gravity = { 0, 0, 0 } }
+  local length, turn = 0.4, o.turn or 0
+  local along = { math.cos(turn), 0, math.sin(turn) }
+  local far = { length * along[1], 0, length * along[3] }
+  local wire = scene:wire{ name = "wire", cable = cable, from = { 0, 0, 0 }, to = far,
+    segments = o.segments or 60, rolls = o.rolls }
+  local bend, torsion = wire.beam.EI, wire.beam.GJ
+  scene:clamp(wire, { s = 0 })
+  local hand = scene:clamp(wire, { s = length })
+  local stretch = (o.pull or 0) * bend / length ^ 2 / wire.beam.EA
+  hand:follow{ points = { { 0, 0, 0 }, { stretch * far[1] + 1e-12, 0, stretch * far[3] } }, relative = true,
+    turn = { axis = along, angle = times * bend / torsion }, duration = 1 }
+  scene:force{ kind = "damping", mass = 10, stiffness = 1e-3 }
+  t.fine(scene:run{ duration = 1.5, dt = o.dt or 0.01 })
+  return buckling(scene), times * bend / length
+end
+
+describe("a perfectly straight wire that is twisted", function()
+  -- Greenhill: between clamps at rest it buckles at M = 8.987 EI/L. A tension T raises this: a long wire
+  -- buckles at 2 (EI T)^0.5, for T = 100 EI/L^2 at 20 EI/L, and between clamps at 20.98.
+  it("is told of from its critical torsion on", function()
+    for _, o in ipairs{ {}, { rolls = true }, { segments = 41, dt = 0.02, turn = 0.7 }, { pull = 100 } } do
+      for _, cable in ipairs{ "GXL 1.5", "H07V-K 4", "FLRY-B 0.5" } do
+        local critical = o.pull and 20.98 or 8.987
+        assert.equal(0, #(twisted(cable, 0.95 * critical, o)))
+        local told, moment = twisted(cable, 1.15 * critical, o)
+        assert.equal(1, #told)
+        t.share(moment, told[1].value, 1e-3, "torsion")
+        assert.matches("stays .* under a torsion of .* N m, but is unstable", told[1].text)
+      end
+    end
+  end)
+end)
