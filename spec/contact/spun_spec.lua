@@ -103,6 +103,32 @@ describe("a rod that is turned about its axis on an obstacle", function()
     end
   end)
 
+  -- How far the wire has turned is in files: a half of 0.15 rad each adds up to 0.3 rad.
+  it("is told the same after a resume from a file", function()
+    local function half(scene) return t.fine(scene:run{ duration = 1, dt = 0.05, quasistatic = true }) end
+    local function begun()
+      local scene = sw.scene{ name = "groove" }
+      for side, sign in ipairs{ 1, -1 } do
+        scene:obstacle{ name = "side " .. side, shape = "plane", friction = 0.3,
+          rotation = { axis = { 1, 0, 0 }, angle = sign * math.pi / 4 } }
+      end
+      local h = sw.cable("H07V-K 4").outer_diameter.value / 2 * 2 ^ 0.5
+      local wire = scene:wire{ cable = "H07V-K 4", from = { 0, 0, h }, to = { 1, 0, h }, segments = 50 }
+      scene:clamp(wire, { s = 0 }):follow{ points = { { 0, 0, 0 } }, relative = true, duration = 2,
+        turn = { axis = { 1, 0, 0 }, angle = 0.3 } }
+      t.near(0, #told_of(half(scene)), 0, "events of the first half")
+      return scene
+    end
+    local whole, saved, path = begun(), begun(), os.tmpname()
+    saved:save(path)
+    local resumed = sw.load(path)
+    os.remove(path)
+    local one, two = told_of(half(whole)), told_of(half(resumed))
+    t.near(1, #one, 0, "events of the second half")
+    assert.equal(one[1].value, two[1].value)
+    assert.equal(one[1].text, two[1].text)
+  end)
+
   it("is not told without friction, or for small turns", function()
     t.near(0, #told_of((pegged{ cable = "H07V-K 4", friction = 0 })), 0, "without friction")
     t.near(0, #told_of((pegged{ cable = "H07V-K 4", angle = 0.2 })), 0, "0.2 rad")
