@@ -22,5 +22,6 @@ sw_status sw_step_empty(sw_ladder *p, double t1, sw_error *err) {
   p->report->steps++;
   p->report->smallest_dt = fmin(p->report->smallest_dt, h);
   SW_TRY(sw_step_observe(s, err));
-  return sw_ledger_pose(s, t1 - h, 0, 0, 0, err);
+  int jumped = 0;
+  return sw_ledger_pose(s, t1 - h, 0, &jumped, 0, 0, err);
 }

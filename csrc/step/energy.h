@@ -25,10 +25,11 @@ int sw_ledger_referees(const sw_scene *scene);
 double sw_ledger_excess(const sw_scene *scene, double h, double whole);
 /* Books the judged step, which was accepted, committed and observed. SW_ENOMEM. */
 sw_status sw_ledger_close(sw_scene *scene);
-/* Books a pose that was reached from the opened state at t0 [s]. jumped: the equilibrium jumped.
+/* Books a pose that was reached from the opened state at t0 [s]. *jumped: the equilibrium jumped;
+ * it is also set if wires moved far beyond their holds (far) and most of their energy went nowhere.
  * rubbed: lost by friction before the last solve; outer: work of forces without potential [J]. */
-sw_status sw_ledger_pose(sw_scene *scene, double t0, int jumped, double rubbed, double outer,
-                         sw_error *err);
+sw_status sw_ledger_pose(sw_scene *scene, double t0, int far, int *jumped, double rubbed,
+                         double outer, sw_error *err);
 /* Counts a retry of the trial that was judged last. */
 void sw_ledger_retry(const sw_scene *scene, sw_retries *retries, double time, double excess);
 

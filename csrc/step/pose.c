@@ -115,11 +115,12 @@ static sw_status again(sw_scene *s, double t0, double t, int halvings, const sw_
   return pose(s, t, halvings, how, report, err);
 }
 
-static sw_status book(sw_scene *s, double t0, double t1, int jumped, double rubbed,
+static sw_status book(sw_scene *s, double t0, double t1, const sw_settle_report *rest, int passed,
                       const sw_outer_start *outer, sw_run_report *report, sw_error *err) {
   double work;
+  int jumped = rest->jumped || passed;
   SW_TRY(sw_outer_work(s, outer, &work, err));
-  SW_TRY(sw_ledger_pose(s, t0, jumped, rubbed, work, err));
+  SW_TRY(sw_ledger_pose(s, t0, rest->far, &jumped, rest->rubbed, work, err));
   if (!jumped) return SW_OK;
   report->jumps++;
   report->last_jump = t1;
@@ -133,12 +134,12 @@ enum { MOST_ROUNDS = 100 };
 static sw_status rest_again(sw_scene *s, const sw_settle_args *args, int (*interrupted)(void),
                             sw_settle_report *rest, sw_error *err) {
   int more = sw_rest_catch_up(s, 1);
-  const int jumped = rest->jumped;
+  const int jumped = rest->jumped, far = rest->far;
   for (int round = 1; more; round++) {
     SW_TRY(sw_scene_rest(s, sw_scene_time(s), NULL, args, interrupted, rest, err));
     more = sw_rest_catch_up(s, 0) && round < MOST_ROUNDS;
   }
-  rest->jumped |= jumped;
+  rest->jumped |= jumped, rest->far |= far;
   return SW_OK;
 }
 
@@ -162,7 +163,7 @@ static sw_status find_rest(sw_scene *s, double t0, int *too_far, const sw_settle
   status = sw_live_take(s, &before);
   if (status == SW_OK)
     status = sw_scene_rest(s, sw_scene_time(s), NULL, args, interrupted, &tight, &why);
-  rest->iterations += tight.iterations, rest->jumped |= tight.jumped;
+  rest->iterations += tight.iterations, rest->jumped |= tight.jumped, rest->far |= tight.far;
   rest->rubbed += tight.rubbed;
   if (status == SW_ENOCONV) status = sw_live_back(s, &before, &why);
   sw_tape_free(&before);
@@ -208,6 +209,7 @@ static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_ar
   sw_settle_report rest = {0};
   sw_error why;
   const double t0 = sw_scene_time(s);
+  const int still = sw_course_is_still(sw_scene_course(s));
   int (*const interrupted)(void) = how->interrupted;
   int too_far = 0;
   int *const tells = halvings ? &too_far : NULL;
@@ -240,7 +242,8 @@ static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_ar
   if (passed && !shortest)
     return again(s, t0, t0 + fmax(part, how->passing), halvings, how, report, start, err);
   report->smallest_dt = fmin(report->smallest_dt, t1 - t0);
-  return book(s, t0, t1, rest.jumped || passed, rest.rubbed, &start->outer, report, err);
+  rest.far &= still; /* wires that were drawn elsewhere fall first */
+  return book(s, t0, t1, &rest, passed, &start->outer, report, err);
 }
 
 static sw_status pose(sw_scene *s, double t1, int halvings, const sw_pose_args *how,

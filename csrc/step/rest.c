@@ -320,8 +320,9 @@ sw_status sw_scene_rest(sw_scene *s, double since, int *too_far, const sw_settle
   if (status == SW_OK && args->farthest > 0 && shift > args->farthest)
     status = sw_fail(why, SW_ENOCONV, "the next equilibrium is %.3g m away", shift);
   if (status == SW_OK) {
-    report->jumped = p.leapt || (report->transient && shift > SMALLEST_JUMP * sw_rest_longest(s) &&
-                                 shift > JUMP * sw_rest_driven(&p));
+    report->far = shift > SMALLEST_JUMP * sw_rest_longest(s);
+    report->jumped =
+        p.leapt || (report->transient && report->far && shift > JUMP * sw_rest_driven(&p));
   } else if (status != SW_EINTR) {
     sw_rest_take_back(s, p.begun);
   }

@@ -86,6 +86,7 @@ typedef struct sw_settle_report {
   int transient;     /* 1: pseudo-transient continuation was needed */
   int relaxed;       /* 1: stiff modes are at rest, even if slow ones are not */
   double residual;   /* largest node shift of the last iteration [m] */
+  int far;           /* 1: the wires moved far */
   int jumped;        /* 1: the wires moved much further than their holds and obstacles */
   int falls;         /* 1: a wire falls without limit */
   sw_error reason;
