@@ -13,6 +13,11 @@ local vec = require "softworld.vec"
 local mixed = {}
 
 local mesh_words = { "section", "spacing", "particles", "layers", "across", "model" }
+-- Particles round a section in poses, unless the script says else. Pads that close from both sides press on
+-- corners. With eight of them a section that lies on a table then stands on a corner, which is no state of
+-- rest: a pose rolls it towards its side, and the pads hold it askew, like a nut. With ten it lies on a side
+-- between the pads' corners [-].
+local AROUND = { radial = 10, tube = 10 }
 local BESIDE = 6 -- length of the mesh beyond the pads, in radii of the wire, unless region says else [-]
 local LIMIT = 0.9 -- margin (forces and moments together) at which the pads take over again [-]
 local STEADY = 0.005 -- relative change of force, and change of margin, within TIME that counts as none [-]
@@ -57,6 +62,7 @@ function mixed.prepare(self, args)
   end
   how.region = { math.max(0, self.s - half), math.min(wire.length, self.s + half) }
   how.segments = wire.segments
+  if build.data(self.scene).slow then how.particles = how.particles or AROUND[how.model] end
   local _, q = self.tool:pose()
   how.normal = vec.rotate(q, { 0, 1, 0 }) -- the pads close along it: they must not turn sections like a nut
   self.segments = wire.segments
