@@ -175,6 +175,8 @@ static void wire_now(sw_scene *s, size_t w, double *tension, double above, sw_wi
   sw_system *system = sw_scene_system(s);
   if (sw_scene_wire_in(s, w)->strand.web) {
     sw_strand_extremes(s, w, tension, now);
+    now->sharp =
+        now->curvature.value > above ? sw_scene_mesh_sharpness(s, w, now) : (sw_sharpness){0};
     now->curvature.time = now->tension.time = now->strain.time = sw_scene_time(s);
     now->ovalisation.time = now->folding.time = sw_scene_time(s);
     now->torsion.time = sw_scene_time(s);

@@ -37,5 +37,9 @@ double sw_scene_hinge_chord(const sw_field *field, size_t i);
  * from a clamp or joint on (else NULL). At a free end the curvature is zero [1/m]. */
 sw_sharpness sw_scene_sharpness(const sw_scene *scene, const sw_body *body, size_t node,
                                 const sw_bent_side *side, double value);
+/* How sharp a mesh's largest bend is for its slices, if a hold is near; else all is 0. now: bend
+ * and tension. */
+sw_sharpness sw_scene_mesh_sharpness(const sw_scene *scene, size_t wire,
+                                     const sw_wire_extremes *now);
 
 #endif

@@ -4,6 +4,7 @@
 
 #include "body/side.h"
 #include "contact/contact.h"
+#include "link/hold.h"
 #include "read/extremes.h"
 #include "scene/course.h"
 #include "scene/parts.h"
@@ -26,6 +27,11 @@ static const double TWICE = 2, AROUND_LESS = 0.02;
 /* The hinge of a clamp or a joint has this share of an edge: a taut wire's bend within it is too
  * wide, as watch/edges.c tells within 8 %; 0.1 and 0.05 were measured for other loads [-]. */
 static const double CLAMPED = 5.0 / 12, JOINED = 0.5, TAUT = 1.1, LOADED = 0.1, SAGGING = 0.05;
+/* A mesh's bends are those of its slices. Up to NEAR radii from a hold the section is held in shape
+ * and the bend has not its full size: radii of tubes, radial and cubic meshes of three cables were
+ * up to 1.21 times too wide, besides the way to the hold; AT_HOLD leaves some room. With slices of
+ * half the default length elements were up to 0.11 sharper than a beam [-]. */
+static const double NEAR = 2, AT_HOLD = 0.25, AT_HOLD_LESS = 0.12;
 
 /* Returns the curvature at node i along the axis about which the wire bends there. Beyond the
  * wire's ends and at nodes without a hinge it is that of a clamp or joint there, along `along`, or
@@ -153,5 +159,20 @@ sw_sharpness sw_scene_sharpness(const sw_scene *s, const sw_body *b, size_t node
   between_holds(c, out.uneven, &out);
   const double round = sw_contact_round_beside(sw_scene_contact(s), system, b->first_node + node);
   if (round > 0) out.round = 1 / ((round + b->plan->beam.radius) * value), on_round(&out);
+  return out;
+}
+
+/* The bend of a beam under a tension T grows as exp(x sqrt(T/EI)) on a way x to its hold. */
+sw_sharpness sw_scene_mesh_sharpness(const sw_scene *s, size_t wire, const sw_wire_extremes *now) {
+  const sw_beam *beam = &sw_scene_system(s)->bodies[wire].plan->beam;
+  sw_sharpness out = {0};
+  double way = HUGE_VAL;
+  SW_EACH(hold, h, s) {
+    if (!h->alive || h->wire != wire) continue;
+    way = fmin(way, fmax(0.0, fmax(h->s1 - now->curvature.s, now->curvature.s - h->s2)));
+  }
+  if (!(way < NEAR * beam->radius) || !(beam->EI > 0)) return out;
+  const double grows = exp(way * sqrt(fmax(0.0, now->tension.value) / beam->EI));
+  out.uneven = AT_HOLD, out.more = grows * (1 + AT_HOLD) - 1, out.less = AT_HOLD_LESS;
   return out;
 }

@@ -38,7 +38,8 @@ rows.calls{
   { "wire:bend_sharpness", "{ now = }",
     "how coarse the edges are for that bend, as shares of its curvature: its change from node to node; the "
       .. "part of this by acceleration; how much more, and how much less, a wire at rest may be bent between "
-      .. "nodes; the curvature of the round obstacle that presses there, or 0; of a mesh all 0: not known",
+      .. "nodes; the curvature of the round obstacle that presses there, or 0; of a mesh all 0 (not known), "
+      .. "but near a hold, where slices bend less than a beam",
     "five numbers [-]" },
   { "wire:max_strain", "{ now = }", "largest of a fibre in the run", "strain, s [m], t [s]" },
   { "wire:max_stress", "{ now = }", "largest of a fibre in the run", "stress [Pa], s [m], t [s]" },

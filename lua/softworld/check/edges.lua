@@ -63,6 +63,10 @@ local function widen_bend(value, entry)
   value.low = math.max(0, math.min(value.low or value.value, axis / more - inside))
   value.high = math.max(value.high or value.value, axis * wider - inside)
   local most = number.text(value.high, "m")
+  if wire.model ~= "rod" and wire.model ~= "string" then
+    return ("between %s and %s: slices of a mesh do not show the bend at a hold; take a rod")
+      :format(number.text(value.low, "m"), most)
+  end
   return ("between %s and %s: edges of %s are coarse for this bend; take more segments, or tolerance")
     :format(number.text(value.low, "m"), most, number.text(wire.length / wire.segments, "m"))
 end
