@@ -371,16 +371,16 @@ sw_status sw_through_begin(sw_through **out, const sw_system *s, const sw_mutual
   if (!*out && !(*out = sw_alloc(1, sizeof **out))) return SW_ENOMEM;
   sw_through *t = *out;
   if (t->bodies != s->body_count || time < t->time) t->under_way = 0;
-  t->looks = any_watched(s, contact);
-  t->is_listed = 0;
+  t->looks = t->is_listed = 0; /* nothing is followed if memory runs out here */
   t->nodes = s->nodes, t->bodies = s->body_count, t->time = time;
-  if (!t->looks) return SW_OK;
+  if (!any_watched(s, contact)) return SW_OK;
   SW_TRY(SW_FILL(t->x0, t->x0_capacity, s->x, 3 * t->nodes));
   t->spans = s->span_count;
   SW_TRY(SW_FILL(t->twist0, t->twist_capacity, s->twist, t->spans));
   SW_TRY(SW_GROW_EMPTY(t->boxes, t->box_capacity, 2 * t->bodies));
   t->swept = t->boxes + t->bodies;
   take_boxes(t, s, 1);
+  t->looks = 1;
   return SW_OK;
 }
 

@@ -64,7 +64,7 @@ static sw_status make_room(sw_spun *x, size_t edges) {
   if (x->count != edges) sw_spun_free(x);
   if (!x->places) x->places = sw_alloc(edges, sizeof *x->places);
   if (!x->across) x->across = sw_alloc(edges, sizeof *x->across);
-  x->count = edges;
+  x->count = x->places ? edges : 0;
   return x->places && x->across ? SW_OK : SW_ENOMEM;
 }
 
