@@ -63,7 +63,7 @@ rules.ROOMS = {
 -- Headers that other rooms may include: <room>/<room>.h, unless listed here (true = all headers).
 -- state and solve have no single header, because their parts have different users.
 rules.OPEN = { base = true, bind = true,
-  contact = { "behind.h", "contact.h", "halt.h", "jolt.h", "resample.h" },
+  contact = { "behind.h", "contact.h", "halt.h", "jolt.h", "resample.h", "trough.h" },
   mutual = { "crowd.h", "halt.h", "jolt.h", "mutual.h", "relief.h", "resample.h",
     "through.h" },
   touch = true,

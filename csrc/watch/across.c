@@ -7,6 +7,7 @@
 #include <math.h>
 
 #include "contact/contact.h"
+#include "contact/trough.h"
 #include "system/axis.h"
 
 /* Bend of a real wire over its length [-]. */
@@ -94,6 +95,42 @@ void sw_scene_bend_of(const sw_scene *s, const sw_body *b, sw_bend *out) {
   if (out->piece.length > 0) out->rate = sw_pushed_rate_of(&b->plan->beam, 0, &out->piece);
 }
 
+/* What draws a piece of a wire back to the floor of a trough. */
+typedef struct trough {
+  double support; /* force over shift, per length [N/m2] */
+  double open;    /* longest part without it [m] */
+} trough;
+
+static trough trough_of(const sw_scene *s, const sw_body *b, const sw_pushed *piece) {
+  const sw_contact *contact = sw_scene_contact(s);
+  const double aside = CROOKED * piece->length, to = sw_axis_arc(b, piece->to);
+  double from = sw_axis_arc(b, piece->from);
+  trough out = {0};
+  size_t first = 0, end = 0;
+  if (contact) touches_of(s, b, piece->from, piece->to, &first, &end);
+  for (size_t k = first; k < end; k++) {
+    const double hollow = sw_contact_trough(contact, sw_scene_system(s), b, k, aside);
+    touch t;
+    if (!(hollow > 0) || !touch_of(s, b, k, &t)) continue;
+    out.support += hollow * t.push.normal_force / piece->length;
+    out.open = fmax(out.open, t.push.place - from), from = fmax(from, t.push.place);
+  }
+  out.open = fmax(out.open, to - from);
+  return out;
+}
+
+/* With a support K per length the smallest push that buckles a long wire is 2 sqrt(EI K): Dawson
+ * and Paslay's in a tube. A part that lies elsewhere buckles as if it were clamped. */
+double sw_bend_rate_in_trough(const sw_scene *s, const sw_body *b, const sw_bend *bend) {
+  const trough at = trough_of(s, b, &bend->piece);
+  const sw_beam *beam = &b->plan->beam;
+  sw_pushed open = bend->piece;
+  if (!(at.support > 0)) return bend->rate;
+  open.length = at.open;
+  const double rate2 = bend->rate * bend->rate - at.support / beam->mass;
+  return fmax(sqrt(fmax(0.0, rate2)), open.length > 0 ? sw_pushed_rate_of(beam, 0, &open) : 0.0);
+}
+
 /* A motion as arrows at the nodes. */
 typedef struct arrows {
   const double *x;
@@ -101,6 +138,13 @@ typedef struct arrows {
 } arrows;
 
 static sw_vec arrow(const arrows *m, size_t node) { return sw_load(m->x + node * m->width); }
+
+/* Motion at a touch, along the obstacle's surface. */
+static sw_vec way_at(const arrows *m, const sw_body *b, const sw_contact_push *p) {
+  const sw_vec from = arrow(m, p->node - b->first_node), to = arrow(m, p->other - b->first_node);
+  const sw_vec way = sw_madd(from, sw_sub(to, from), p->at);
+  return sw_madd(way, p->normal, -sw_dot(way, p->normal));
+}
 
 /* Work of friction over the motion [N/sqrt(kg)]. */
 static double rubbed_by(const sw_scene *s, const sw_body *b, const arrows *m) {
@@ -112,9 +156,27 @@ static double rubbed_by(const sw_scene *s, const sw_body *b, const arrows *m) {
   for (size_t k = first; k < end; k++) {
     sw_contact_push p;
     if (!sw_contact_push_at(contact, sw_scene_system(s), k, &p)) continue;
-    const sw_vec from = arrow(m, p.node - b->first_node), to = arrow(m, p.other - b->first_node);
-    const sw_vec way = sw_madd(from, sw_sub(to, from), p.at);
-    sum += p.friction * p.normal_force * sw_norm(sw_madd(way, p.normal, -sw_dot(way, p.normal)));
+    sum += p.friction * p.normal_force * sw_norm(way_at(m, b, &p));
+  }
+  return sum;
+}
+
+/* Hardly ever computed: for motions of wires in a plane that are pushed harder than before. */
+double sw_scene_drawn_back(const sw_scene *s, size_t w, const sw_modes *modes, size_t k) {
+  const sw_contact *contact = sw_scene_contact(s);
+  const sw_body *b = &sw_scene_system(s)->bodies[w];
+  const arrows m = {modes->shapes + k * modes->unknowns, modes->unknowns / b->plan->nodes};
+  size_t first, end;
+  double sum = 0;
+  if (!contact) return 0;
+  sw_contact_touches_of(contact, b->first_node, b->first_node + b->plan->nodes, &first, &end);
+  for (size_t i = first; i < end; i++) {
+    sw_contact_push p;
+    if (!sw_contact_push_at(contact, sw_scene_system(s), i, &p)) continue;
+    const sw_vec way = way_at(&m, b, &p);
+    const double aside = CROOKED * b->plan->length;
+    const double hollow = sw_contact_trough(contact, sw_scene_system(s), b, i, aside);
+    sum += hollow * p.normal_force * sw_norm2(way);
   }
   return sum;
 }

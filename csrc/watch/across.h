@@ -25,6 +25,10 @@ sw_status sw_scene_unstable_across(const sw_scene *s, size_t w, const sw_across 
 /* 1 if a motion of a wire overcomes the friction of obstacles, see above. */
 int sw_scene_overcomes(const sw_scene *s, size_t w, const sw_modes *modes, size_t k, double growth);
 
+/* By how much the obstacles on which a wire lies slow down a motion where they are hollow, as tubes
+ * are: to be added to its omega2 [1/s2]. */
+double sw_scene_drawn_back(const sw_scene *s, size_t w, const sw_modes *modes, size_t k);
+
 /* How a wire that is pushed would bend to the side, if it were straight where it is pushed. */
 typedef struct sw_bend {
   sw_pushed piece;
@@ -32,6 +36,9 @@ typedef struct sw_bend {
   double friction; /* that holds the piece, per length [N/m] */
 } sw_bend;
 void sw_scene_bend_of(const sw_scene *s, const sw_body *b, sw_bend *out);
+/* The rate of growth where the obstacles on which the wire lies may be hollow, as tubes are: they
+ * draw it back. 0: it does not grow [1/s]. */
+double sw_bend_rate_in_trough(const sw_scene *s, const sw_body *b, const sw_bend *bend);
 /* 1 if the bend of a real wire overcomes friction. growth: its logarithm so far [-]. */
 int sw_bend_grows(const sw_body *b, const sw_bend *bend, double growth);
 

@@ -135,8 +135,10 @@ sw_status sw_scene_unstable_across(const sw_scene *s, size_t w, const sw_across 
   for (size_t k = 0; k < modes.unstable; k++) {
     if (!(share_along(&modes, k, system->bodies[w].plan->nodes, of->normal) > ACROSS)) continue;
     if (of->slips && !sw_scene_overcomes(s, w, &modes, k, of->growth)) continue;
+    const double rate2 = -modes.omega2[k] - sw_scene_drawn_back(s, w, &modes, k);
+    if (!(rate2 > of->slow)) continue;
     *count += 1;
-    *rate = fmax(*rate, sqrt(-modes.omega2[k]));
+    *rate = fmax(*rate, sqrt(rate2));
   }
   sw_modes_free(&modes);
   return SW_OK;

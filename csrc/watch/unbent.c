@@ -98,7 +98,9 @@ void sw_scene_watch_unbent(sw_scene *s, size_t wire, const sw_bend *bend) {
   const int shape = (pushed || u->due > 0) && since > 0 ? shape_of(system, b) : LEFT;
   const int was_straight = u->due > 0 && !u->plane; /* it buckles in a plane */
   if (pushed && (shape == STRAIGHT_ON || (shape == IN_PLANE && !was_straight))) {
-    if (sw_bend_grows(b, bend, u->growth)) u->growth += grown_in(s, bend->rate, since);
+    const double rate = sw_bend_rate_in_trough(s, b, bend);
+    if (!(rate > 0)) return; /* it bears more yet */
+    if (sw_bend_grows(b, bend, u->growth)) u->growth += grown_in(s, rate, since);
     u->plane |= shape == IN_PLANE;
     if (u->growth < GROWTH) return;
     if (!(u->due > 0)) u->due = bend->piece.push;
