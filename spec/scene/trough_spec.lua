@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- A cable on the floor of a tube is drawn back by its weight m g: a shift y to a side meets m g y/c per
--- length, c the play R - r. So it buckles under 2 (EI m g/c)^0.5 (Dawson and Paslay), not under the load of Euler's
--- strut, which is 3 to 30 times smaller here. No event doubts a cable that stays straight below that.
+-- length, c the play R - r. So it buckles under 2 (EI m g/c)^0.5 (Dawson and Paslay), not under the load of
+-- Euler's strut, which is 25 times smaller here. No event doubts a cable that stays straight below that.
 local sw = require "softworld"
 local t = require "physics.tools"
 
