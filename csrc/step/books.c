@@ -94,6 +94,8 @@ sw_status sw_ledger_open(sw_scene *s, sw_error *err) {
   int any;
   if (b->known) return SW_OK;
   sw_energies e;
+  /* looks ahead leave holds where they will be: a clamp that a function turns stored energy */
+  SW_TRY(sw_system_place_holds(system, sw_scene_time(s), NULL, NULL, NULL, err));
   sw_waits_find(system, 0);
   weigh(s);
   sw_system_energies(system, sw_course_lumps(sw_scene_course(s)), NULL, &e);
